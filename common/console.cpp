@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "common/error.hpp"
+#include "common/output_path.hpp"
 #include "common/text.hpp"
 
 namespace tisserand {
@@ -31,6 +32,13 @@ void say(const std::string& raw) {
   if (ok || errno == EPIPE) return;
   const int number = errno;
   throw Error(fmt::format("cannot write: {}", std::strerror(number)), "standard output", remedy_of_errno(number));
+}
+
+void say_of(const std::string& path, const std::string& text) {
+  if (is_stream(path))
+    fmt::print(stderr, "{}", printable(text));
+  else
+    say(text);
 }
 
 void complain(const std::string& program, const std::string& text) {

@@ -15,6 +15,8 @@ void fill_standard_streams();
 
 /// Writes to standard output and flushes, printable(). A reader that has left is no error; a full disk throws Error.
 void say(const std::string& text);
+/// The same about the output `path`: on the error stream where the output itself is a stream.
+void say_of(const std::string& path, const std::string& text);
 /// "mechanism: text" on the error stream, printable().
 void complain(const std::string& program, const std::string& text);
 

@@ -3,6 +3,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -38,26 +40,45 @@ void require_folder(const std::string& path) {
               remedy_of_errno(number));
 }
 
+/// Endings of this project's files, where one stands for a kind.
+constexpr std::array<std::string_view, 9> own_endings{".superelement.h5", ".companion.h5",    ".recovery.h5",
+                                                      ".modal.h5",        ".checkpoint.h5",   ".results.h5",
+                                                      ".certificate.json", ".certificate.html", ".ledger.json"};
+
+std::string ending_of(const std::string& path) {
+  for (const std::string_view own : own_endings)
+    if (path.ends_with(own)) return std::string(own);
+  return fs::path(path).extension().string();
+}
+
 }  // namespace
 
 bool is_stream(const std::string& path) {
+  if (path == "-") return true;
   if (path.starts_with("/dev/") && !path.starts_with("/dev/shm/")) return true;
   std::error_code ignored;
   const fs::file_status status = fs::status(path, ignored);
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
-void require_output(const std::string& path, const std::vector<std::string>& inputs, Replaces replaces) {
+void require_output(const std::string& path, const std::vector<std::string>& endings,
+                    const std::vector<std::string>& inputs) {
   if (path.empty()) throw Error("the name of the output file is empty", "-o", "give the name of a file");
+  const bool is_hdf5 = std::ranges::any_of(endings, [](const std::string& one) { return one.ends_with(".h5"); });
+  if (is_stream(path)) {
+    if (is_hdf5) throw Error("is a device or pipe, not a file", path, "give -o the name of a file");
+    return;
+  }
   std::error_code ignored;
   if (path.ends_with('/') || fs::is_directory(path, ignored))
     throw Error("is a folder, not a file", path, "give -o the name of a file");
-  if (is_stream(path)) throw Error("is a device or pipe, not a file", path, "give -o the name of a file");
   require_folder(path);
   for (const std::string& input : inputs)
     if (fs::equivalent(input, path, ignored))
       throw Error("the output would replace its own input", path, "give -o another name");
-  if (replaces == Replaces::hdf5_only && is_of_another_kind(path))
+  if (std::ranges::find(endings, ending_of(path)) == endings.end())
+    throw Error("does not end in " + join(endings, " or "), path, "give -o a name that does: others are taken for other kinds of files");
+  if (is_hdf5 && is_of_another_kind(path))
     throw Error("exists and is a file of another kind (not HDF5)", path,
                 "give -o another name, or remove that file first");
 }

@@ -6,15 +6,14 @@
 
 namespace tisserand {
 
-/// What an existing file must be, so that it may be replaced.
-enum class Replaces { anything, hdf5_only };
+/// Throws Error if `path` is empty, a folder, in a folder that is missing or not writable, one of the `inputs` of the
+/// same command, or has none of the `endings` (".csv", ".results.h5"). A name like "a.companion.h5" ends like files of
+/// another kind, and not in ".h5". Where files in HDF5 are written: a device, or an existing file of another kind.
+/// Elsewhere "-" and devices are streams.
+void require_output(const std::string& path, const std::vector<std::string>& endings,
+                    const std::vector<std::string>& inputs);
 
-/// Throws Error if `path` is empty, a folder, a device, in a folder that is missing or not writable, one of the
-/// `inputs` of the same command, or (hdf5_only) an existing file of another kind, which was hardly meant to be
-/// replaced.
-void require_output(const std::string& path, const std::vector<std::string>& inputs, Replaces replaces);
-
-/// Whether text written to `path` goes through it rather than into it: /dev/stdout, a device, a pipe.
+/// Whether text written to `path` goes through it rather than into it: -, /dev/stdout, a device, a pipe.
 bool is_stream(const std::string& path);
 
 }  // namespace tisserand

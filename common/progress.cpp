@@ -37,7 +37,9 @@ Progress::Progress(std::string name, double total, ProgressOutput output)
       start_(output_.clock()),
       next_(start_ + first_after) {}
 
-Progress::~Progress() { finish(); }
+Progress::~Progress() {
+  if (shown_ && !finished_ && output_.terminal) std::fputs("\r\x1b[K", output_.stream);
+}
 
 std::string Progress::line(double done, const std::string& text, double elapsed) const {
   const double part = total_ > 0.0 ? std::clamp(done / total_, 0.0, 1.0) : 0.0;

@@ -29,7 +29,8 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void update(double done, const std::string& text);
-  /// Removes the line from a terminal; says the time it took elsewhere, if anything was said before.
+  /// Removes the line from a terminal; says the time it took elsewhere, if anything was said before. What ends without
+  /// it is not done.
   void finish();
 
  private:

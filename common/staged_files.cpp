@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include "common/temporaries.hpp"
 #include "common/text.hpp"
 
 namespace tisserand {
@@ -20,6 +21,7 @@ void StagedFiles::add(const std::string& path, const std::string& contents) {
 void StagedFiles::adopt(const std::string& temporary, const std::string& path) { files_.emplace_back(temporary, path); }
 
 void StagedFiles::publish() {
+  const auto lock = publishing();
   while (!files_.empty()) {
     publish_file(files_.front().first, files_.front().second);
     files_.erase(files_.begin());

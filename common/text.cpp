@@ -17,6 +17,7 @@
 
 #include "common/error.hpp"
 #include "common/output_path.hpp"
+#include "common/temporaries.hpp"
 
 namespace tisserand {
 
@@ -81,7 +82,7 @@ std::string escaped(std::string_view text, bool one_line, std::size_t most) {
 
 /// The descriptor that a name such as /dev/stdout or /dev/fd/5 means, or -1.
 int own_stream(const std::string& path) {
-  if (path == "/dev/stdout") return STDOUT_FILENO;
+  if (path == "-" || path == "/dev/stdout") return STDOUT_FILENO;
   if (path == "/dev/stderr") return STDERR_FILENO;
   constexpr std::string_view folder = "/dev/fd/";
   int number = -1;
@@ -202,7 +203,9 @@ std::string remedy_of_errno(int error_number) {
 
 std::string temporary_beside(const std::string& path) {
   static std::atomic<unsigned> counter{0};
-  return fmt::format("{}.tmp-{}-{}", path, ::getpid(), counter.fetch_add(1));
+  std::string name = fmt::format("{}.tmp-{}-{}", path, ::getpid(), counter.fetch_add(1));
+  note_temporary(name);
+  return name;
 }
 
 TextFile::TextFile(const std::string& path) : path_(path) {
@@ -237,6 +240,7 @@ void TextFile::write(const std::string& text) {
 
 void TextFile::publish() {
   if (::fsync(file_) != 0 && errno != EINVAL && errno != EROFS) fail("cannot write the file", path_, errno);
+  const auto lock = publishing();
   if (!temporary_.empty() && ::rename(temporary_.c_str(), path_.c_str()) != 0)
     fail("cannot move the complete file to its name", path_, errno);
   ::close(file_);
@@ -255,6 +259,7 @@ void publish_file(const std::string& from, const std::string& to) {
   int number = file < 0 ? errno : 0;
   if (file >= 0 && ::fsync(file) != 0) number = errno;
   if (file >= 0) ::close(file);
+  const auto lock = publishing();
   if (number == 0 && ::rename(from.c_str(), to.c_str()) == 0) return;
   if (number == 0) number = errno;
   ::unlink(from.c_str());

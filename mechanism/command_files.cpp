@@ -5,6 +5,8 @@
 #include <variant>
 
 #include "common/error.hpp"
+#include "formats/companion/companion.hpp"
+#include "formats/recovery/recovery.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -32,12 +34,14 @@ std::string default_page(const std::vector<std::string>& results, const char* en
 }
 
 std::vector<std::string> inputs(const formats::Scene& scene) {
-  std::vector<std::string> files{scene.file};
+  std::vector<std::string> files = scene.files;
+  files.push_back(scene.file);
   for (const formats::BodySpec& body : scene.bodies)
     if (const auto* spec = std::get_if<formats::SuperelementBodySpec>(&body))
-      files.push_back(spec->file);
+      files.insert(files.end(),
+                   {spec->file, formats::companion_path(spec->file), formats::recovery_path(spec->file)});
     else if (const auto* modal = std::get_if<formats::ModalBodySpec>(&body))
-      files.push_back(modal->file);
+      files.insert(files.end(), {modal->file, formats::recovery_path(modal->file)});
   return files;
 }
 

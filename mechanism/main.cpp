@@ -94,7 +94,7 @@ mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunReq
   control.progress = [&progress, start](double t) { progress.update(t - start, ""); };
   mechanism::RunEnd end = request.scene.integrator.accuracy ? mechanism::simulate_to_accuracy(request, control)
                                                             : mechanism::simulate(request, control);
-  progress.finish();
+  if (end.report.outcome != mechanism::RunOutcome::interrupted) progress.finish();
   if (told) end.report.preflight = {};
   told = told || !mechanism::preflight_doubts(end.report.preflight, request.scene.units).empty();
   say(fmt::format("{}: {}{}\n{}  {:<16} {}\n", arguments.scene, request.scene.name,
@@ -137,10 +137,10 @@ int run(const RunArguments& arguments) {
     if (restart->checkpoint || arguments.joining == mechanism::Joining::apart) files_read.push_back(restart->path);
   }
   for (const mechanism::PlannedAnalysis& one : planned) {
-    require_output(one.results, files_read, Replaces::hdf5_only);
+    require_output(one.results, {".results.h5", ".h5"}, files_read);
     formats::require_unheld_results(one.results);
     if (mechanism::wants_ledger(one))
-      require_output(mechanism::ledger_file(one.results), files_read, Replaces::anything);
+      require_output(mechanism::ledger_file(one.results), {".ledger.json"}, files_read);
   }
   listen_for_interrupts();
   const mechanism::BodyFiles files = mechanism::read_body_files(scene);
@@ -182,7 +182,7 @@ int ledger(const LedgerArguments& arguments) {
   const std::string told =
       mechanism::perform_ledger(read(arguments.run), arguments.run.analysis, arguments.command, ledger_control(),
                                 [&](double done, const std::string& next) { progress.update(done, next); });
-  progress.finish();
+  if (!interrupt_requested) progress.finish();
   say(told);
   return interrupt_requested ? exit_interrupted : 0;
 }
@@ -320,8 +320,8 @@ void add_picture(CLI::App& app, PictureArguments& arguments) {
   command->callback([&] {
     request.page.shown = complete(arguments.runs);
     if (request.output.empty()) request.output = mechanism::default_page(request.page.shown.files, ".png");
-    require_output(request.output, drawn_files(arguments.runs), Replaces::anything);
-    say(mechanism::picture(request));
+    require_output(request.output, {".png"}, drawn_files(arguments.runs));
+    say_of(request.output, mechanism::picture(request));
   });
 }
 
@@ -386,9 +386,9 @@ int command_line(int argc, char** argv) {
   export_command->add_option("results", export_file, "results file, also of an interrupted run")->required();
   export_command->add_option("--channel,-c", export_channels, "channel, group or pattern; default: all")
       ->allow_extra_args(false);
-  export_command->add_option("-o,--output", export_output, "CSV file, or /dev/stdout")->required();
+  export_command->add_option("-o,--output", export_output, "CSV file; - is standard output")->required();
   export_command->callback([&] {
-    if (!is_stream(export_output)) require_output(export_output, {export_file}, Replaces::anything);
+    require_output(export_output, {".csv"}, {export_file});
     mechanism::export_table(export_file, export_channels, export_output);
   });
 
@@ -420,9 +420,9 @@ int command_line(int argc, char** argv) {
   plot_command->callback([&] {
     if (plot_range.size() == 2) plot_options.x_range = {{plot_range[0], plot_range[1]}};
     if (plot_y_range.size() == 2) plot_options.y_range = {{plot_y_range[0], plot_y_range[1]}};
-    require_output(plot_options.output, drawn_files(plot_arguments), Replaces::anything);
+    require_output(plot_options.output, {".png", ".svg"}, drawn_files(plot_arguments));
     mechanism::plot(mechanism::read_series(complete(plot_arguments)), plot_options);
-    say(fmt::format("picture: {}\n", plot_options.output));
+    say_of(plot_options.output, fmt::format("picture: {}\n", plot_options.output));
   });
 
   SeriesArguments view_arguments;
@@ -438,8 +438,11 @@ int command_line(int argc, char** argv) {
   view_command->callback([&] {
     view_request.shown = complete(view_arguments);
     if (view_request.output.empty()) view_request.output = mechanism::default_page(view_request.shown.files, ".html");
-    if (paraview.empty()) require_output(view_request.output, drawn_files(view_arguments), Replaces::anything);
-    say(paraview.empty() ? mechanism::view(view_request) : mechanism::write_paraview(view_request, paraview));
+    if (paraview.empty()) require_output(view_request.output, {".html"}, drawn_files(view_arguments));
+    if (paraview.empty())
+      say_of(view_request.output, mechanism::view(view_request));
+    else
+      say(mechanism::write_paraview(view_request, paraview));
   });
 
   PictureArguments picture_arguments;

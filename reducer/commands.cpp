@@ -15,6 +15,7 @@
 
 #include "common/console.hpp"
 #include "common/error.hpp"
+#include "common/interrupts.hpp"
 #include "common/output_path.hpp"
 #include "common/staged_files.hpp"
 #include "common/text.hpp"
@@ -144,15 +145,16 @@ int run(const Arguments& arguments, std::optional<SolverSession>& session) {
   phases.begin("read");
   const formats::Part part = part_of(arguments);
   const std::string output = arguments.output.empty() ? beside(arguments.input, ".superelement.h5") : arguments.output;
-  require_output(output, {arguments.input}, Replaces::hdf5_only);
-  if (part.recovery) require_output(formats::recovery_path(output), {arguments.input}, Replaces::hdf5_only);
+  const std::vector<std::string> inputs = inputs_of(part, arguments);
+  require_output(output, {".superelement.h5", ".h5"}, inputs);
+  if (part.recovery) require_output(formats::recovery_path(output), {".recovery.h5"}, inputs);
   const std::string companion = formats::companion_path(output);
   if (part.second_order != formats::SecondOrder::no || !part.load_cases.empty())
-    require_output(companion, {arguments.input, output}, Replaces::hdf5_only);
+    require_output(companion, {".companion.h5"}, inputs);
   const std::string modal_body = beside(output, ".modal.h5");
-  if (part.modal_body) require_output(modal_body, {arguments.input, output}, Replaces::hdf5_only);
+  if (part.modal_body) require_output(modal_body, {".modal.h5"}, inputs);
   if (part.modal_body && part.recovery)
-    require_output(formats::recovery_path(modal_body), {arguments.input, output}, Replaces::hdf5_only);
+    require_output(formats::recovery_path(modal_body), {".recovery.h5"}, inputs);
   phases.begin("start solvers");
   session.emplace();
   std::map<std::string, std::unique_ptr<formats::RecoveryWriter>> recoveries;
@@ -194,7 +196,7 @@ int solve(const Arguments& arguments, std::optional<SolverSession>& session) {
   std::string stem = arguments.output.empty() ? beside(arguments.input, ".solution") : arguments.output;
   if (stem.ends_with(".csv")) stem.resize(stem.size() - std::string_view(".csv").size());
   const std::vector<std::string> files = solution_files(stem, part, arguments.solve_request);
-  for (const std::string& file : files) require_output(file, inputs_of(part, arguments), Replaces::anything);
+  for (const std::string& file : files) require_output(file, {".csv", ".vtu", ".html"}, inputs_of(part, arguments));
   phases.begin("start solvers");
   session.emplace();
   const Solution solution = solve(part, arguments.solve_request, listener_of(phases));
@@ -214,9 +216,9 @@ int show(const Arguments& arguments) {
     say(certificate_text(loaded.superelement, file, model));
     return 0;
   }
-  require_output(arguments.output, {arguments.input, certificate_path(arguments.input)}, Replaces::anything);
+  require_output(arguments.output, {".certificate.html", ".html"}, {arguments.input});
   write_text_file(arguments.output, certificate_page(loaded.superelement, file, model));
-  say(fmt::format("page: {}\n", arguments.output));
+  say_of(arguments.output, fmt::format("page: {}\n", arguments.output));
   return 0;
 }
 
@@ -250,7 +252,7 @@ formats::Part part_or_file(const Arguments& arguments) {
 int mesh(const Arguments& arguments) {
   const formats::Part part = part_of(arguments);
   const std::string output = arguments.output.empty() ? beside(arguments.input, ".msh") : arguments.output;
-  require_output(output, inputs_of(part, arguments), Replaces::anything);
+  require_output(output, {".msh"}, inputs_of(part, arguments));
   const Mesh result = build_mesh(part);
   write_gmsh_file(result, output);
   for (const std::string& warning : result.warnings) say(fmt::format("warning: {}\n", warning));
@@ -284,10 +286,10 @@ std::string page(const Arguments& arguments) {
 
 int view(const Arguments& arguments) {
   const std::string output = arguments.output.empty() ? beside(arguments.input, ".html") : arguments.output;
-  require_output(output, {arguments.input}, Replaces::anything);
+  require_output(output, {".html"}, {arguments.input});
   const std::string text = page(arguments);
   write_text_file(output, text);
-  say(fmt::format("page: {} ({:.2f} MB)\n", output, 1e-6 * static_cast<double>(text.size())));
+  say_of(output, fmt::format("page: {} ({:.2f} MB)\n", output, 1e-6 * static_cast<double>(text.size())));
   return 0;
 }
 
@@ -297,11 +299,10 @@ int groups(const Arguments& arguments) {
     say(survey(part).text);
     return 0;
   }
-  check_faces_output(arguments.output);
-  require_output(arguments.output, inputs_of(part, arguments), Replaces::anything);
+  require_output(arguments.output, {".html", ".png", ".svg"}, inputs_of(part, arguments));
   const Survey surveyed = survey(finely_meshed(part));
   draw_faces(surveyed, arguments.input, arguments.output);
-  say(fmt::format("{}picture: {}\n", surveyed.text, arguments.output));
+  say_of(arguments.output, fmt::format("{}picture: {}\n", surveyed.text, arguments.output));
   return 0;
 }
 
@@ -331,6 +332,7 @@ int follow(const Arguments& arguments) {
 int perform(const Arguments& arguments, char** argv) {
   prepare_environment();
   restart_if_blas_is_slow(argv);
+  end_on_interrupt(is_follower() ? "" : "reducer");
   if (is_follower()) return follow(arguments);
   std::optional<SolverSession> session;
   const auto leave = [](int code) {

@@ -91,6 +91,13 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
   return scene;
 }
 
+/// Values of keys `file` below `node`.
+void add_named_files(const YamlNode& node, const std::filesystem::path& folder, std::vector<std::string>& files) {
+  if (node.key == "file" && node.kind == YamlKind::scalar && !node.text.empty())
+    files.push_back((folder / node.text).lexically_normal().string());
+  for (const YamlNode& child : node.children) add_named_files(child, folder, files);
+}
+
 }  // namespace
 
 void read_groups(const MapReader& map, const Context& entry, std::optional<double> start, Analysis& analysis) {
@@ -227,6 +234,9 @@ Scene read_scene(const std::string& path, const std::vector<Override>& overrides
   Scene scene = read_tree(reader, path, faults);
   for (Fault& fault : find_faults(scene).list) faults.list.push_back(std::move(fault));
   reader.raise(faults);
+  for (const YamlSource& source : document.sources)
+    if (source.kind == YamlSourceKind::file) scene.files.push_back(source.name);
+  add_named_files(document.root, std::filesystem::path(path).parent_path(), scene.files);
   scene.tree = std::make_shared<const YamlNode>(std::move(document.root));
   return scene;
 }

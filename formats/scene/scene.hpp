@@ -245,8 +245,8 @@ struct TyreSpec {
 };
 
 struct Scene {
-  std::string name;
-  std::string file;
+  std::string name, file;
+  std::vector<std::string> files;  ///< that are read for it, itself included, also those that it names
   std::shared_ptr<const YamlNode> tree;  ///< after `include`, instances and overrides; null: made by a program
   Units units = Units::si();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();

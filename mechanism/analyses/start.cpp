@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "mechanism/analyses/assembly.hpp"
+#include "mechanism/analyses/number_doubts.hpp"
 #include "mechanism/equations/carriers.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
@@ -303,6 +305,7 @@ StartReport start(const formats::Scene& scene, StartFrom from, BuiltModel& built
   if (from == StartFrom::poses) report.moved = move_to_values(scene, built, workspace);
   report.mobility = count_mobility(model, state, workspace.now);
   report.preflight = examine(model, workspace.now);
+  std::ranges::move(number_doubts(scene, model, workspace.now), std::back_inserter(report.preflight.doubts));
   require_determined(model, where, state, workspace);
   for (const int row : report.mobility.redundant) state.active()[row] = 0.0;
   report.projection.position = project_initial_positions(model, scene.initial_tolerance, step, where, state, workspace);

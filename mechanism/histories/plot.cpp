@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "common/gnuplot.hpp"
+#include "common/output_path.hpp"
 #include "common/text.hpp"
 
 namespace tisserand::mechanism {
@@ -220,7 +221,7 @@ void check_abscissae(const std::vector<Series>& series) {
 
 std::string terminal_of(const std::string& picture, std::size_t panels) {
   const int height = panels == 1 ? 800 : 200 + 400 * static_cast<int>(panels);
-  if (picture.ends_with(".png"))
+  if (picture.ends_with(".png") || is_stream(picture))
     return fmt::format("set terminal pngcairo size 1400,{} font 'sans,17' linewidth 1.4 background 'white'\n", height);
   if (picture.ends_with(".svg"))
     return fmt::format("set terminal svg size 1400,{} font 'sans,17' linewidth 1.4 background 'white'\n", height);

@@ -130,6 +130,7 @@ void make_parts(const Campaign& campaign, const std::vector<const Cell*>& cells)
       progress.update(static_cast<double>(k + 1), parts[k]->name);
     }
   });
+  if (!is_interrupted(campaign)) progress.finish();
 }
 
 /// Time that a cell will take, from the cell most like it that has run; the axis along which lines go counts double.
@@ -279,6 +280,7 @@ void run_cells(Campaign& campaign, const std::vector<Cell>& cells, const Referen
       }
     }
   });
+  if (!is_over()) progress.finish();
 }
 
 }  // namespace tisserand::mechanism

@@ -8,6 +8,7 @@
 
 #include "common/base64.hpp"
 #include "common/error.hpp"
+#include "common/output_path.hpp"
 #include "common/text.hpp"
 #include "formats/results/results.hpp"
 #include "mechanism/view/browser.hpp"
@@ -98,7 +99,7 @@ Json still_of(const PictureRequest& request, const formats::ResultsReader& run) 
 /// The page beside the picture while it is drawn.
 class PageFile {
  public:
-  PageFile(const std::string& beside, const std::string& text) : path_(temporary_beside(beside) + ".html") {
+  PageFile(const std::string& beside, const std::string& text) : path_(temporary_beside(is_stream(beside) ? "picture" : beside) + ".html") {
     write_text_file(path_, text);
   }
   ~PageFile() {
@@ -137,7 +138,7 @@ const std::vector<std::string>& picture_things() {
 std::string picture(const PictureRequest& request) {
   if (request.page.shown.files.empty())
     throw Error("no results file is given", "picture", "name one or more *.results.h5");
-  if (!request.output.ends_with(".png"))
+  if (!request.output.ends_with(".png") && !is_stream(request.output))
     throw Error("pictures are PNG files", request.output, "end its name with .png");
   const Json still = still_of(request, formats::ResultsReader(request.page.shown.files[0]));
   ViewRequest shown = request.page;

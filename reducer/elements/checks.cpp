@@ -10,6 +10,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "formats/sections/substance.hpp"
 #include "formats/yaml/line_check.hpp"
 #include "reducer/elements/element_matrices.hpp"
 
@@ -122,68 +123,13 @@ void warn_far_spiders(const Mesh& mesh, const Units& units, std::vector<std::str
                   names[0], farthest, unit, size, unit, others));
 }
 
-/// In units of the part; both per length, per area or per volume.
-struct Substance {
-  std::string what;
-  double modulus = 0.0;
-  double density = 0.0;
-};
-
-struct NamedUnit {
-  const char* name;
-  double factor;  ///< to SI
-};
-constexpr std::array densities{NamedUnit{"kg/m^3", 1.0}, NamedUnit{"t/mm^3", 1e12}, NamedUnit{"g/cm^3", 1e3},
-                               NamedUnit{"kg/mm^3", 1e9}, NamedUnit{"lb/in^3", 27679.905}};
-constexpr std::array moduli{NamedUnit{"Pa", 1.0}, NamedUnit{"MPa", 1e6}, NamedUnit{"GPa", 1e9},
-                            NamedUnit{"psi", 6894.757}};
-
-/// "t/mm^3 (here 7.85e-09)": the unit in which a number lies in the range of common structural materials, and what it
-/// is in units of `own`; empty if there is none or if it is that of the part.
-std::string likely_unit(double value, double own, const auto& units, double least, double most) {
-  for (const NamedUnit& unit : units)
-    if (value * unit.factor >= least && value * unit.factor <= most)
-      return std::abs(unit.factor - own) < 1e-6 * own
-                 ? std::string()
-                 : fmt::format("{} (in units of the part {:.4g})", unit.name, value * unit.factor / own);
-  return "";
-}
-
-void doubt(const Substance& s, const Units& units, std::vector<std::string>& warnings) {
-  if (!(s.density > 0.0)) return;
-  const double length = units.length.factor, mass = units.mass.factor, time = units.time.factor;
-  const double per_volume = mass / (length * length * length), pressure = mass / (length * time * time);
-  const double density = s.density * per_volume, speed = std::sqrt(s.modulus / s.density) * length / time;
-  const bool heavy = density < 10.0 || density > 30000.0, fast = s.modulus > 0.0 && (speed < 100.0 || speed > 20000.0);
-  if (!heavy && !fast) return;
-  std::string text = fmt::format("{}: ", s.what);
-  if (heavy)
-    text += fmt::format("a density of {:.4g} {}/{}^3 is {:.3g} kg/m^3; usual are 10 to 30 000", s.density,
-                        units.mass.label, units.length.label, density);
-  if (heavy && fast) text += "; ";
-  if (fast)
-    text += fmt::format(
-        "a modulus of {:.4g} and a density of {:.4g} in units {}, {}, {} mean a speed of sound of {:.3g} m/s; usual "
-        "are "
-        "100 to 20 000 m/s",
-        s.modulus, s.density, units.length.label, units.mass.label, units.time.label, speed);
-  std::vector<std::string> hints;
-  const std::string other_density = likely_unit(s.density, per_volume, densities, 100.0, 23000.0);
-  const std::string other_modulus = likely_unit(s.modulus, pressure, moduli, 1e9, 1.3e12);
-  if (!other_density.empty()) hints.push_back("the density looks like " + other_density);
-  if (!other_modulus.empty()) hints.push_back("the modulus looks like " + other_modulus);
-  text += hints.empty() ? ". Do length, mass, time and the material belong together (for example mm, t, s, MPa)?"
-                        : ": " + join(hints, ", ");
-  if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);
-}
-
 /// Those of the elements that no material with a name accounts for.
-std::vector<Substance> substances(const Mesh& mesh, const std::vector<formats::Material>& materials) {
-  std::vector<Substance> all;
+std::vector<formats::Substance> substances(const Mesh& mesh, const std::vector<formats::Material>& materials) {
+  std::vector<formats::Substance> all;
   for (const formats::Material& m : materials)
     all.push_back({fmt::format("material '{}'", m.name), m.youngs_modulus, m.density});
   const auto named = all.size();
-  const auto add = [&](const Substance& s) {
+  const auto add = [&](const formats::Substance& s) {
     for (std::size_t k = 0; k < named; ++k)
       if (std::abs(all[k].density - s.density) <= 1e-9 * s.density) return;
     all.push_back(s);
@@ -241,7 +187,10 @@ std::vector<std::string> plausibility_warnings(const Mesh& mesh, const Units& un
                                      m.name, m.poisson_ratio));
   for (const std::string& doubt : stiff_spring_doubts(mesh)) warnings.push_back(doubt);
   if (!units.named()) return warnings;
-  for (const Substance& s : substances(mesh, materials)) doubt(s, units, warnings);
+  for (const formats::Substance& s : substances(mesh, materials)) {
+    std::string text = formats::substance_doubt(s, units, "the part");
+    if (!text.empty() && std::ranges::find(warnings, text) == warnings.end()) warnings.push_back(std::move(text));
+  }
   const double size = 2.0 * characteristic_length(mesh) * units.length.factor;
   if (size > 200.0 || size < 1e-5)
     warnings.push_back(fmt::format("the part is about {:.3g} {} large, that is {:.3g} m: is {} the unit of its nodes?",

@@ -100,7 +100,7 @@ Outcome convert(const ExportRequest& request, const formats::Superelement& eleme
 void export_matrices(const ExportRequest& request) {
   const formats::LoadedSuperelement loaded = formats::read_superelement(request.input);
   const Outcome outcome = convert(request, loaded.superelement);
-  for (const OutputFile& file : outcome.files) require_output(file.path, {request.input}, Replaces::anything);
+  for (const OutputFile& file : outcome.files) require_output(file.path, {".pch", ".bdf", ".mtx", ".fmx", ".fem", ".csv"}, {request.input});
   std::list<TextFile> open;
   for (const OutputFile& file : outcome.files) open.emplace_back(file.path).write(file.bytes);
   for (TextFile& file : open) file.publish();

@@ -154,7 +154,7 @@ std::string import_text(const ImportCertificate& c) {
 void import_matrices(const ImportRequest& request) {
   const std::string base = stem(request.input);
   const std::string output = request.output.empty() ? base + ".superelement.h5" : request.output;
-  require_output(output, {request.input, request.mass, request.rows, request.positions}, Replaces::hdf5_only);
+  require_output(output, {".superelement.h5", ".h5"}, {request.input, request.mass, request.rows, request.positions});
   ImportOptions options;
   options.units = units_of(request.units);
   options.node_names = names_of(request.names);

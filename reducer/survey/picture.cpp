@@ -12,6 +12,7 @@
 
 #include "common/error.hpp"
 #include "common/gnuplot.hpp"
+#include "common/output_path.hpp"
 #include "common/text.hpp"
 #include "reducer/survey/labels.hpp"
 #include "reducer/survey/page.hpp"
@@ -175,6 +176,7 @@ void draw_picture(const Survey& survey, const std::vector<FacePiece>& pieces, co
 }  // namespace
 
 void check_faces_output(const std::string& output) {
+  if (is_stream(output)) return;
   for (const char* ending : {".html", ".png", ".svg"})
     if (output.ends_with(ending)) return;
   throw Error("the picture of the faces is no .html, .png or .svg file", output,

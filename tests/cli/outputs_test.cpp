@@ -198,6 +198,43 @@ TEST_F(Outputs, NamesOfPicturesAreNoCommands) {
   EXPECT_FALSE(std::filesystem::exists(file("EXECUTED")));
 }
 
+// A companion and a table of the run, a scene and a part were replaced.
+TEST_F(Outputs, ReplaceNoInputsAndNoFilesOfOtherKinds) {
+  make_results();
+  std::filesystem::copy(file("arm.results.h5"), file("driven.h5"));
+  std::filesystem::copy(file("se.superelement.h5"), file("se.companion.h5"));
+  write_text(file("driven.scene.yaml"),
+             std::string(arm_scene) + "inputs: {u: {file: driven.h5, time: /time, value: /energy/kinetic}}\n");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> refused{
+      {{"run", "driven.scene.yaml", "-o", "driven.h5"}, "the output would replace its own input"},
+      {{"run", "arm.scene.yaml", "-o", "se.companion.h5"}, "the output would replace its own input"},
+      {{"run", "arm.scene.yaml", "-o", "other.companion.h5"}, "does not end in .results.h5 or .h5"},
+      {{"run", "arm.scene.yaml", "-o", "-"}, "is a device or pipe"},
+      {{"export", "arm.results.h5", "-c", "energy", "-o", "arm.scene.yaml"}, "does not end in .csv"},
+      {{"view", "arm.results.h5", "-o", "arm.scene.yaml"}, "does not end in .html"},
+      {{"plot", "arm.results.h5", "-c", "energy/kinetic", "-o", "arm.results.h5"}, "its own input"},
+      {{"picture", "arm.results.h5", "-o", "se.superelement.h5"}, "does not end in .png"}};
+  for (const auto& [words, why] : refused) {
+    const std::string path = file(words.back());
+    const bool existed = std::filesystem::exists(path);
+    const std::string before = existed ? read_text(path) : "";
+    expect_error(mechanism(words), {words.back(), why});
+    EXPECT_EQ(std::filesystem::exists(path), existed);
+    EXPECT_EQ(existed ? read_text(path) : "", before);
+  }
+}
+
+TEST_F(Outputs, HyphenIsStandardOutput) {
+  make_results();
+  const std::string table = mechanism({"export", "arm.results.h5", "-c", "energy", "-o", "-"}).out;
+  EXPECT_EQ(table, mechanism({"export", "arm.results.h5", "-c", "energy", "-o", "/dev/stdout"}).out);
+  EXPECT_THAT(table, HasSubstr("energy/kinetic"));
+  const Outcome page = mechanism({"view", "arm.results.h5", "-o", "-"});
+  EXPECT_THAT(page.out, AllOf(::testing::StartsWith("<!"), Not(HasSubstr("page: -"))));
+  EXPECT_THAT(page.error, HasSubstr("page: -"));
+  EXPECT_FALSE(std::filesystem::exists(file("-")));
+}
+
 TEST_F(Outputs, RunTellsTheDoubtsOfCheckOnce) {
   const std::string told = "2 groups that nothing connects: ";  // nothing holds the superelement
   EXPECT_THAT(mechanism({"check", "arm.scene.yaml"}).out, HasSubstr(told));

@@ -60,5 +60,15 @@ TEST(Progress, WritesALineEveryTenSecondsElsewhere) {
   EXPECT_EQ(recorder.text(), "modes: 1 s gone\nmodes: 11 s gone\nmodes: 21 s gone\nmodes: done in 25 s\n");
 }
 
+TEST(Progress, DoesNotSayDoneOfWhatIsCutShort) {
+  Recorder recorder;
+  {
+    Progress progress("running", 10.0, recorder.output(false));
+    recorder.now += 2.0;
+    progress.update(1.0, "");
+  }
+  EXPECT_EQ(recorder.text(), "running: 10 %, 2 s gone, 18 s to go\n");
+}
+
 }  // namespace
 }  // namespace tisserand::progress_test

@@ -1,0 +1,41 @@
+// One list for the process; names of complete files stay in it and no longer exist.
+#include "common/temporaries.hpp"
+
+#include <unistd.h>
+
+#include <vector>
+
+namespace tisserand {
+namespace {
+
+struct Temporaries {
+  std::recursive_mutex mutex;
+  std::vector<std::string> names;
+  bool published = false;
+};
+
+Temporaries& temporaries() {
+  static auto* const all = new Temporaries;  // outlives the threads that ask for it
+  return *all;
+}
+
+}  // namespace
+
+void note_temporary(const std::string& name) {
+  const std::lock_guard lock(temporaries().mutex);
+  temporaries().names.push_back(name);
+}
+
+std::unique_lock<std::recursive_mutex> publishing() {
+  std::unique_lock lock(temporaries().mutex);
+  temporaries().published = true;
+  return lock;
+}
+
+bool remove_temporaries() {
+  temporaries().mutex.lock();  // for good
+  for (const std::string& name : temporaries().names) ::unlink(name.c_str());
+  return temporaries().published;
+}
+
+}  // namespace tisserand

@@ -1,0 +1,64 @@
+// Ranges of common structural materials, and the units in which a number would lie in them.
+#include "formats/sections/substance.hpp"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "common/text.hpp"
+
+namespace tisserand::formats {
+namespace {
+
+struct NamedUnit {
+  const char* name;
+  double factor;  ///< to SI
+};
+constexpr std::array densities{NamedUnit{"kg/m^3", 1.0}, NamedUnit{"t/mm^3", 1e12}, NamedUnit{"g/cm^3", 1e3},
+                               NamedUnit{"kg/mm^3", 1e9}, NamedUnit{"lb/in^3", 27679.905}};
+constexpr std::array moduli{NamedUnit{"Pa", 1.0}, NamedUnit{"MPa", 1e6}, NamedUnit{"GPa", 1e9},
+                            NamedUnit{"psi", 6894.757}};
+
+/// "t/mm^3 (here 7.85e-09)": the unit in which a number lies in the range of common structural materials, and what it
+/// is in units of `own`; empty if there is none or if it is that of `own`.
+std::string likely_unit(double value, double own, const auto& units, double least, double most,
+                        const std::string& owner) {
+  for (const NamedUnit& unit : units)
+    if (value * unit.factor >= least && value * unit.factor <= most)
+      return std::abs(unit.factor - own) < 1e-6 * own
+                 ? std::string()
+                 : fmt::format("{} (in units of {} {:.4g})", unit.name, owner, value * unit.factor / own);
+  return "";
+}
+
+}  // namespace
+
+std::string substance_doubt(const Substance& s, const Units& units, const std::string& owner) {
+  if (!units.named() || !(s.density > 0.0)) return {};
+  const double length = units.length.factor, mass = units.mass.factor, time = units.time.factor;
+  const double per_volume = mass / (length * length * length), pressure = mass / (length * time * time);
+  const double density = s.density * per_volume, speed = std::sqrt(s.modulus / s.density) * length / time;
+  const bool heavy = density < 10.0 || density > 30000.0, fast = s.modulus > 0.0 && (speed < 100.0 || speed > 20000.0);
+  if (!heavy && !fast) return {};
+  std::string text = fmt::format("{}: ", s.what);
+  if (heavy)
+    text += fmt::format("a density of {:.4g} {}/{}^3 is {:.3g} kg/m^3; usual are 10 to 30 000", s.density,
+                        units.mass.label, units.length.label, density);
+  if (heavy && fast) text += "; ";
+  if (fast)
+    text += fmt::format(
+        "a modulus of {:.4g} and a density of {:.4g} in units {}, {}, {} mean a speed of sound of {:.3g} m/s; usual "
+        "are 100 to 20 000 m/s",
+        s.modulus, s.density, units.length.label, units.mass.label, units.time.label, speed);
+  std::vector<std::string> hints;
+  const std::string other_density = likely_unit(s.density, per_volume, densities, 100.0, 23000.0, owner);
+  const std::string other_modulus = likely_unit(s.modulus, pressure, moduli, 1e9, 1.3e12, owner);
+  if (!other_density.empty()) hints.push_back("the density looks like " + other_density);
+  if (!other_modulus.empty()) hints.push_back("the modulus looks like " + other_modulus);
+  return text + (hints.empty() ? ". Do length, mass, time and the material belong together (for example mm, t, s, MPa)?"
+                               : ": " + join(hints, ", "));
+}
+
+}  // namespace tisserand::formats

@@ -1,0 +1,163 @@
+// Limits far beyond what is built: a factor of 1000 between two units is beyond each of them, a bold design is not.
+#include "mechanism/analyses/number_doubts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <variant>
+
+#include <fmt/format.h>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include "common/text.hpp"
+#include "formats/sections/substance.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Standard gravity is 9.81 m/s²; the Sun's at its surface 274, that of small moons 0.06 (Mimas).
+constexpr double least_gravity = 0.03, most_gravity = 300.0;  // [m/s²]
+constexpr double most_friction = 3.0;                         // rubber on dry ground has 1 to 1.5
+constexpr double most_damping = 2.0;                          // dampers in cars 0.2 to 0.4, critical 1
+constexpr double most_gyration = 100.0;  // of the extent of a body's nodes: a flywheel on a short bearing has some 20
+constexpr double most_section = 5.0;     // radius of gyration of a section, over the length of the beam
+constexpr double most_free_length = 100.0;  // of a spring, over its length at the start
+
+struct Doubts {
+  const Units& units;
+  std::vector<std::string> list;
+
+  template <class... T>
+  void add(fmt::format_string<T...> format, T&&... values) {
+    std::string text = fmt::format(format, std::forward<T>(values)...);
+    if (std::ranges::find(list, text) == list.end()) list.push_back(std::move(text));
+  }
+  std::string length(double value) const { return fmt::format("{:.4g}{}", value, unit(1)); }
+  std::string unit(int power) const { return after_number(unit_label(units, power, 0, 0)); }
+};
+
+void doubt_gravity(const std::string& whose, const Vector3d& g, Doubts& doubts) {
+  const Units& units = doubts.units;
+  if (!units.named() || g.isZero(0.0)) return;
+  const double si = g.norm() * units.length.factor / (units.time.factor * units.time.factor);
+  if (si >= least_gravity && si <= most_gravity) return;
+  doubts.add("{} is {:.4g}{}, that is {:.3g} m/s^2: the Earth's is {:.4g} in these units", whose, g.norm(),
+             after_number(unit_label(units, 1, 0, -2)), si,
+             9.81 * units.time.factor * units.time.factor / units.length.factor);
+}
+
+void doubt_damping(const std::string& name, const formats::Damping& damping, Doubts& doubts) {
+  std::vector<double> all{damping.ratio, damping.ratio_internal};
+  all.insert(all.end(), damping.ratios.begin(), damping.ratios.end());
+  all.insert(all.end(), damping.ratios_internal.begin(), damping.ratios_internal.end());
+  const double largest = *std::ranges::max_element(all);
+  if (largest > most_damping)
+    doubts.add("'{}' has a damping ratio of {:.4g}: 1 is critical, {:.4g} per cent is {:.4g}", name, largest, largest,
+               0.01 * largest);
+}
+
+void doubt_body(const formats::RigidBodySpec& body, Doubts& doubts) {
+  Eigen::AlignedBox3d box(Vector3d::Zero());  // the part frame is a node, too
+  box.extend(body.center_of_mass);
+  for (const formats::RigidNodeSpec& node : body.nodes) box.extend(node.pose.position);
+  const double extent = box.diagonal().norm();
+  const double gyration =
+      std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia, Eigen::EigenvaluesOnly).eigenvalues()[2] /
+                body.mass);
+  if (extent > 0.0 && gyration > most_gyration * extent)
+    doubts.add("'{}' has a radius of gyration of {}, and its nodes and centre of mass lie within {}: check `inertia`",
+               body.name, doubts.length(gyration), doubts.length(extent));
+}
+
+void doubt_body(const formats::BeamBodySpec& beam, Doubts& doubts) {
+  const formats::Section& section = beam.section;
+  if (!section.by_stiffness) {
+    const std::string what =
+        beam.material.name.empty() ? fmt::format("'{}'", beam.name) : fmt::format("material '{}'", beam.material.name);
+    if (const std::string text = formats::substance_doubt({what, beam.material.youngs_modulus, beam.material.density},
+                                                          doubts.units, "the scene");
+        !text.empty())
+      doubts.add("{}", text);
+  }
+  const double length = (beam.to - beam.from).norm() + (beam.through ? (*beam.through - beam.from).norm() : 0.0);
+  const double gyration =
+      section.area > 0.0 ? std::sqrt(std::max(section.second_moment_y, section.second_moment_z) / section.area) : 0.0;
+  if (!section.by_stiffness && gyration > most_section * length)
+    doubts.add("the section of '{}' has a radius of gyration of {}, the beam a length of {}", beam.name,
+               doubts.length(gyration), doubts.length(length));
+}
+
+void doubt_body(const formats::SuperelementBodySpec& body, Doubts& doubts) {
+  doubt_damping(body.name, body.damping, doubts);
+}
+void doubt_body(const formats::ModalBodySpec& body, Doubts& doubts) { doubt_damping(body.name, body.damping, doubts); }
+void doubt_body(const formats::VirtualBodySpec& /*body*/, Doubts& /*doubts*/) {}
+
+void doubt_friction(const std::string& whose, double coefficient, Doubts& doubts) {
+  if (coefficient > most_friction)
+    doubts.add("{} has a coefficient of friction of {:.4g}: rubber on dry ground has 1 to 1.5", whose, coefficient);
+}
+
+/// Tables that end before the run, or begin after it.
+void doubt_times(const formats::Scene& scene, Doubts& doubts) {
+  const double start = scene.integrator.start, end = scene.integrator.end;
+  const std::string second = after_number(unit_label(scene.units, 0, 0, 1));
+  const auto table = [&](const std::string& whose, const formats::TimeTable& table) {
+    if (table.time.empty() || (table.time.front() < end && table.time.back() > start)) return;
+    doubts.add("the table of {} holds {:g} to {:g}{}, the run goes from {:g} to {:g}{}: it is constant", whose,
+               table.time.front(), table.time.back(), second, start, end, second);
+  };
+  const auto function = [&](const std::string& whose, const formats::TimeFunctionSpec& spec) {
+    if (const auto* values = std::get_if<formats::TimeTable>(&spec)) table(whose, *values);
+  };
+  for (const formats::LoadSpec& load : scene.loads)
+    for (const formats::TimeFunctionSpec& component : load.components)
+      function(fmt::format("load '{}'", load.name), component);
+  for (const formats::PartLoadSpec& load : scene.part_loads) function(fmt::format("load '{}'", load.name), load.value);
+  for (const formats::MotionSpec& motion : scene.motions)
+    function(fmt::format("motion '{}'", motion.name), motion.value);
+  for (const formats::SpringSpec& spring : scene.springs)
+    if (spring.force) function(fmt::format("spring '{}'", spring.name), *spring.force);
+  for (const formats::InputSpec& input : scene.inputs) table(fmt::format("input '{}'", input.name), input.table);
+  if (const auto interval = scene.output.interval; interval && *interval > end - start)
+    doubts.add("`output: {{interval: {:g}}}` is longer than the run of {:g}{}: only its ends are stored", *interval,
+               end - start, second);
+}
+
+void doubt_free_lengths(const Model& model, const Evaluation& now, Doubts& doubts) {
+  for (const Spring& spring : model.springs) {
+    if (spring.free_at_start || model.coordinates[spring.coordinate].relation.kind != RelationKind::distance) continue;
+    const double length = now.coordinates[spring.coordinate].value;
+    if (length > 1e-3 * model.length && spring.free > most_free_length * length)
+      doubts.add("spring '{}' has a free length of {}, and {} at the start", spring.name, doubts.length(spring.free),
+                 doubts.length(length));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> number_doubts(const formats::Scene& scene, const Model& model, const Evaluation& now) {
+  Doubts doubts{scene.units, {}};
+  doubt_gravity("gravity", scene.gravity, doubts);
+  for (const formats::BodySpec& body : scene.bodies)
+    std::visit(
+        [&](const auto& spec) {
+          if constexpr (requires { spec.gravity; })
+            if (spec.gravity) doubt_gravity(fmt::format("gravity of '{}'", spec.name), *spec.gravity, doubts);
+          doubt_body(spec, doubts);
+        },
+        body);
+  for (const formats::JointSpec& joint : scene.joints)
+    if (joint.friction) doubt_friction(fmt::format("joint '{}'", joint.name), joint.friction->coefficient, doubts);
+  for (const formats::TyreSpec& tyre : scene.tyres)
+    doubt_friction(fmt::format("tyre '{}'", tyre.name), tyre.friction, doubts);
+  if (takes_steps(scene.analysis))
+    doubt_times(scene, doubts);
+  doubt_free_lengths(model, now, doubts);
+  return std::move(doubts.list);
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,117 @@
+// Numbers of scenes that cannot be meant are named; those of examples, and of their variations, are not.
+#include "mechanism/analyses/number_doubts.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "mechanism/build/build_model.hpp"
+#include "mechanism/equations/evaluate.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace tisserand::testing::number_doubts_test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::vector<std::string> doubts_of(const formats::Scene& scene) {
+  const mechanism::BuiltModel built = mechanism::build_model(scene, {});
+  mechanism::Evaluation now(built.model);
+  mechanism::evaluate(built.model, built.state, now);
+  return mechanism::number_doubts(scene, built.model, now);
+}
+
+/// The trial unlikely_values.
+constexpr const char* slider_crank = R"yaml(scene: slider-crank
+gravity: [0, 0, -9.81]
+materials: {steel: {E: 2.1e11, nu: 0.3, density: 7800}}
+bodies:
+  crank: {type: rigid, mass: 1, inertia: [1e-3, 1e-3, 1e-3], center_of_mass: [0.05, 0, 0], nodes: {pin: {position: [0.1, 0, 0]}}}
+  rod: {type: beam, from: [0, 0, 0], to: [0.3, 0, 0], elements: 4, section: {shape: circle, radius: 0.01}, material: steel, pose: {position: [0.1, 0, 0]}}
+  piston: {type: rigid, mass: 0.5, inertia: [1e-3, 1e-3, 1e-3], pose: {position: [0.4, 0, 0]}}
+joints:
+  A: {type: revolute, a: ground, b: crank, axis: [0, 0, 1]}
+  B: {type: revolute, a: crank/pin, b: rod/start, axis: [0, 0, 1]}
+  C: {type: revolute, a: rod/end, b: piston, axis: [0, 0, 1]}
+  S: {type: prismatic, a: ground, b: piston, axis: [1, 0, 0]}
+motions: {m: {coordinate: A, value: "step5(t,0,0,0.2,10)"}}
+integrator: {step: 5e-4, end: 0.3}
+)yaml";
+
+std::vector<std::string> doubts_with(const std::vector<std::string>& settings) {
+  const test_support::TemporaryFolder folder;
+  write_text_file(folder.file("a.scene.yaml"), slider_crank);
+  std::vector<formats::Override> overrides;
+  for (const std::string& setting : settings) overrides.push_back(formats::parse_override(setting));
+  return doubts_of(formats::read_scene(folder.file("a.scene.yaml"), overrides));
+}
+
+TEST(NumberDoubts, NameWhatCannotBeMeant) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"materials.steel.E=210", "the modulus looks like GPa (in units of the scene 2.1e+11)"},
+      {"materials.steel.density=7.8", "the density looks like g/cm^3 (in units of the scene 7800)"},
+      {"bodies.rod.section.radius=10", "the section of 'rod' has a radius of gyration of 5 m, the beam a length of 0.3 m"},
+      {"bodies.crank.inertia=[42632,42632,42632]", "'crank' has a radius of gyration"},
+      {"joints.S.friction={coefficient: 15, velocity: 0.01}", "joint 'S' has a coefficient of friction of 15"},
+      {"gravity=[0,0,-9810]", "gravity is 9810 m s^-2"},
+      {"springs={s: {a: ground, b: piston, position_a: [0,0,0], stiffness: 10, free: 300}}", "has a free length of 300 m"},
+      {"motions.m.value={table: [[5, 0], [6, 1]]}", "the table of motion 'm' holds 5 to 6 s, the run goes from 0 to 0.3 s"},
+      {"output={interval: 2}", "is longer than the run of 0.3 s"}};
+  EXPECT_THAT(doubts_with({}), IsEmpty());
+  for (const auto& [setting, text] : cases) EXPECT_THAT(doubts_with({setting}), ElementsAre(HasSubstr(text))) << setting;
+}
+
+/// Numbers with a point or an exponent are multiplied by 0.7 to 1.3; others may be counts.
+std::string varied(const std::string& text, std::mt19937& random) {
+  static const std::regex number(R"(([^A-Za-z0-9_.])(\d+\.\d*(?:e[-+]?\d+)?|\d+e[-+]?\d+))");
+  std::uniform_real_distribution<double> factor(0.7, 1.3);
+  std::string result;
+  auto rest = text.cbegin();
+  for (std::sregex_iterator match(text.begin(), text.end(), number), end; match != end; ++match) {
+    result.append(rest, (*match)[2].first);
+    result += fmt::format("{:.6g}", factor(random) * std::stod((*match)[2].str()));
+    rest = (*match)[2].second;
+  }
+  return result.append(rest, text.cend());
+}
+
+// Scenes without superelement files, whose variations have open joints, too; what cannot be built is not counted.
+TEST(NumberDoubts, AreSilentAboutExamplesAndTheirVariations) {
+  const test_support::TemporaryFolder folder;
+  namespace fs = std::filesystem;
+  fs::copy(fs::path(TISSERAND_SOURCE_DIR) / "examples", folder.file("examples"), fs::copy_options::recursive);
+  std::vector<std::string> scenes;
+  for (const auto& entry : fs::recursive_directory_iterator(folder.file("examples")))
+    if (entry.path().string().ends_with(".scene.yaml")) scenes.push_back(entry.path().string());
+  std::ranges::sort(scenes);
+  std::mt19937 random(7);
+  int told = 0;
+  for (int round = 0; round < 6; ++round)
+    for (const std::string& path : scenes) {
+      std::ifstream file(path);
+      const std::string text{std::istreambuf_iterator<char>(file), {}};
+      if (round > 0) write_text_file(path, varied(text, random));
+      try {
+        EXPECT_THAT(doubts_of(formats::read_scene(path, {})), IsEmpty()) << path << " round " << round;
+        ++told;
+      } catch (const Error&) {
+      }
+      if (round > 0) write_text_file(path, text);
+    }
+  EXPECT_GT(told, 100);
+}
+
+}  // namespace
+}  // namespace tisserand::testing::number_doubts_test
