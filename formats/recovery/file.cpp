@@ -134,13 +134,16 @@ RecoveryLoads read_loads_table(const Tables& tables, std::uint64_t coordinates) 
   return loads;
 }
 
-/// Symmetric matrices one after the other.
+/// Symmetric matrices, of each the entries (k, l) with k ≤ l row by row.
 std::vector<Eigen::MatrixXd> read_forms(const Tables& tables, const std::string& dataset, std::uint64_t coordinates) {
-  const Numbers values = tables.numbers(dataset, {tables.length(dataset), coordinates, coordinates});
+  const Numbers values = tables.numbers(dataset, {tables.length(dataset), coordinates * (coordinates + 1) / 2});
   const auto n = static_cast<Eigen::Index>(coordinates);
   std::vector<Eigen::MatrixXd> forms;
-  for (std::size_t at = 0; at < values.size(); at += coordinates * coordinates)
-    forms.emplace_back(Eigen::Map<const Eigen::MatrixXd>(&values[at], n, n));
+  for (std::size_t at = 0; at < values.size();) {
+    Eigen::MatrixXd& form = forms.emplace_back(n, n);
+    for (Eigen::Index k = 0; k < n; ++k)
+      for (Eigen::Index l = k; l < n; ++l) form(k, l) = form(l, k) = values[at++];
+  }
   return forms;
 }
 
@@ -305,8 +308,10 @@ void write_loads(const TableWriter& table, const RecoveryLoads& loads) {
 void write_second_order(const TableWriter& table, const SecondOrderForms& forms, std::uint64_t n) {
   const auto write = [&](const std::string& dataset, const std::vector<Eigen::MatrixXd>& all) {
     Numbers values;
-    for (const Eigen::MatrixXd& one : all) values.insert(values.end(), one.data(), one.data() + one.size());
-    table.numbers(dataset, {all.size(), n, n}, values.data());
+    for (const Eigen::MatrixXd& one : all)
+      for (Eigen::Index k = 0; k < one.rows(); ++k)
+        for (Eigen::Index l = k; l < one.cols(); ++l) values.push_back(one(k, l));
+    table.numbers(dataset, {all.size(), n * (n + 1) / 2}, values.data());
   };
   write("/second_order/shape_form", forms.of_shape);
   write("/second_order/coordinate_form", forms.of_coordinate);

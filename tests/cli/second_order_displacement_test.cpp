@@ -143,6 +143,32 @@ TEST_F(SecondOrderDisplacement, DoesNotDependOnModesThatTheBodyLeavesOut) {
   }
 }
 
+// A bar that its base alone holds: y has no foreshortening, and the free end moves by −½ ∫ w'² ds with
+// w' = q (3 L² s − 3 L s² + s³)/(6 EI) under the weight q per length [Timoshenko, Strength of materials, cantilever
+// beams].
+TEST_F(SecondOrderDisplacement, OfAFreeEndIsItsForeshortening) {
+  reduce({"boundary=[base]"});
+  write_text(folder.file("weight.scene.yaml"), R"yaml(scene: cantilever under its weight
+gravity: [0, 0, -40]
+bodies: {bar: {type: superelement, file: stress_cantilever.superelement.h5}}
+joints: {clamp: {type: fixed, a: ground, b: bar/base}}
+analysis: statics
+)yaml");
+  const Outcome outcome = call({program("mechanism"), "run", "weight.scene.yaml", "-o", "run.results.h5"}, where);
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  std::string text;
+  const auto places = recover(1.0, text);
+  const double q = 7800.0 * 1e-4 * 40.0;
+  double sum = 0.0;
+  constexpr int steps = 1000;
+  for (int i = 0; i < steps; ++i) {
+    const double s = (i + 0.5) / steps, slope = q / (6.0 * EI) * (3.0 * s - 3.0 * s * s + s * s * s);
+    sum += 0.5 * slope * slope / steps;
+  }
+  EXPECT_NEAR(places.back().x(), 1.0 - sum, 0.01 * sum);
+  EXPECT_NEAR(places.back().z(), -q / (8.0 * EI), 0.01 * q / (8.0 * EI));
+}
+
 // A linear body does not shorten, and nothing is added to it or said.
 TEST_F(SecondOrderDisplacement, IsNotAddedToLinearBodies) {
   reduce();
