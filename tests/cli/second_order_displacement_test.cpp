@@ -143,6 +143,28 @@ TEST_F(SecondOrderDisplacement, DoesNotDependOnModesThatTheBodyLeavesOut) {
   }
 }
 
+// A strip of shells, four times as stiff, whose ends spiders lead: a rigid one and an averaging one. Without Poisson's
+// ratio it bends to a cylinder. In the mean frame its error is that of the cubic between the ends, θ³ L/384.
+TEST_F(SecondOrderDisplacement, OfAStripBetweenSpidersIsThatOfTheArc) {
+  fs::copy_file(TISSERAND_SOURCE_DIR "/tests/verification/references/trials/stress_strip.part.yaml",
+                folder.file("stress_cantilever.part.yaml"), fs::copy_options::overwrite_existing);
+  write_text(folder.file("stress_cantilever.scene.yaml"), R"yaml(scene: strip under a moment at its end
+bodies: {bar: {type: superelement, file: stress_cantilever.superelement.h5}}
+joints: {clamp: {type: fixed, a: ground, b: bar/a}}
+loads: {bend: {type: moment, at: bar/b, value: [0, 0, 0]}}
+analysis: statics
+statics: {load_steps: 5}
+)yaml");
+  reduce({"materials.steel.nu=0"});
+  for (const double theta : {0.02, 0.1, 0.4}) {
+    run(4.0 * theta, {"bodies.bar.frame=karcher"});  // 4 EI
+    std::string text;
+    const auto [along, across] = missed(recover(1.0, text), theta);
+    EXPECT_LT(along, 0.0642 * theta * theta * (0.002 + 0.1 * theta * theta)) << theta;
+    EXPECT_NEAR(across, std::pow(theta, 3) / 384.0, 0.3 * std::pow(theta, 3) / 384.0) << theta;
+  }
+}
+
 // A bar that its base alone holds: y has no foreshortening, and the free end moves by −½ ∫ w'² ds with
 // w' = q (3 L² s − 3 L s² + s³)/(6 EI) under the weight q per length [Timoshenko, Strength of materials, cantilever
 // beams].
