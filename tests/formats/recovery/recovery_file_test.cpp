@@ -35,6 +35,8 @@ void read_all(const std::string& path) {
   const RecoveryReader reader(path);
   for (const RecoveryField field : recovery_fields)
     static_cast<void>(reader.read(field, 0, items(reader.recovery(), field)));
+  for (const RecoveryField field : {RecoveryField::translation, RecoveryField::rotation})
+    static_cast<void>(reader.read_second_order(field, 0, reader.recovery().nodes()));
 }
 
 std::string bytes_of(const std::string& path) {
