@@ -86,6 +86,7 @@ std::unique_ptr<formats::RecoveryWriter> write_recovery(const RecoverySource& so
       source, tables, listener.share,
       {[&](formats::RecoveryField field, const Eigen::MatrixXd& rows) { writer->append(field, rows); },
        [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) { writer->append_loads(field, rows); },
+       [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) { writer->append_second_order(field, rows); },
        [&](formats::NodalForce force, const Eigen::MatrixXd& rows) { writer->append_forces(force, rows); }});
   return writer;
 }

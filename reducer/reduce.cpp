@@ -1,6 +1,7 @@
 // The story of stage 1, in the order of the data: part -> mesh -> S, M -> modes -> superelement.
 #include "reducer/reduce.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "common/error.hpp"
@@ -40,12 +41,15 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   begin("lowest modes");
   describe_lowest_modes(part, problem, boundary, internal, result.superelement, result.model);
 
-  if (part.recovery && recover) {
-    begin("recovery");
-    recover(recovery_source(problem, boundary, internal, result.superelement));
-  }
+  const bool recovers = part.recovery && recover;
+  std::optional<SecondOrderDisplacement> displacement;
   begin("second order");
-  result.companion = companion_if_asked(part, problem, boundary, internal, result.superelement, result.model);
+  result.companion = companion_if_asked(part, problem, boundary, internal, result.superelement, result.model,
+                                        recovers ? &displacement : nullptr);
+  if (recovers) {
+    begin("recovery");
+    recover(recovery_source(problem, boundary, internal, result.superelement, std::move(displacement)));
+  }
   result.modal_body = modal_body_if_asked(mesh, part, begin, recover, result.file, result.model);
   return result;
 }

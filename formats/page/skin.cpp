@@ -7,6 +7,8 @@
 
 #include <Eigen/LU>
 
+#include "common/error.hpp"
+
 namespace tisserand::formats {
 namespace {
 
@@ -78,17 +80,35 @@ Skin skin_of(const Recovery& recovery) {
 
 namespace {
 
-/// Fields of coordinates or of loads.
+enum class Fields { coordinates, loads, second_order };
+
+/// Fields of coordinates, of loads, or of shapes of second order.
 struct FieldSource {
   const RecoveryReader& reader;
-  bool loads = false;
+  Fields fields = Fields::coordinates;
 
   Index columns() const {
     const Recovery& recovery = reader.recovery();
-    return !loads ? recovery.coordinates() : recovery.loads ? inertia_loads : 0;
+    switch (fields) {
+      case Fields::coordinates:
+        return recovery.coordinates();
+      case Fields::loads:
+        return recovery.loads ? inertia_loads : 0;
+      case Fields::second_order:
+        return recovery.second_order ? recovery.second_order->shapes() : 0;
+    }
+    TISSERAND_ENSURE(false, "fields {}", static_cast<int>(fields));
   }
   FieldRows read(RecoveryField field, int first, int count) const {
-    return loads ? reader.read_loads(field, first, count) : reader.read(field, first, count);
+    switch (fields) {
+      case Fields::coordinates:
+        return reader.read(field, first, count);
+      case Fields::loads:
+        return reader.read_loads(field, first, count);
+      case Fields::second_order:
+        return reader.read_second_order(field, first, count);
+    }
+    TISSERAND_ENSURE(false, "fields {}", static_cast<int>(fields));
   }
 };
 
@@ -208,19 +228,23 @@ MatrixXd stresses_of(const FieldSource& source, const std::vector<SkinCarrier>& 
 }  // namespace
 
 MatrixXd shapes_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers) {
-  return shapes_of({reader, false}, carriers);
+  return shapes_of({reader, Fields::coordinates}, carriers);
 }
 
 MatrixXd stresses_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers) {
-  return stresses_of({reader, false}, carriers);
+  return stresses_of({reader, Fields::coordinates}, carriers);
 }
 
 MatrixXd load_shapes_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers) {
-  return shapes_of({reader, true}, carriers);
+  return shapes_of({reader, Fields::loads}, carriers);
 }
 
 MatrixXd load_stresses_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers) {
-  return stresses_of({reader, true}, carriers);
+  return stresses_of({reader, Fields::loads}, carriers);
+}
+
+MatrixXd second_order_shapes_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers) {
+  return shapes_of({reader, Fields::second_order}, carriers);
 }
 
 }  // namespace tisserand::formats

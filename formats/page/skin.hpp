@@ -40,4 +40,8 @@ Eigen::MatrixXd stresses_at(const RecoveryReader& reader, const std::vector<Skin
 Eigen::MatrixXd load_shapes_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers);
 Eigen::MatrixXd load_stresses_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers);
 
+/// Displacement of vertices per unit of the amplitude of each shape of second order, 3 V x shapes; without columns
+/// where the file has none.
+Eigen::MatrixXd second_order_shapes_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers);
+
 }  // namespace tisserand::formats

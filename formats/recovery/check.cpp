@@ -169,6 +169,34 @@ void check_loads(const Recovery& r, const Inspector& inspect) {
     if (r.dof_node[k] < 0) inspect.fail("/dof/node", fmt::format("entry {} is internal before one of the boundary", k));
 }
 
+void check_forms(const Recovery& r, const std::string& dataset, const std::vector<Eigen::MatrixXd>& forms,
+                 const Inspector& inspect) {
+  const Eigen::Index n = r.coordinates();
+  for (std::size_t k = 0; k < forms.size(); ++k) {
+    const Eigen::MatrixXd& form = forms[k];
+    if (form.rows() != n || form.cols() != n)
+      inspect.fail(dataset, fmt::format("matrix {} has {} rows and {} columns, expected {}, the coordinates", k,
+                                        form.rows(), form.cols(), n));
+    inspect.finite(dataset, form.data(), static_cast<std::size_t>(form.size()));
+    if (form != form.transpose()) inspect.fail(dataset, fmt::format("matrix {} is not symmetric", k));
+  }
+}
+
+void check_second_order(const Recovery& r, const Inspector& inspect) {
+  if (!r.second_order) return;
+  const SecondOrderForms& forms = *r.second_order;
+  check_forms(r, "/second_order/shape_form", forms.of_shape, inspect);
+  check_forms(r, "/second_order/coordinate_form", forms.of_coordinate, inspect);
+  inspect.size("/second_order/coordinate", forms.coordinate.size(), forms.of_coordinate.size(),
+               "matrices of /second_order/coordinate_form");
+  inspect.range("/second_order/coordinate", forms.coordinate, 0, r.coordinates() - 1);
+  for (std::size_t k = 0; k < forms.coordinate.size(); ++k)
+    if (r.dof_node[static_cast<std::size_t>(forms.coordinate[k])] >= 0)
+      inspect.fail(
+          "/second_order/coordinate",
+          fmt::format("entry {} is {}, a coordinate of the boundary, expected internal ones", k, forms.coordinate[k]));
+}
+
 }  // namespace
 
 void check(const Recovery& r, const std::string& where) {
@@ -188,6 +216,7 @@ void check(const Recovery& r, const std::string& where) {
   check_elements(r, inspect);
   check_beams_and_shells(r, inspect);
   check_loads(r, inspect);
+  check_second_order(r, inspect);
   inspect.size("/stress_points/group", r.stress_group.size(), r.stress_node.size(), "points");
   inspect.range("/stress_points/node", r.stress_node, 0, r.nodes() - 1);
   inspect.range("/stress_points/group", r.stress_group, 0, static_cast<int>(r.group_name.size()) - 1);

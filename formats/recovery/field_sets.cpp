@@ -71,9 +71,19 @@ FieldSet of_forces(const Recovery& recovery, NodalForce force) {
           chunk_items(recovery, RecoveryField::translation)};
 }
 
+FieldSet of_second_order(const Recovery& recovery, RecoveryField field) {
+  TISSERAND_ENSURE(field == RecoveryField::translation || field == RecoveryField::rotation, "recovery field {}",
+                   static_cast<int>(field));
+  const char* dataset = field == RecoveryField::translation ? "/second_order/translation" : "/second_order/rotation";
+  return {dataset, recovery.nodes(), 3, recovery.second_order ? recovery.second_order->shapes() : 0,
+          chunk_items(recovery, field)};
+}
+
 std::vector<FieldSet> field_sets(const Recovery& recovery) {
   std::vector<FieldSet> sets;
   for (const RecoveryField field : recovery_fields) sets.push_back(of_coordinates(recovery, field));
+  for (const RecoveryField field : {RecoveryField::translation, RecoveryField::rotation})
+    if (const FieldSet set = of_second_order(recovery, field); set.columns > 0) sets.push_back(set);
   if (!recovery.loads) return sets;
   for (const RecoveryField field : recovery_fields) sets.push_back(of_loads(recovery, field));
   if (!recovery.loads->has_forces()) return sets;

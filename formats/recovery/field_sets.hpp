@@ -21,8 +21,10 @@ struct FieldSet {
 FieldSet of_coordinates(const Recovery& recovery, RecoveryField field);
 FieldSet of_loads(const Recovery& recovery, RecoveryField field);
 FieldSet of_forces(const Recovery& recovery, NodalForce force);
+/// `field`: translation or rotation.
+FieldSet of_second_order(const Recovery& recovery, RecoveryField field);
 
-/// All of a file: of coordinates, of loads, of forces on nodes.
+/// All of a file: of coordinates, of shapes of second order, of loads, of forces on nodes.
 std::vector<FieldSet> field_sets(const Recovery& recovery);
 
 }  // namespace tisserand::formats

@@ -1,6 +1,7 @@
 // Recovery files between memory and disk: tables at once, fields by blocks.
 #include <algorithm>
 #include <limits>
+#include <string_view>
 
 #include "common/error.hpp"
 #include "formats/hdf5/head.hpp"
@@ -133,6 +134,27 @@ RecoveryLoads read_loads_table(const Tables& tables, std::uint64_t coordinates) 
   return loads;
 }
 
+/// Symmetric matrices, of each the entries (k, l) with k ≤ l row by row.
+std::vector<Eigen::MatrixXd> read_forms(const Tables& tables, const std::string& dataset, std::uint64_t coordinates) {
+  const Numbers values = tables.numbers(dataset, {tables.length(dataset), coordinates * (coordinates + 1) / 2});
+  const auto n = static_cast<Eigen::Index>(coordinates);
+  std::vector<Eigen::MatrixXd> forms;
+  for (std::size_t at = 0; at < values.size();) {
+    Eigen::MatrixXd& form = forms.emplace_back(n, n);
+    for (Eigen::Index k = 0; k < n; ++k)
+      for (Eigen::Index l = k; l < n; ++l) form(k, l) = form(l, k) = values[at++];
+  }
+  return forms;
+}
+
+SecondOrderForms read_second_order_table(const Tables& tables, std::uint64_t coordinates) {
+  SecondOrderForms forms;
+  forms.of_shape = read_forms(tables, "/second_order/shape_form", coordinates);
+  forms.of_coordinate = read_forms(tables, "/second_order/coordinate_form", coordinates);
+  forms.coordinate = tables.integers("/second_order/coordinate", {forms.of_coordinate.size()});
+  return forms;
+}
+
 Recovery read_tables(const hdf5::InputFile& file) {
   const Tables tables(file);
   Recovery r;
@@ -159,6 +181,7 @@ Recovery read_tables(const hdf5::InputFile& file) {
   r.stress_node = tables.integers("/stress_points/node");
   r.stress_group = tables.integers("/stress_points/group");
   if (file.has("/loads")) r.loads = read_loads_table(tables, r.dof_node.size());
+  if (file.has("/second_order")) r.second_order = read_second_order_table(tables, r.dof_node.size());
   return r;
 }
 
@@ -208,6 +231,7 @@ std::vector<double> rows_of(const std::vector<Eigen::Matrix3d>& axes) {
 
 /// The oldest version that knows all that is in the file.
 const char* version_of(const Recovery& r) {
+  if (r.second_order) return "1.3";
   if (!r.node_number.empty() || (r.loads && r.loads->has_forces())) return "1.2";
   return r.loads ? "1.1" : "1.0";
 }
@@ -281,6 +305,19 @@ void write_loads(const TableWriter& table, const RecoveryLoads& loads) {
     table.numbers("/loads/boundary_stiffness", {boundary, boundary}, loads.boundary_stiffness.data());
 }
 
+void write_second_order(const TableWriter& table, const SecondOrderForms& forms, std::uint64_t n) {
+  const auto write = [&](const std::string& dataset, const std::vector<Eigen::MatrixXd>& all) {
+    Numbers values;
+    for (const Eigen::MatrixXd& one : all)
+      for (Eigen::Index k = 0; k < one.rows(); ++k)
+        for (Eigen::Index l = k; l < one.cols(); ++l) values.push_back(one(k, l));
+    table.numbers(dataset, {all.size(), n * (n + 1) / 2}, values.data());
+  };
+  write("/second_order/shape_form", forms.of_shape);
+  write("/second_order/coordinate_form", forms.of_coordinate);
+  table.integers("/second_order/coordinate", forms.coordinate);
+}
+
 void write_properties(const TableWriter& table, const Recovery& r) {
   const auto beams = static_cast<std::uint64_t>(r.beams()), shells = static_cast<std::uint64_t>(r.shells());
   table.numbers("/beams/axes", {beams, 3, 3}, rows_of(r.beam_axes).data());
@@ -320,7 +357,12 @@ struct RecoveryWriter::Impl {
            set, 0});
   }
 
-  void append(Growing& growing, const Eigen::Ref<const Eigen::MatrixXd>& rows) const {
+  void append(std::string_view dataset, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
+    const auto found =
+        std::ranges::find(fields, dataset, [](const Growing& one) { return std::string_view(one.set.dataset); });
+    if (found == fields.end() && rows.cols() == 0) return;  // of no modes
+    TISSERAND_ENSURE(found != fields.end(), "{} is not of this file", dataset);
+    Growing& growing = *found;
     const FieldSet& set = growing.set;
     const int count = static_cast<int>(rows.rows()) / set.width, end = growing.written + count;
     TISSERAND_ENSURE(rows.rows() == count * set.width && rows.cols() == set.columns && end <= set.items &&
@@ -357,21 +399,25 @@ RecoveryWriter::RecoveryWriter(const std::string& path, const Recovery& recovery
   write_mesh(table, recovery);
   write_properties(table, recovery);
   if (recovery.loads) write_loads(table, *recovery.loads);
+  if (recovery.second_order) write_second_order(table, *recovery.second_order, recovery.dof_node.size());
 }
 
 RecoveryWriter::~RecoveryWriter() = default;
 
 void RecoveryWriter::append(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-  impl_->append(impl_->fields[static_cast<std::size_t>(field)], rows);
+  impl_->append(of_coordinates(Recovery{}, field).dataset, rows);
 }
 
 void RecoveryWriter::append_loads(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-  impl_->append(impl_->fields.at(recovery_fields.size() + static_cast<std::size_t>(field)), rows);
+  impl_->append(of_loads(Recovery{}, field).dataset, rows);
 }
 
 void RecoveryWriter::append_forces(NodalForce force, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-  if (rows.cols() == 0) return;  // of no modes
-  impl_->append(impl_->fields.at(2 * recovery_fields.size() + static_cast<std::size_t>(force)), rows);
+  impl_->append(of_forces(Recovery{}, force).dataset, rows);
+}
+
+void RecoveryWriter::append_second_order(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
+  impl_->append(of_second_order(Recovery{}, field).dataset, rows);
 }
 
 std::string RecoveryWriter::stage() {
@@ -424,6 +470,10 @@ FieldRows RecoveryReader::read_loads(RecoveryField field, int first, int count) 
 FieldRows RecoveryReader::read_forces(NodalForce force, int first, int count) const {
   TISSERAND_ENSURE(impl_->recovery.loads && impl_->recovery.loads->has_forces(), "{} has no nodal forces", path());
   return impl_->read(of_forces(impl_->recovery, force), first, count);
+}
+
+FieldRows RecoveryReader::read_second_order(RecoveryField field, int first, int count) const {
+  return impl_->read(of_second_order(impl_->recovery, field), first, count);
 }
 
 }  // namespace tisserand::formats

@@ -80,4 +80,13 @@ Eigen::Vector3d require_same_superelement(const Recovery& recovery, const std::s
               where, "give the recovery file of the part that was simulated, or simulate again with the present one");
 }
 
+void to_part(const Recovery& recovery, const Eigen::Vector3d& mirror, double length, Eigen::MatrixXd& y) {
+  for (Eigen::Index k = 0; k < y.rows(); ++k) {
+    const int component = recovery.dof_component[static_cast<std::size_t>(k)];
+    if (recovery.dof_node[static_cast<std::size_t>(k)] < 0) continue;
+    const double sign = mirror[component % 3] * (component < 3 ? 1.0 : mirror.prod());
+    y.row(k) *= component < 3 ? sign / length : sign;
+  }
+}
+
 }  // namespace tisserand::formats

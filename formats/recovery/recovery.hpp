@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "common/units.hpp"
+#include "formats/recovery/second_order.hpp"
 #include "formats/superelement/superelement.hpp"
 
 namespace tisserand::formats {
@@ -107,7 +108,8 @@ struct Recovery {
 
   std::vector<int> stress_node, stress_group;  ///< points of solids: one per node and group of elements around it
 
-  std::optional<RecoveryLoads> loads;  ///< since version 1.1
+  std::optional<RecoveryLoads> loads;            ///< since version 1.1
+  std::optional<SecondOrderForms> second_order;  ///< since version 1.3, of parts with the second order of a companion
 
   Eigen::Matrix3Xi triangle;  ///< surface: nodes, counter-clockwise seen from outside (shells: from the normal's tip)
   std::vector<int> triangle_element;  ///< shell or solid of each
@@ -164,6 +166,8 @@ class RecoveryWriter {
   void append_loads(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows);
   /// The same of forces on nodes: 12 columns, or one for each internal coordinate. Only of a file with nodal forces.
   void append_forces(NodalForce force, const Eigen::Ref<const Eigen::MatrixXd>& rows);
+  /// Translations or rotations of the shapes of second order. Only of a file with such shapes.
+  void append_second_order(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows);
   /// Closes the file, of which all items must have been appended, under a temporary name, which is returned.
   std::string stage();
   /// The same, and gives it its name.
@@ -188,6 +192,9 @@ class RecoveryReader {
   FieldRows read_loads(RecoveryField field, int first, int count) const;
   /// Nodes [first, first + count): 3 count x 12, or x internal coordinates. Only of a file with nodal forces.
   FieldRows read_forces(NodalForce force, int first, int count) const;
+  /// Translations or rotations of nodes [first, first + count): 3 count x shapes of second order; of a file without:
+  /// without columns.
+  FieldRows read_second_order(RecoveryField field, int first, int count) const;
 
  private:
   struct Impl;
@@ -198,5 +205,9 @@ class RecoveryReader {
 /// `content_id` is of.
 Eigen::Vector3d require_same_superelement(const Recovery& recovery, const std::string& content_id,
                                           const std::string& where, const std::string& body);
+
+/// Coordinates of an image in units of the scene -> those of the part in units of the file, n x T. `mirror`: signs of
+/// the axes; `length`: of a unit of the file in the scene.
+void to_part(const Recovery& recovery, const Eigen::Vector3d& mirror, double length, Eigen::MatrixXd& y);
 
 }  // namespace tisserand::formats

@@ -109,34 +109,18 @@ void add_columns(const MatrixXd& modes, const MatrixXd& stress, const MatrixXd& 
   shape.coordinate_component.resize(static_cast<std::size_t>(d.modes.cols()), 0);
 }
 
-/// What stress has beyond y: the second-order strain, and the answers to inertia loads, which move vertices too.
-void add_strain_and_loads(ViewedRun& run, const ViewedBody& body, const Found& found, const UnitConversion& to_scene,
-                          const std::vector<formats::SkinCarrier>& carriers, BodyShape& shape) {
-  const Recovery& recovery = found.reader->recovery();
-  const int first = run.layout().modes_offset[body.superelement], count = recovery.coordinates();
-  formats::Deformation& d = shape.deformation;
-  const MatrixXd strain = run.reader->read_dataset("superelements/y_strain", run.rows);
-  const formats::LoadFactors loads =
-      formats::load_factors(recovery, *run.reader, run.rows,
-                            {static_cast<std::size_t>(body.superelement), found.axes, body.origin, to_scene});
-  const MatrixXd y = d.amplitudes;
-  if (loads.known())
-    for (const Index k : formats::dropped_modes(recovery, y.transpose()))
-      d.amplitudes.col(k) = (recovery.loads->share.row(k) * loads.factor / recovery.loads->stiffness[k]).transpose();
-  if (shape.stress.size() > 0 && strain.cols() >= first + count)
-    add_columns(MatrixXd::Zero(d.modes.rows(), count), MatrixXd(shape.stress), strain.middleCols(first, count) - y,
-                shape);
-  if (!loads.known()) return;
-  MatrixXd modes = to_scene.length * formats::load_shapes_at(*found.reader, carriers);
+/// Columns that move vertices by lengths of the file, and stress them: factors and columns change places so that
+/// amplitudes are up to 1, for a page keeps what is large beside the largest column (formats/page/deformation.hpp).
+/// `stress`: without columns if there is none.
+void add_answers(const Found& found, const UnitConversion& to_scene, MatrixXd modes, MatrixXd stress, MatrixXd factor,
+                 BodyShape& shape) {
+  modes *= to_scene.length;
   for (Index v = 0; v < modes.rows(); v += 3)
     modes.middleRows(v, 3) = (found.axes.asDiagonal() * modes.middleRows(v, 3)).eval();
-  MatrixXd stress;
-  if (shape.stress.size() > 0) {
-    stress = formats::load_stresses_at(*found.reader, carriers);
+  if (stress.size() > 0)
     convert_tensors(to_scene, found.axes, stress);
-  }
-  // Amplitudes up to 1: a page keeps what is large beside the largest column (formats/page/deformation.hpp).
-  MatrixXd factor = loads.factor.transpose();
+  else if (shape.stress.size() > 0)
+    stress = MatrixXd::Zero(shape.stress.rows(), modes.cols());
   for (Index a = 0; a < factor.cols(); ++a) {
     const double reach = factor.col(a).cwiseAbs().maxCoeff();
     if (!(reach > 0.0)) continue;
@@ -145,6 +129,55 @@ void add_strain_and_loads(ViewedRun& run, const ViewedBody& body, const Found& f
     if (stress.size() > 0) stress.col(a) *= reach;
   }
   add_columns(modes, stress, factor, shape);
+}
+
+/// What moves vertices inside beyond y where the body is bent and stiffened: displacement of second order.
+void add_second_order(ViewedRun& run, const ViewedBody& body, const Found& found, const UnitConversion& to_scene,
+                      const std::vector<formats::SkinCarrier>& carriers, const Eigen::RowVectorXd& stiffened,
+                      const std::vector<Index>& dropped, BodyShape& shape) {
+  if (!(stiffened.maxCoeff() > 0.0)) return;
+  const Recovery& recovery = found.reader->recovery();
+  if (!recovery.second_order) {
+    run.notes.push_back(fmt::format("body '{}': {}", body.name, formats::no_second_order_note));
+    return;
+  }
+  const int count = recovery.coordinates();
+  MatrixXd y = shape.deformation.amplitudes.leftCols(count).transpose();
+  formats::to_part(recovery, found.axes, to_scene.length, y);
+  const MatrixXd amplitudes = formats::add_second_order(*recovery.second_order, stiffened, dropped, y);
+  for (const Index k : dropped) shape.deformation.amplitudes.col(k) = y.row(k).transpose();  // internal: as in the file
+  if (amplitudes.rows() > 0)
+    add_answers(found, to_scene, formats::second_order_shapes_at(*found.reader, carriers), MatrixXd(),
+                amplitudes.transpose(), shape);
+}
+
+/// What there is beyond y: the second-order strain of stress, its displacement, and the answers to inertia loads, which
+/// move vertices and stress them.
+void add_strain_and_loads(ViewedRun& run, const ViewedBody& body, const Found& found, const UnitConversion& to_scene,
+                          const std::vector<formats::SkinCarrier>& carriers, BodyShape& shape) {
+  const Recovery& recovery = found.reader->recovery();
+  const int first = run.layout().modes_offset[body.superelement], count = recovery.coordinates();
+  formats::Deformation& d = shape.deformation;
+  const MatrixXd all_strain = run.reader->read_dataset("superelements/y_strain", run.rows);
+  const bool has_strain = all_strain.cols() >= first + count;
+  const formats::LoadFactors loads =
+      formats::load_factors(recovery, *run.reader, run.rows,
+                            {static_cast<std::size_t>(body.superelement), found.axes, body.origin, to_scene});
+  const MatrixXd y = d.amplitudes, strain = has_strain ? MatrixXd(all_strain.middleCols(first, count)) : y;
+  const Eigen::RowVectorXd stiffened = formats::stiffened_instants(y.transpose(), strain.transpose());
+  const std::vector<Index> dropped = formats::dropped_modes(recovery, y.transpose());
+  if (loads.known())
+    for (const Index k : dropped)
+      d.amplitudes.col(k) = (recovery.loads->share.row(k) * loads.factor / recovery.loads->stiffness[k]).transpose();
+  const MatrixXd linear = d.amplitudes, of_coordinates = shape.stress;
+  add_second_order(run, body, found, to_scene, carriers, stiffened, dropped, shape);
+  if (shape.stress.size() > 0 && has_strain)
+    add_columns(MatrixXd::Zero(d.modes.rows(), count), of_coordinates,
+                strain - y + linear - d.amplitudes.leftCols(count), shape);
+  if (!loads.known()) return;
+  add_answers(found, to_scene, formats::load_shapes_at(*found.reader, carriers),
+              shape.stress.size() > 0 ? formats::load_stresses_at(*found.reader, carriers) : MatrixXd(),
+              loads.factor.transpose(), shape);
 }
 
 }  // namespace

@@ -54,6 +54,7 @@ VectorXd stress_of_loads(const formats::RecoveryReader& file, const BodyMotion& 
   BodyMotion unit = still;
   unit.y = unit.y_strain = MatrixXd::Zero(file.recovery().coordinates(), formats::inertia_loads);
   unit.load_factor = MatrixXd::Identity(formats::inertia_loads, formats::inertia_loads);
+  unit.second_order.resize(0, formats::inertia_loads);
   unit.mirror.setOnes();
   VectorXd largest = VectorXd::Zero(formats::inertia_loads);
   for_field_blocks(file, unit, [&](const FieldBlock& block) { raise_largest(file.recovery(), unit, block, largest); });

@@ -69,16 +69,6 @@ std::vector<std::size_t> chosen_rows(const std::vector<double>& time, const Reco
   return kept;
 }
 
-/// y of results -> y of the part in its file's units: signs of the image, lengths of translations.
-void to_file(const formats::Recovery& recovery, const BodyMotion& motion, MatrixXd& y) {
-  for (Index k = 0; k < y.rows(); ++k) {
-    const int component = recovery.dof_component[static_cast<std::size_t>(k)];
-    if (recovery.dof_node[static_cast<std::size_t>(k)] < 0) continue;
-    const double sign = motion.mirror[component % 3] * (component < 3 ? 1.0 : motion.mirror.prod());
-    y.row(k) *= component < 3 ? sign / motion.to_scene.length : sign;
-  }
-}
-
 const formats::SimulatedBody* simulated_body(const ResultsLayout& layout, const std::string& body) {
   for (const formats::SimulatedBody& simulated : layout.simulated.bodies)
     if (simulated.name == body) return &simulated;
@@ -180,8 +170,9 @@ BodyMotion MotionReader::stored(Index first, Index count) const {
   const Index n = recovery_.coordinates();
   motion.y = coordinates(layout, results_, body_.is_modal ? "modal_bodies/w" : "superelements/y", body_, n, rows);
   motion.y_strain = has_strain_ ? coordinates(layout, results_, "superelements/y_strain", body_, n, rows) : motion.y;
-  to_file(recovery_, motion, motion.y);
-  to_file(recovery_, motion, motion.y_strain);
+  motion.stiffened = formats::stiffened_instants(motion.y, motion.y_strain);
+  formats::to_part(recovery_, motion.mirror, motion.to_scene.length, motion.y);
+  formats::to_part(recovery_, motion.mirror, motion.to_scene.length, motion.y_strain);
   if (body_.is_modal) motion.y /= std::sqrt(motion.to_scene.mass) * motion.to_scene.length;
   if (body_.is_modal) motion.y_strain = motion.y;
   add_frame(layout, results_, body_, rows, motion);
@@ -192,16 +183,19 @@ BodyMotion MotionReader::stored(Index first, Index count) const {
 BodyMotion MotionReader::read(Index first, Index count) const {
   BodyMotion motion = stored(first, count);
   if (has_loads_) add_static_modes(recovery_, zero_, motion);
+  if (recovery_.second_order)
+    motion.second_order = formats::add_second_order(*recovery_.second_order, motion.stiffened, zero_, motion.y);
   return motion;
 }
 
 void MotionReader::look_at_all(const RecoverRequest& request) {
   const Index n = recovery_.coordinates();
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(n), reach = Eigen::VectorXd::Zero(n);
-  bool loads_known = has_loads_, place_known = true;
+  bool loads_known = has_loads_, place_known = true, stiffened = false;
   for (Index first = 0; first < instants(); first += batch_) {
     const BodyMotion motion = stored(first, std::min(batch_, instants() - first));
     largest = largest.cwiseMax(motion.y.cwiseAbs().rowwise().maxCoeff());
+    stiffened = stiffened || motion.stiffened.maxCoeff() > 0.0;
     loads_known = loads_known && motion.load_factor.cols() > 0;
     if (loads_known) reach = reach.cwiseMax(reach_of_loads(recovery_, motion));
     place_known = place_known && motion.position.cols() > 0 && motion.origin.allFinite() &&
@@ -210,11 +204,11 @@ void MotionReader::look_at_all(const RecoverRequest& request) {
   }
   if (has_loads_ && !loads_known) notes_.push_back(unknown_loads_note());
   has_loads_ = loads_known;
-  if (has_loads_) {
+  if (stiffened && !recovery_.second_order) notes_.push_back(formats::no_second_order_note);
+  if (!body_.is_modal)
     for (Index k = 0; k < n; ++k)
       if (recovery_.dof_node[static_cast<std::size_t>(k)] < 0 && largest[k] == 0.0) zero_.push_back(k);
-    dropped_ = moved_by_loads(reach, zero_);
-  }
+  if (has_loads_) dropped_ = moved_by_loads(reach, zero_);
   if (request.frame == RecoverFrame::world && !place_known)
     throw Error(
         fmt::format("where body '{}' is in the world is not stored", body_.name), results_.path(),

@@ -102,6 +102,9 @@ void for_field_blocks(const formats::RecoveryReader& file, const BodyMotion& mot
       const int count = std::min(block, items - first);
       FieldBlock out{field, first, count,
                      product(file, field, first, count, moves ? motion.y : motion.y_strain, motion.load_factor, scale)};
+      if (moves && motion.second_order.rows() > 0)
+        out.values +=
+            (scale * (file.read_second_order(field, first, count).cast<double>() * motion.second_order)).cast<float>();
       if (moves) mirror_vectors(motion.mirror, out.values);
       if (field == RecoveryField::solid_stress) mirror_tensors(motion.mirror, out.values);
       listener(out);

@@ -179,6 +179,7 @@ void recovery_fields(const RecoverySource& source, const formats::Recovery& tabl
   if (source.loads.columns > 0)
     motion_fields(
         source.mesh, source.loads, tables, [&](double done) { share(own + (1.0 - own) * done); }, sinks.loads);
+  if (source.second_order.columns > 0) displacements(source.second_order, tables, sinks.second_order);
   if (!tables.loads || !tables.loads->has_forces()) return;
   using formats::NodalForce;
   const auto forces = [&](const MotionSource& of, NodalForce force, NodalForce moment) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "formats/modal_body/modal_body.hpp"
 #include "formats/part/part.hpp"
 #include "formats/recovery/recovery.hpp"
 #include "reducer/recovery/shapes.hpp"
+#include "reducer/second_order/displacement.hpp"
 
 namespace tisserand::reducer {
 
@@ -22,6 +24,7 @@ struct RecoverySource {
   const Coordinates& coordinates;
   MotionSource motion;     ///< of each coordinate of the file
   MotionSource loads;      ///< static answers to the inertia loads of head.loads; no columns where there are none
+  MotionSource second_order;  ///< shapes of second order of head.second_order; no columns where there are none
   MotionSource load_forces, mode_forces;  ///< on the nodes, as motions are; without `motions` where there are none
   formats::Recovery head;  ///< names, units, identity, coordinates: what is not of the mesh
   bool is_modal = false;   ///< of the modal body, not of the superelement
@@ -30,10 +33,11 @@ struct RecoverySource {
 /// Hears of it (phase "recovery").
 using RecoveryListener = std::function<void(const RecoverySource& source)>;
 
-/// With the static answers to inertia loads, but of MacNeal's method, whose coordinates move masses of their own. The
-/// arguments live as long as the result.
+/// With the static answers to inertia loads, but of MacNeal's method, whose coordinates move masses of their own, and
+/// with the displacement of second order where the part has it. The arguments live as long as the result.
 RecoverySource recovery_source(const InternalProblem& problem, const BoundaryModes& boundary,
-                               const InternalModes& internal, const formats::Superelement& superelement);
+                               const InternalModes& internal, const formats::Superelement& superelement,
+                               std::optional<SecondOrderDisplacement> second_order);
 /// `q`: its modes in the system's coordinates.
 RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eigen::MatrixXd& q,
                                const formats::ModalBody& body);
@@ -58,7 +62,7 @@ void motion_fields(const Mesh& mesh, const MotionSource& source, const formats::
 
 /// Take the next rows of fields of coordinates, of loads, and of forces on nodes.
 struct RecoverySinks {
-  FieldSink coordinates, loads;
+  FieldSink coordinates, loads, second_order;
   std::function<void(formats::NodalForce force, const Eigen::MatrixXd& rows)> forces;
 };
 

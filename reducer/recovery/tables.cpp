@@ -248,7 +248,8 @@ void add_loads(const InternalProblem& problem, const InternalModes& internal, co
 }  // namespace
 
 RecoverySource recovery_source(const InternalProblem& problem, const BoundaryModes& boundary,
-                               const InternalModes& internal, const formats::Superelement& superelement) {
+                               const InternalModes& internal, const formats::Superelement& superelement,
+                               std::optional<SecondOrderDisplacement> second_order) {
   const System& system = problem.system;
   const auto shapes = std::make_shared<const FullShapes>(system, problem.partition, boundary, internal);
   Recovery head = head_of(superelement, [&](const Eigen::Vector3d& axes) {
@@ -262,9 +263,15 @@ RecoverySource recovery_source(const InternalProblem& problem, const BoundaryMod
                         {},
                         {},
                         {},
+                        {},
                         std::move(head),
                         false};
   if (internal.boundary_mass.size() == 0) add_loads(problem, internal, superelement, source);
+  if (second_order) {
+    source.head.second_order = std::move(second_order->forms);
+    source.second_order =
+        motions_of(std::make_shared<const Eigen::MatrixXd>(std::move(second_order->x)), system.coordinates);
+  }
   return source;
 }
 
@@ -283,6 +290,7 @@ RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eig
           {},
           {},
           {},
+          {},
           std::move(head),
           true};
 }
@@ -298,6 +306,7 @@ Recovery recovery_tables(const RecoverySource& source) {
   r.dof_node = head.dof_node;
   r.dof_component = head.dof_component;
   r.loads = head.loads;
+  r.second_order = head.second_order;
   return r;
 }
 

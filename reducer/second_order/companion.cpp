@@ -14,6 +14,7 @@
 #include "reducer/elements/each_element.hpp"
 #include "reducer/elements/element_matrices.hpp"
 #include "reducer/loads/load_vectors.hpp"
+#include "reducer/second_order/displacement.hpp"
 #include "reducer/second_order/double_curvature.hpp"
 #include "reducer/second_order/geometric_stiffness.hpp"
 #include "reducer/second_order/inertia.hpp"
@@ -31,6 +32,7 @@ using Eigen::MatrixXd;
 constexpr int batch_rows = 1024;  ///< stresses of a batch of elements, about; a multiple of eight elements
 constexpr int largest_batch = 64;
 
+constexpr double told_left_out = 0.01;  ///< of second-order displacement
 constexpr double large_file = 20e6;  ///< bytes of a companion that is not written unasked
 
 /// Bytes of the arrays before compression, for n coordinates.
@@ -145,13 +147,17 @@ class ElementBatches {
   std::vector<Scratch> scratch_;
 };
 
-/// Inertial loads and load cases, on x; the weight of a load case is that of translations.
-MatrixXd all_loads(const Mesh& mesh, const LoadVectors& cases, const MatrixXd& inertial) {
-  MatrixXd g(inertial.rows(), inertial_loads + cases.x.cols());
-  g.leftCols<inertial_loads>() = inertial;
+/// Inertial loads, load cases and those of shapes of second order (none: without columns), on x; the weight of a load
+/// case is that of translations.
+MatrixXd all_loads(const Mesh& mesh, const LoadVectors& cases, const MatrixXd& inertial, const MatrixXd& of_shapes) {
+  const Index shapes = of_shapes.cols();
+  MatrixXd g = MatrixXd::Zero(std::max(inertial.rows(), of_shapes.rows()), inertial_loads + cases.x.cols() + shapes);
+  g.topLeftCorner(inertial.rows(), inertial_loads) = inertial;
   for (Index c = 0; c < cases.x.cols(); ++c)
-    g.col(inertial_loads + c) = inertial.leftCols<3>() * mesh.load_cases[static_cast<std::size_t>(c)].gravity;
-  g.rightCols(cases.x.cols()).topRows(cases.x.rows()) += cases.x;
+    g.col(inertial_loads + c).head(inertial.rows()) =
+        inertial.leftCols<3>() * mesh.load_cases[static_cast<std::size_t>(c)].gravity;
+  g.middleCols(inertial_loads, cases.x.cols()).topRows(cases.x.rows()) += cases.x;
+  if (shapes > 0) g.rightCols(shapes).topRows(of_shapes.rows()) = of_shapes;
   return g;
 }
 
@@ -284,7 +290,8 @@ formats::Companion make_load_companion(const InternalProblem& problem, const Bou
 
 formats::Companion make_companion(const InternalProblem& problem, const BoundaryModes& boundary,
                                   const InternalModes& internal, const formats::Superelement& element,
-                                  const Eigen::VectorXd& weights, int shapes) {
+                                  const Eigen::VectorXd& weights, int shapes,
+                                  std::optional<SecondOrderDisplacement>* displacement) {
   const Mesh& mesh = problem.mesh;
   const System& system = problem.system;
   const int threads = core_count(), n = static_cast<int>(element.size());
@@ -299,20 +306,28 @@ formats::Companion make_companion(const InternalProblem& problem, const Boundary
 
   const LoadVectors cases = load_vectors(mesh, system);
   c.load_cases = reduced_cases(problem, boundary, internal, cases);
-  const MatrixXd g = all_loads(mesh, cases, inertia.load);
+  const TieForces ties = find_tie_forces(mesh, system, problem.where);
+  SecondOrderShapes inside;
+  if (displacement != nullptr) inside = second_order_shapes(problem, internal, element, ties, Phi);
+  const MatrixXd g = all_loads(mesh, cases, inertia.load, inside.load);
   const int all = n + static_cast<int>(g.cols());
   MatrixXd displacements(Phi.rows(), all);
   displacements << Phi, expand(system.T, residual_displacements(problem, internal, gather(system.T, g)));
   QuadraticForms forms(n, all, threads);
   ElementBatches(mesh, system.coordinates, displacements, n, threads)
       .for_each([&](std::span<const StrainBatch> batches) { forms.add(batches); }, problem.share);
-  const TieForces ties = find_tie_forces(mesh, system, problem.where);
   if (!ties.empty()) {
     const MatrixXd residual = tie_residual(mesh, system.coordinates, ties, displacements, g);
     forms.add(tie_batches(mesh, system, ties, multipliers(ties, residual), Phi));
   }
   for (int j = 0; j < n; ++j) c.H.push_back(forms.matrix(j));
   formats::remove_rigid_stress(c, element, problem.where);
+  if (displacement != nullptr) {
+    std::vector<MatrixXd> work;
+    for (Index r = 0; r < inside.x.cols(); ++r)
+      work.push_back(forms.matrix(n + inertial_loads + static_cast<int>(cases.x.cols() + r)));
+    *displacement = second_order_displacement(std::move(inside), work, c.H, internal);
+  }
   if (shapes > 0) c.Lambda = trapped_stress(problem, boundary, element, ties, Phi, shapes);
   for (int a = 0; a < 6; ++a) {
     c.N[a] = inertia.forms.N[a] - forms.matrix(n + a);
@@ -341,7 +356,8 @@ std::string trapped_text(const formats::Companion& companion, int shapes) {
 
 std::optional<formats::Companion> companion_if_asked(const formats::Part& part, const InternalProblem& problem,
                                                      const BoundaryModes& boundary, const InternalModes& internal,
-                                                     const formats::Superelement& element, ModelCertificate& model) {
+                                                     const formats::Superelement& element, ModelCertificate& model,
+                                                     std::optional<SecondOrderDisplacement>* displacement) {
   const bool wanted = wants_second_order(part, element), has_own_mass = internal.boundary_mass.size() > 0;
   const bool loose = internal.loose() > 0;  // no stress follows from its turns
   if (!loose && wanted && has_own_mass)
@@ -354,7 +370,14 @@ std::optional<formats::Companion> companion_if_asked(const formats::Part& part, 
   if (!second_order && problem.mesh.load_cases.empty()) return std::nullopt;
   const Eigen::VectorXd weights = default_weights(element);
   if (!second_order) return make_load_companion(problem, boundary, internal, element, weights);
-  formats::Companion companion = make_companion(problem, boundary, internal, element, weights, part.double_curvature);
+  formats::Companion companion =
+      make_companion(problem, boundary, internal, element, weights, part.double_curvature, displacement);
+  if (displacement != nullptr && *displacement && (*displacement)->left_out > told_left_out)
+    model.notes.push_back(
+        fmt::format("The {} shapes of second-order displacement in the recovery file leave out {:.2g} % of it, root "
+                    "mean square over "
+                    "mixed deformations.",
+                    (*displacement)->forms.shapes(), 100.0 * (*displacement)->left_out));
   if (part.double_curvature > 0)
     model.notes.push_back(
         companion.Lambda.empty()

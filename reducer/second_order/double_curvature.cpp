@@ -10,11 +10,11 @@
 
 #include "common/error.hpp"
 #include "common/parallel.hpp"
-#include "formats/superelement/scaling.hpp"
 #include "formats/superelement/superelement.hpp"
 #include "reducer/elements/each_element.hpp"
 #include "reducer/elements/element_matrices.hpp"
 #include "reducer/elements/second_order.hpp"
+#include "reducer/second_order/free_shapes.hpp"
 #include "reducer/second_order/inertia.hpp"
 
 namespace tisserand::reducer {
@@ -32,35 +32,6 @@ constexpr double round_off = 1e-8;  ///< of eigenvalues of the Gram matrix, in w
 constexpr double no_stiffness = 1e-13;  ///< of diagonal entries, in the largest of their kind: round-off
 constexpr double only_rigid = 1e-10;    ///< of the square of a unit motion that rigid motions do not hold
 constexpr double small_row = 1e-3;      ///< of eigenvalues of the Gram matrix, in the largest
-
-/// z = P y, y = Z z: shapes with the strain energy ½ zᵀz.
-struct Shapes {
-  MatrixXd Z;  ///< n x p
-  MatrixXd P;  ///< p x n, P R = 0
-};
-
-/// The p lowest elastic modes of the free reduced body; unlike free_modes() also where a rigid motion has no mass.
-Shapes lowest_shapes(const formats::Superelement& element, int p) {
-  const formats::ScaledMatrices scales = formats::scale(element);
-  const auto unit = scales.stiffness_row.asDiagonal();
-  const Solver strain(unit * element.stiffness * unit);
-  const VectorXd& lambda = strain.eigenvalues();
-  Index rigid = 0;
-  while (rigid < lambda.size() && lambda[rigid] <= no_strain * lambda[lambda.size() - 1]) ++rigid;
-  const Index strained = lambda.size() - rigid;
-  const VectorXd root = lambda.tail(strained).cwiseSqrt();
-  const MatrixXd V = unit * strain.eigenvectors().rightCols(strained) * root.cwiseInverse().asDiagonal();
-  const MatrixXd R = formats::rigid_motions(element, Eigen::Vector3d::Zero());
-  const MatrixXd MR = element.mass * R;
-  const MatrixXd M =
-      element.mass - MR * (R.transpose() * MR).completeOrthogonalDecomposition().pseudoInverse() * MR.transpose();
-  const Solver mass(V.transpose() * M * V);  // 1/ω²
-  const Index kept = std::min<Index>(p, strained);
-  Shapes shapes;
-  shapes.Z = V * mass.eigenvectors().rightCols(kept);
-  shapes.P = shapes.Z.transpose() * element.stiffness;
-  return shapes;
-}
 
 /// E2 of (k, l) and of (l, k) of all pairs k ≤ l of shapes with these gradients: a row per stress.
 void pair_strains(const std::vector<StrainSection>& sections, const MatrixXd& gradient, MatrixXd& strain) {
@@ -297,7 +268,7 @@ TrappedEnergy trapped_energy(const InternalProblem& problem, const BoundaryModes
 std::vector<MatrixXd> trapped_stress(const InternalProblem& problem, const BoundaryModes& boundary,
                                      const formats::Superelement& element, const TieForces& ties, const MatrixXd& Phi,
                                      int count) {
-  const Shapes shapes = lowest_shapes(element, count);
+  const FreeShapes shapes = lowest_shapes(element, count);
   const Index p = shapes.Z.cols();
   const TrappedEnergy energy = trapped_energy(problem, boundary, ties, Phi * shapes.Z);
   VectorXd weight(energy.gram.rows());  // of pairs in the norm of symmetric matrices

@@ -11,6 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const formats::RecoveryReader reader(path);
     for (const formats::RecoveryField field : formats::recovery_fields)
       static_cast<void>(reader.read(field, 0, formats::items(reader.recovery(), field)));
+    for (const formats::RecoveryField field : {formats::RecoveryField::translation, formats::RecoveryField::rotation})
+      static_cast<void>(reader.read_second_order(field, 0, reader.recovery().nodes()));
   });
   return 0;
 }

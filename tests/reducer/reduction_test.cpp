@@ -189,7 +189,8 @@ TEST(Reduction, LongPhasesTellHowMuchOfThemIsDone) {
   start_solvers();
   reducer::reduce(part, listener, [&](const reducer::RecoverySource& source) {
     const auto unheard = [](auto, const MatrixXd&) {};
-    reducer::recovery_fields(source, reducer::recovery_tables(source), listener.share, {unheard, unheard, unheard});
+    reducer::recovery_fields(source, reducer::recovery_tables(source), listener.share,
+                             {unheard, unheard, unheard, unheard});
   });
   reducer::solve(part, {3, {}}, listener);
   for (const char* name : {"assembly", "boundary modes", "recovery", "second order", "modes", "stresses"}) {

@@ -2,6 +2,7 @@
 #include "formats/recovery/recovery.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -34,6 +35,8 @@ void read_all(const std::string& path) {
   const RecoveryReader reader(path);
   for (const RecoveryField field : recovery_fields)
     static_cast<void>(reader.read(field, 0, items(reader.recovery(), field)));
+  for (const RecoveryField field : {RecoveryField::translation, RecoveryField::rotation})
+    static_cast<void>(reader.read_second_order(field, 0, reader.recovery().nodes()));
 }
 
 std::string bytes_of(const std::string& path) {
@@ -161,6 +164,76 @@ TEST(RecoveryFile, ForcesOnNodesAreChecked) {
               HasSubstr("/loads/boundary_stiffness: entry 0 is inf"));
   EXPECT_THAT(fault([](Recovery& r) { r.node_number[0] = -1; }), HasSubstr("/nodes/number: entry 0 is -1"));
   EXPECT_THAT(fault([](Recovery& r) { r.node_number.pop_back(); }), HasSubstr("/nodes/number"));
+}
+
+/// small_recovery() with two shapes of second order, and the form of its last coordinate.
+Recovery second_order_recovery() {
+  Recovery r = small_recovery();
+  const Eigen::Index n = r.coordinates();
+  const auto form = [n] {
+    const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n);
+    return Eigen::MatrixXd(A + A.transpose());
+  };
+  r.second_order = SecondOrderForms{{form(), form()}, {form()}, {static_cast<int>(n) - 1}};
+  return r;
+}
+
+TEST(RecoveryFile, HoldsDisplacementOfSecondOrder) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.recovery.h5");
+  const Recovery expected = second_order_recovery();
+  RecoveryWriter writer(path, expected);
+  for (const RecoveryField field : recovery_fields) writer.append(field, small_field(expected, field));
+  const Eigen::MatrixXd moves = Eigen::MatrixXd::Random(3 * expected.nodes(), 2),
+                        turns = Eigen::MatrixXd::Random(3 * expected.nodes(), 2);
+  writer.append_second_order(RecoveryField::translation, moves);
+  writer.append_second_order(RecoveryField::rotation, turns);
+  writer.finish();
+  const RecoveryReader reader(path);
+  ASSERT_TRUE(reader.recovery().second_order);
+  EXPECT_EQ(reader.recovery().second_order->of_shape, expected.second_order->of_shape);
+  EXPECT_EQ(reader.recovery().second_order->of_coordinate, expected.second_order->of_coordinate);
+  EXPECT_EQ(reader.recovery().second_order->coordinate, expected.second_order->coordinate);
+  EXPECT_EQ(reader.read_second_order(RecoveryField::translation, 0, expected.nodes()), FieldRows(moves.cast<float>()));
+  EXPECT_EQ(reader.read_second_order(RecoveryField::rotation, 1, 2), FieldRows(turns.middleRows(3, 6).cast<float>()));
+}
+
+TEST(RecoveryFile, DisplacementOfSecondOrderIsChecked) {
+  const auto fault = [](const auto& change) {
+    Recovery r = second_order_recovery();
+    change(*r.second_order);
+    return error_of([&] { check(r, "a.recovery.h5"); });
+  };
+  EXPECT_EQ(fault([](SecondOrderForms&) {}), "no error");
+  EXPECT_THAT(fault([](SecondOrderForms& forms) { forms.of_shape[1](0, 2) += 1.0; }),
+              HasSubstr("/second_order/shape_form: matrix 1 is not symmetric"));
+  EXPECT_THAT(fault([](SecondOrderForms& forms) { forms.of_shape[0].conservativeResize(2, 2); }),
+              HasSubstr("/second_order/shape_form: matrix 0 has 2 rows"));
+  EXPECT_THAT(fault([](SecondOrderForms& forms) { forms.of_coordinate[0](0, 0) = std::nan(""); }),
+              HasSubstr("/second_order/coordinate_form: entry 0 is nan"));
+  EXPECT_THAT(fault([](SecondOrderForms& forms) { forms.coordinate[0] = 0; }),
+              HasSubstr("a coordinate of the boundary"));
+  EXPECT_THAT(fault([](SecondOrderForms& forms) { forms.coordinate[0] = 99; }), HasSubstr("entry 0 is 99"));
+  EXPECT_THAT(fault([](SecondOrderForms& forms) { forms.coordinate.clear(); }),
+              HasSubstr("/second_order/coordinate: has 0 entries"));
+}
+
+TEST(SecondOrder, AddsAtStiffenedInstantsAndToCoordinatesThatAreLeftOut) {
+  SecondOrderForms forms;
+  forms.of_shape = {(Eigen::Matrix2d() << 0.0, 1.0, 1.0, 0.0).finished()};       // y0 y1
+  forms.of_coordinate = {(Eigen::Matrix2d() << 2.0, 0.0, 0.0, 0.0).finished()};  // y0²
+  forms.coordinate = {1};
+  Eigen::MatrixXd y(2, 3);
+  y << 2.0, 2.0, 0.0, 3.0, 3.0, 0.0;
+  Eigen::MatrixXd strain = y;
+  strain(0, 1) += 1e-6;
+  const Eigen::RowVectorXd stiffened = stiffened_instants(y, strain);
+  EXPECT_EQ(stiffened, Eigen::RowVector3d(0.0, 1.0, 0.0));
+  Eigen::MatrixXd kept = y, moved = y;
+  EXPECT_EQ(add_second_order(forms, stiffened, {}, kept), Eigen::RowVector3d(0.0, 6.0, 0.0));
+  EXPECT_EQ(kept, y);
+  EXPECT_EQ(add_second_order(forms, stiffened, {1}, moved), Eigen::RowVector3d(0.0, 6.0, 0.0));
+  EXPECT_EQ(moved.row(1), Eigen::RowVector3d(3.0, 7.0, 0.0));
 }
 
 TEST(RecoveryFile, LoadsAreChecked) {

@@ -9,7 +9,7 @@ namespace tisserand::testing {
 namespace {
 
 void keep(const reducer::RecoverySource& source, Recovered& result) {
-  std::array<Eigen::Index, 5> filled{}, answered{};
+  std::array<Eigen::Index, 5> filled{}, answered{}, shaped{};
   result.tables = reducer::recovery_tables(source);
   formats::check(result.tables, "part.recovery.h5");
   for (const formats::RecoveryField field : formats::recovery_fields)
@@ -18,8 +18,11 @@ void keep(const reducer::RecoverySource& source, Recovered& result) {
         result.tables.coordinates());
   for (std::size_t f = 0; f < 5; ++f)
     result.loads[f].resize(result.field[f].rows(), result.tables.loads ? formats::inertia_loads : 0);
+  for (std::size_t f = 0; f < 2; ++f)
+    result.second_order[f].resize(result.field[f].rows(),
+                                  result.tables.second_order ? result.tables.second_order->shapes() : 0);
   const auto unheard = [](double /*done*/) {};
-  const auto fill = [](std::array<Eigen::MatrixXd, 5>& fields, std::array<Eigen::Index, 5>& rows_of) {
+  const auto fill = [](auto& fields, std::array<Eigen::Index, 5>& rows_of) {
     return [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) {
       const auto f = static_cast<std::size_t>(field);
       fields[f].middleRows(rows_of[f], rows.rows()) = rows;
@@ -31,8 +34,9 @@ void keep(const reducer::RecoverySource& source, Recovered& result) {
     all.conservativeResize(all.rows() + rows.rows(), rows.cols());
     all.bottomRows(rows.rows()) = rows;
   };
-  reducer::recovery_fields(source, result.tables, unheard,
-                           {fill(result.field, filled), fill(result.loads, answered), forces});
+  reducer::recovery_fields(
+      source, result.tables, unheard,
+      {fill(result.field, filled), fill(result.loads, answered), fill(result.second_order, shaped), forces});
   for (std::size_t f = 0; f < filled.size(); ++f) TISSERAND_ENSURE(filled[f] == result.field[f].rows(), "field {}", f);
 }
 
@@ -77,6 +81,8 @@ void write(const Recovered& r, const std::string& path) {
     writer.append(field, r.of(field));
     if (r.tables.loads) writer.append_loads(field, r.loads[static_cast<std::size_t>(field)]);
   }
+  for (const formats::RecoveryField field : {formats::RecoveryField::translation, formats::RecoveryField::rotation})
+    writer.append_second_order(field, r.second_order[static_cast<std::size_t>(field)]);
   for (const formats::NodalForce force : formats::nodal_forces)
     if (r.tables.loads && r.tables.loads->has_forces())
       writer.append_forces(force, r.forces[static_cast<std::size_t>(force)]);

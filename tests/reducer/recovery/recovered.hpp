@@ -19,6 +19,7 @@ struct Recovered {
   formats::Recovery tables;
   std::array<Eigen::MatrixXd, 5> field;  ///< by RecoveryField
   std::array<Eigen::MatrixXd, 5> loads;  ///< the same of the inertia loads; without columns where there are none
+  std::array<Eigen::MatrixXd, 2> second_order;  ///< translations and rotations of its shapes
   std::array<Eigen::MatrixXd, 4> forces;  ///< by NodalForce; without rows where there are none
   formats::Superelement superelement;
 

@@ -61,9 +61,15 @@ Eigen::MatrixXd small_field(const Recovery& recovery, RecoveryField field) {
 }
 
 void write_small_recovery(const std::string& path) {
-  const Recovery recovery = small_recovery();
+  Recovery recovery = small_recovery();
+  const Eigen::Index n = recovery.coordinates();
+  recovery.second_order = formats::SecondOrderForms{{Eigen::MatrixXd::Identity(n, n), Eigen::MatrixXd::Ones(n, n)},
+                                                    {Eigen::MatrixXd::Constant(n, n, 0.5)},
+                                                    {static_cast<int>(n) - 1}};
   formats::RecoveryWriter writer(path, recovery);
   for (const RecoveryField field : formats::recovery_fields) writer.append(field, small_field(recovery, field));
+  for (const RecoveryField field : {RecoveryField::translation, RecoveryField::rotation})
+    writer.append_second_order(field, small_field(recovery, field).leftCols<2>());
   writer.finish();
 }
 
