@@ -85,7 +85,7 @@ struct FieldSource {
 
   Index columns() const {
     const Recovery& recovery = reader.recovery();
-    return !loads ? recovery.coordinates() : recovery.loads ? inertia_loads : 0;
+    return !loads ? recovery.coordinates() : recovery.loads ? recovery.loads->columns() : 0;
   }
   FieldRows read(RecoveryField field, int first, int count) const {
     return loads ? reader.read_loads(field, first, count) : reader.read(field, first, count);

@@ -22,7 +22,11 @@ FieldSet of_coordinates(const Recovery& recovery, RecoveryField field);
 FieldSet of_loads(const Recovery& recovery, RecoveryField field);
 FieldSet of_forces(const Recovery& recovery, NodalForce force);
 
-/// All of a file: of coordinates, of loads, of forces on nodes.
+/// The same of applied loads (RecoveryLoads::applied); `force`: load_force or load_moment.
+FieldSet of_applied(const Recovery& recovery, RecoveryField field);
+FieldSet of_applied_forces(const Recovery& recovery, NodalForce force);
+
+/// All of a file: of coordinates, of inertia loads, of forces on nodes, of applied loads.
 std::vector<FieldSet> field_sets(const Recovery& recovery);
 
 }  // namespace tisserand::formats

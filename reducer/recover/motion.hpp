@@ -21,7 +21,7 @@ struct BodyMotion {
   std::vector<double> time;  ///< T
   Eigen::MatrixXd y;  ///< n x T: coordinates of the part (of a modal body w), not of the image, units of the file
   Eigen::MatrixXd y_strain;      ///< the same of what stress follows from: y with the second-order strain
-  Eigen::MatrixXd load_factor;   ///< 12 x T: of the loads of the recovery file; without columns: not known
+  Eigen::MatrixXd load_factor;   ///< columns x T: of the loads of the recovery file; without columns: not known
   Eigen::VectorXd spin_squared;  ///< T: of the frame, with load_factor
   Eigen::Matrix3Xd position;     ///< of the floating frame, units of the scene; empty: not stored
   Eigen::Matrix4Xd rotation;     ///< w x y z
