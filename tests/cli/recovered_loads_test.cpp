@@ -281,6 +281,17 @@ loads:
   }
 }
 
+// Load cases for other programs hold them, so the forces cancel; in the plane they are those of space.
+TEST_F(RecoveredLoads, OfLoadCasesIsThatOfOtherProgramsAndOfThePlane) {
+  const double middle = 5.0 * (1.0 / 8.0 + h * h / 12.0) / W;
+  reduce({"modes=2"});
+  run(loaded_scene(clamped + at_rest, "snow", "0.01"));
+  const std::string text = recover("bar.recovery.h5", {"--loads", "nastran"});
+  EXPECT_LT(told(text, " N m: "), 1e-7) << text;  // residual force over the size of all
+  run(loaded_scene(simply + at_rest + "effects: {planar: on}\n", "snow", "0.01"), {"bodies.c.second_order=off"});
+  EXPECT_NEAR(stress(recover("bar.recovery.h5")), middle, 1e-4 * middle);
+}
+
 // Files of versions 1.2 and 1.10 (tests/compatibility): what the stress lacks is said, as before; with one new file of
 // two, too. Modal bodies had nothing added, and nothing was said.
 TEST_F(RecoveredLoads, FilesOfBeforeAreReadWithNotes) {
