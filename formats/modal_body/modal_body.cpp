@@ -1,6 +1,7 @@
 // Modal bodies between memory and *.modal.h5.
 #include "formats/modal_body/modal_body.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -18,7 +19,7 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 constexpr hdf5::FileKind kind{"tisserand-modal-body", "modal body file",
                               "give a *.modal.h5 file (formats/MODAL_BODY.md)",
                               "write the body again with a program of the same major version"};
-constexpr std::uint64_t max_nodes = 100'000, max_modes = 500, max_values = 30'000'000;
+constexpr std::uint64_t max_nodes = 100'000, max_modes = 500, max_values = 30'000'000, max_residual = 5000;
 
 /// Length of a dataset before memory is taken; `rank`: of the dataset.
 std::uint64_t bounded_extent(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t limit,
@@ -87,6 +88,24 @@ void read_nodes(const hdf5::InputFile& file, std::uint64_t n, std::uint64_t m, M
   }
 }
 
+ModalResidual read_residual(const hdf5::InputFile& file) {
+  ModalResidual residual;
+  if (!file.has("/residual/node")) return residual;
+  const std::uint64_t f = bounded_extent(file, "/residual/node", max_residual, "f components of nodes");
+  std::vector<std::int64_t> node(f), component(f);
+  file.read("/residual/node", {f}, "rows of /nodes/name", node.data());
+  file.read("/residual/component", {f}, "components", component.data());
+  for (std::size_t k = 0; k < f; ++k) {
+    residual.node.push_back(static_cast<int>(std::clamp<std::int64_t>(node[k], -1, max_nodes)));
+    residual.component.push_back(static_cast<int>(std::clamp<std::int64_t>(component[k], -1, 6)));
+  }
+  const auto n = static_cast<Index>(f);
+  residual.flexibility = matrix_of(read_values(file, "/residual/flexibility", {f, f}, "f x f"), n, n);
+  residual.mass = matrix_of(read_values(file, "/residual/mass", {f, f}, "f x f"), n, n);
+  residual.coupling = matrix_of(read_values(file, "/residual/coupling", {6, f}, "6 x f"), 6, n);
+  return residual;
+}
+
 /// Blocks of 3 x 3 stored row by row, as columns of 9 numbers each.
 void blocks_of(const std::vector<double>& values, double* columns) {
   for (std::size_t first = 0; first < values.size(); first += 9)
@@ -127,6 +146,7 @@ ModalBody read_unchecked(const std::string& path) {
   body.zeta = matrix_of(read_values(file, "/modes/zeta", {m}, "m modes"), static_cast<Index>(m), 1);
   read_nodes(file, n, m, body);
   read_integrals(file, m, body.integrals);
+  body.residual = read_residual(file);
   return body;
 }
 
@@ -141,7 +161,7 @@ std::vector<double> rows_of(const double* columns, Index count) {
 
 void write_head(hdf5::Id file, const ModalBody& body, const std::string& where) {
   hdf5::write_text_attribute(file, "/", "format", kind.format, where);
-  hdf5::write_text_attribute(file, "/", "version", "1.0", where);
+  hdf5::write_text_attribute(file, "/", "version", body.residual.node.empty() ? "1.0" : "1.1", where);
   hdf5::write_text_attribute(file, "/", "name", body.name, where);
   hdf5::write_text_attribute(file, "/", "producer", body.producer, where);
   hdf5::write_units(file, body.units, where);
@@ -172,6 +192,17 @@ void write_nodes(hdf5::Id file, const ModalBody& body, const std::string& where)
   hdf5::write_dataset(file, "/modes/X", {n, 6, m}, X.data(), where);
   hdf5::write_dataset(file, "/modes/omega2", {m}, body.omega2.data(), where);
   hdf5::write_dataset(file, "/modes/zeta", {m}, body.zeta.data(), where);
+}
+
+void write_residual(hdf5::Id file, const ModalResidual& residual, const std::string& where) {
+  const auto f = static_cast<std::uint64_t>(residual.node.size());
+  if (f == 0) return;
+  const RowMajor flexibility = residual.flexibility, mass = residual.mass, coupling = residual.coupling;
+  hdf5::write_dataset(file, "/residual/node", {f}, residual.node.data(), where);
+  hdf5::write_dataset(file, "/residual/component", {f}, residual.component.data(), where);
+  hdf5::write_dataset(file, "/residual/flexibility", {f, f}, flexibility.data(), where);
+  hdf5::write_dataset(file, "/residual/mass", {f, f}, mass.data(), where);
+  hdf5::write_dataset(file, "/residual/coupling", {6, f}, coupling.data(), where);
 }
 
 void write_integrals(hdf5::Id file, const ModalIntegrals& sums, const std::string& where) {
@@ -228,6 +259,7 @@ std::string modal_body_image(const std::string& path, const ModalBody& body) {
   write_head(file.id(), body, path);
   write_nodes(file.id(), body, path);
   write_integrals(file.id(), body.integrals, path);
+  write_residual(file.id(), body.residual, path);
   return hdf5::file_image(std::move(file), path);
 }
 

@@ -25,6 +25,16 @@ struct ModalIntegrals {
 
 enum class ModalReference { nodes, mean_axis };
 
+/// What the modes leave out of the static answers to forces of size 1 at components of some nodes, f of them: w = K⁺ f −
+/// Φ ω⁻² Φᵀ f on the reference.
+struct ModalResidual {
+  std::vector<int> node;        ///< f: rows of node_name
+  std::vector<int> component;   ///< f: 0-2 translations, 3-5 rotations, axes of the body frame
+  Eigen::MatrixXd flexibility;  ///< f x f: fᵀ w
+  Eigen::MatrixXd mass;         ///< f x f: wᵀ M w
+  Eigen::MatrixXd coupling;     ///< 6 x f: Rᵀ M w of the rigid motions about the origin of the frame
+};
+
 /// n nodes, m modes. Vectors in axes of the body frame; modes are mass-normalised: w has the unit √mass length.
 struct ModalBody {
   std::string name;
@@ -45,6 +55,7 @@ struct ModalBody {
   Eigen::VectorXd omega2;                                   ///< m, ascending
   Eigen::VectorXd zeta;                                     ///< m, ratios of critical damping
   ModalIntegrals integrals;
+  ModalResidual residual;  ///< since version 1.1; without components: the file has none
 
   Eigen::Index modes() const { return omega2.size(); }
 };

@@ -93,7 +93,7 @@ struct FieldSource {
       case Fields::coordinates:
         return recovery.coordinates();
       case Fields::loads:
-        return recovery.loads ? inertia_loads : 0;
+        return recovery.loads ? recovery.loads->columns() : 0;
       case Fields::second_order:
         return recovery.second_order ? recovery.second_order->shapes() : 0;
     }

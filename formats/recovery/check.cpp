@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <tuple>
 
 #include <Eigen/LU>
 
@@ -139,14 +140,31 @@ void check_beams_and_shells(const Recovery& r, const Inspector& inspect) {
   }
 }
 
+void check_applied(const RecoveryLoads& loads, const Inspector& inspect) {
+  std::set<std::tuple<std::string, std::string, int>> seen;
+  for (std::size_t k = 0; k < loads.applied.size(); ++k) {
+    const AppliedLoad& load = loads.applied[k];
+    const bool is_case = !load.load_case.empty();
+    if (is_case == !load.node.empty())
+      inspect.fail("/applied/load_case", fmt::format("entry {} names a load case and a node, or neither", k));
+    if (printable_line(is_case ? load.load_case : load.node, 255) != (is_case ? load.load_case : load.node))
+      inspect.fail("/applied/load_case, /applied/node", fmt::format("entry {} is no line of at most 255 bytes", k));
+    if (load.component < 0 || load.component >= (is_case ? 1 : 6))
+      inspect.fail("/applied/component", fmt::format("entry {} is {}", k, load.component));
+    if (!seen.insert({load.load_case, load.node, load.component}).second)
+      inspect.fail("/applied/load_case, /applied/node", fmt::format("entry {} is given twice", k));
+  }
+}
+
 void check_loads(const Recovery& r, const Inspector& inspect) {
   if (!r.loads) return;
   const RecoveryLoads& loads = *r.loads;
   const auto n = static_cast<std::size_t>(r.coordinates());
   inspect.finite("/loads/reference_point", loads.reference_point.data(), 3);
-  inspect.size("/loads/share", static_cast<std::size_t>(loads.share.size()), n * inertia_loads,
-               "coordinates times loads");
-  inspect.finite("/loads/share", loads.share.data(), n * inertia_loads);
+  const auto columns = static_cast<std::size_t>(loads.columns());
+  inspect.size("/loads/share", static_cast<std::size_t>(loads.share.size()), n * columns, "coordinates times loads");
+  inspect.finite("/loads/share, /applied/share", loads.share.data(), n * columns);
+  check_applied(loads, inspect);
   inspect.size("/loads/stiffness", static_cast<std::size_t>(loads.stiffness.size()), n, "coordinates");
   inspect.finite("/loads/stiffness", loads.stiffness.data(), n);
   for (std::size_t k = 0; k < n; ++k)

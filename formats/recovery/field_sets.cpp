@@ -54,7 +54,36 @@ const char* forces_dataset_of(NodalForce force) {
   TISSERAND_ENSURE(false, "nodal force {}", static_cast<int>(force));
 }
 
+const char* applied_dataset_of(RecoveryField field) {
+  switch (field) {
+    case RecoveryField::translation:
+      return "/applied/translation";
+    case RecoveryField::rotation:
+      return "/applied/rotation";
+    case RecoveryField::beam_force:
+      return "/applied/beam_force";
+    case RecoveryField::shell_stress:
+      return "/applied/shell";
+    case RecoveryField::solid_stress:
+      return "/applied/solid";
+  }
+  TISSERAND_ENSURE(false, "recovery field {}", static_cast<int>(field));
+}
+
+int applied_columns(const Recovery& recovery) { return static_cast<int>(recovery.loads->applied.size()); }
+
 }  // namespace
+
+FieldSet of_applied(const Recovery& recovery, RecoveryField field) {
+  return {applied_dataset_of(field), items(recovery, field), width(field), applied_columns(recovery),
+          chunk_items(recovery, field)};
+}
+
+FieldSet of_applied_forces(const Recovery& recovery, NodalForce force) {
+  const bool turns = force == NodalForce::load_moment;
+  return {turns ? "/applied/moment" : "/applied/force", recovery.nodes(), 3, applied_columns(recovery),
+          chunk_items(recovery, RecoveryField::translation)};
+}
 
 FieldSet of_coordinates(const Recovery& recovery, RecoveryField field) {
   return {dataset_of(field), items(recovery, field), width(field), recovery.coordinates(),
@@ -86,9 +115,15 @@ std::vector<FieldSet> field_sets(const Recovery& recovery) {
     if (const FieldSet set = of_second_order(recovery, field); set.columns > 0) sets.push_back(set);
   if (!recovery.loads) return sets;
   for (const RecoveryField field : recovery_fields) sets.push_back(of_loads(recovery, field));
-  if (!recovery.loads->has_forces()) return sets;
-  for (const NodalForce force : nodal_forces)
-    if (const FieldSet set = of_forces(recovery, force); set.columns > 0) sets.push_back(set);
+  const RecoveryLoads& loads = *recovery.loads;
+  if (loads.has_forces())
+    for (const NodalForce force : nodal_forces)
+      if (const FieldSet set = of_forces(recovery, force); set.columns > 0) sets.push_back(set);
+  if (loads.applied.empty()) return sets;
+  for (const RecoveryField field : recovery_fields) sets.push_back(of_applied(recovery, field));
+  if (loads.has_forces())
+    for (const NodalForce force : {NodalForce::load_force, NodalForce::load_moment})
+      sets.push_back(of_applied_forces(recovery, force));
   return sets;
 }
 

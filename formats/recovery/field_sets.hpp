@@ -24,7 +24,11 @@ FieldSet of_forces(const Recovery& recovery, NodalForce force);
 /// `field`: translation or rotation.
 FieldSet of_second_order(const Recovery& recovery, RecoveryField field);
 
-/// All of a file: of coordinates, of shapes of second order, of loads, of forces on nodes.
+/// The same of applied loads (RecoveryLoads::applied); `force`: load_force or load_moment.
+FieldSet of_applied(const Recovery& recovery, RecoveryField field);
+FieldSet of_applied_forces(const Recovery& recovery, NodalForce force);
+
+/// All of a file: of coordinates, of shapes of second order, of inertia loads, of forces on nodes, of applied loads.
 std::vector<FieldSet> field_sets(const Recovery& recovery);
 
 }  // namespace tisserand::formats

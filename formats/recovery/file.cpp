@@ -18,6 +18,7 @@ constexpr hdf5::FileKind recovery_kind{"tisserand-recovery", "recovery file",
                                        "give a *.recovery.h5 file, as `reducer run` writes it with `recovery: yes`",
                                        "reduce the part again with a program of the same major version"};
 constexpr std::uint64_t most_entries = 200'000'000;  // of a table; bounds memory before it is taken
+constexpr std::uint64_t most_applied = 10'000;         // loads
 constexpr std::uint64_t block_bytes = 8u << 20;      // of what a rehearsal holds at once
 
 /// Tables of a file; every length is looked at before memory is taken.
@@ -26,6 +27,7 @@ class Tables {
   explicit Tables(const hdf5::InputFile& file) : file_(file) {}
 
   bool has(const std::string& dataset) const { return file_.has(dataset); }
+  const std::string& path() const { return file_.path(); }
   std::uint64_t length(const std::string& dataset) const {
     const hdf5::Shape shape = file_.info(dataset).shape;
     if (shape.empty() || shape[0] > most_entries)
@@ -117,6 +119,24 @@ void read_mesh(const Tables& tables, Recovery& r) {
   r.triangle_element = tables.integers("/surface/element");
 }
 
+/// Applied loads; their share behind that of the twelve.
+void read_applied(const Tables& tables, std::uint64_t coordinates, RecoveryLoads& loads) {
+  const std::vector<std::string> cases = tables.texts("/applied/load_case"), nodes = tables.texts("/applied/node");
+  const std::uint64_t count = cases.size();
+  const std::vector<int> component = tables.integers("/applied/component", {count});
+  if (nodes.size() != count || count > most_applied)
+    throw Error(fmt::format("has {} entries beside {} load cases, expected as many, {} at most", nodes.size(), count,
+                            most_applied),
+                tables.path() + ": /applied/node", "compare the file with formats/RECOVERY.md");
+  for (std::size_t k = 0; k < cases.size(); ++k) loads.applied.push_back({cases[k], nodes[k], component[k]});
+  const Numbers share = tables.numbers("/applied/share", {coordinates, count});
+  const auto columns = static_cast<Eigen::Index>(count);
+  loads.share.conservativeResize(Eigen::NoChange, inertia_loads + columns);
+  loads.share.rightCols(columns) =
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+          share.data(), static_cast<Eigen::Index>(coordinates), columns);
+}
+
 RecoveryLoads read_loads_table(const Tables& tables, std::uint64_t coordinates) {
   RecoveryLoads loads;
   loads.reference_point = Eigen::Map<const Eigen::Vector3d>(tables.numbers("/loads/reference_point", {3}).data());
@@ -126,6 +146,7 @@ RecoveryLoads read_loads_table(const Tables& tables, std::uint64_t coordinates) 
   const Numbers stiffness = tables.numbers("/loads/stiffness", {coordinates});
   loads.stiffness = Eigen::Map<const Eigen::VectorXd>(stiffness.data(), static_cast<Eigen::Index>(coordinates));
   loads.left_out = tables.numbers("/loads/left_out", {1})[0];
+  if (tables.has("/applied/share")) read_applied(tables, coordinates, loads);
   if (!tables.has("/loads/boundary_stiffness")) return loads;
   const std::uint64_t boundary = tables.length("/loads/boundary_stiffness");
   const Numbers S = tables.numbers("/loads/boundary_stiffness", {boundary, boundary});
@@ -231,7 +252,7 @@ std::vector<double> rows_of(const std::vector<Eigen::Matrix3d>& axes) {
 
 /// The oldest version that knows all that is in the file.
 const char* version_of(const Recovery& r) {
-  if (r.second_order) return "1.3";
+  if (r.second_order || (r.loads && !r.loads->applied.empty())) return "1.3";
   if (!r.node_number.empty() || (r.loads && r.loads->has_forces())) return "1.2";
   return r.loads ? "1.1" : "1.0";
 }
@@ -294,7 +315,8 @@ void write_mesh(const TableWriter& table, const Recovery& r) {
 }
 
 void write_loads(const TableWriter& table, const RecoveryLoads& loads) {
-  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> share = loads.share;
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const RowMajor share = loads.share.leftCols(inertia_loads);
   const auto n = static_cast<std::uint64_t>(loads.stiffness.size());
   table.numbers("/loads/reference_point", {3}, loads.reference_point.data());
   table.numbers("/loads/share", {n, static_cast<std::uint64_t>(inertia_loads)}, share.data());
@@ -303,6 +325,19 @@ void write_loads(const TableWriter& table, const RecoveryLoads& loads) {
   const auto boundary = static_cast<std::uint64_t>(loads.boundary_stiffness.rows());
   if (loads.has_forces())
     table.numbers("/loads/boundary_stiffness", {boundary, boundary}, loads.boundary_stiffness.data());
+  if (loads.applied.empty()) return;
+  const RowMajor applied = loads.share.rightCols(static_cast<Eigen::Index>(loads.applied.size()));
+  std::vector<std::string> cases, nodes;
+  std::vector<int> component;
+  for (const AppliedLoad& load : loads.applied) {
+    cases.push_back(load.load_case);
+    nodes.push_back(load.node);
+    component.push_back(load.component);
+  }
+  table.texts("/applied/load_case", cases);
+  table.texts("/applied/node", nodes);
+  table.integers("/applied/component", component);
+  table.numbers("/applied/share", {n, cases.size()}, applied.data());
 }
 
 void write_second_order(const TableWriter& table, const SecondOrderForms& forms, std::uint64_t n) {
@@ -350,19 +385,14 @@ struct RecoveryWriter::Impl {
     int written = 0;
   };
 
-  Impl(const std::string& path, const Recovery& recovery) : file(path) {
+  Impl(const std::string& path, const Recovery& recovery) : file(path), head(recovery) {
     for (const FieldSet& set : field_sets(recovery))
       fields.push_back(
           {hdf5::create_packed(file.id(), set.dataset, set.shape(), static_cast<std::uint64_t>(set.chunk), file.path()),
            set, 0});
   }
 
-  void append(std::string_view dataset, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-    const auto found =
-        std::ranges::find(fields, dataset, [](const Growing& one) { return std::string_view(one.set.dataset); });
-    if (found == fields.end() && rows.cols() == 0) return;  // of no modes
-    TISSERAND_ENSURE(found != fields.end(), "{} is not of this file", dataset);
-    Growing& growing = *found;
+  void append(Growing& growing, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
     const FieldSet& set = growing.set;
     const int count = static_cast<int>(rows.rows()) / set.width, end = growing.written + count;
     TISSERAND_ENSURE(rows.rows() == count * set.width && rows.cols() == set.columns && end <= set.items &&
@@ -380,6 +410,13 @@ struct RecoveryWriter::Impl {
     growing.written = end;
   }
 
+  Growing& of(const FieldSet& set) {
+    const auto found =
+        std::ranges::find_if(fields, [&](const Growing& one) { return std::string_view(one.set.dataset) == set.dataset; });
+    TISSERAND_ENSURE(found != fields.end(), "{} has no {}", file.path(), set.dataset);
+    return *found;
+  }
+
   void close_fields() {
     for (Growing& growing : fields) {
       TISSERAND_ENSURE(growing.written == growing.set.items, "{} of {} items", growing.written, growing.set.items);
@@ -387,7 +424,16 @@ struct RecoveryWriter::Impl {
     }
   }
 
+  /// Of inertia loads, and behind them of applied loads.
+  void append_loads(const FieldSet& inertia, const FieldSet& applied, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
+    TISSERAND_ENSURE(rows.cols() == inertia.columns + applied.columns, "{} columns for {}", rows.cols(),
+                     inertia.dataset);
+    append(of(inertia), rows.leftCols(inertia.columns));
+    if (applied.columns > 0) append(of(applied), rows.rightCols(applied.columns));
+  }
+
   hdf5::OutputFile file;
+  Recovery head;
   std::vector<Growing> fields;  ///< of field_sets()
 };
 
@@ -405,19 +451,24 @@ RecoveryWriter::RecoveryWriter(const std::string& path, const Recovery& recovery
 RecoveryWriter::~RecoveryWriter() = default;
 
 void RecoveryWriter::append(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-  impl_->append(of_coordinates(Recovery{}, field).dataset, rows);
+  impl_->append(impl_->of(of_coordinates(impl_->head, field)), rows);
 }
 
 void RecoveryWriter::append_loads(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-  impl_->append(of_loads(Recovery{}, field).dataset, rows);
+  impl_->append_loads(of_loads(impl_->head, field), of_applied(impl_->head, field), rows);
 }
 
 void RecoveryWriter::append_forces(NodalForce force, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-  impl_->append(of_forces(Recovery{}, force).dataset, rows);
+  if (rows.cols() == 0) return;  // of no modes
+  const FieldSet set = of_forces(impl_->head, force);
+  if (force == NodalForce::load_force || force == NodalForce::load_moment)
+    impl_->append_loads(set, of_applied_forces(impl_->head, force), rows);
+  else
+    impl_->append(impl_->of(set), rows);
 }
 
 void RecoveryWriter::append_second_order(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-  impl_->append(of_second_order(Recovery{}, field).dataset, rows);
+  impl_->append(impl_->of(of_second_order(impl_->head, field)), rows);
 }
 
 std::string RecoveryWriter::stage() {
@@ -437,6 +488,13 @@ struct RecoveryReader::Impl {
     TISSERAND_ENSURE(first >= 0 && count >= 0 && first + count <= set.items, "items {} + {} of {}", first, count,
                      set.dataset);
     return read_field(file, set, first, count);
+  }
+  /// Of inertia loads, and behind them of applied loads.
+  FieldRows read_loads(const FieldSet& inertia, const FieldSet& applied, int first, int count) const {
+    FieldRows rows(static_cast<Eigen::Index>(inertia.width) * count, inertia.columns + applied.columns);
+    rows.leftCols(inertia.columns) = read(inertia, first, count);
+    if (applied.columns > 0) rows.rightCols(applied.columns) = read(applied, first, count);
+    return rows;
   }
 
   hdf5::InputFile file;
@@ -464,12 +522,14 @@ FieldRows RecoveryReader::read(RecoveryField field, int first, int count) const 
 
 FieldRows RecoveryReader::read_loads(RecoveryField field, int first, int count) const {
   TISSERAND_ENSURE(impl_->recovery.loads, "{} has no loads", path());
-  return impl_->read(of_loads(impl_->recovery, field), first, count);
+  return impl_->read_loads(of_loads(impl_->recovery, field), of_applied(impl_->recovery, field), first, count);
 }
 
 FieldRows RecoveryReader::read_forces(NodalForce force, int first, int count) const {
   TISSERAND_ENSURE(impl_->recovery.loads && impl_->recovery.loads->has_forces(), "{} has no nodal forces", path());
-  return impl_->read(of_forces(impl_->recovery, force), first, count);
+  const FieldSet set = of_forces(impl_->recovery, force);
+  if (force == NodalForce::mode_force || force == NodalForce::mode_moment) return impl_->read(set, first, count);
+  return impl_->read_loads(set, of_applied_forces(impl_->recovery, force), first, count);
 }
 
 FieldRows RecoveryReader::read_second_order(RecoveryField field, int first, int count) const {

@@ -54,23 +54,32 @@ struct RecoveryElements {
 
 inline constexpr int inertia_loads = 12;  ///< six rigid accelerations, six products of angular velocities
 
+/// What else may act on the inside of the part: a load case, or a force or moment on a node of a modal body, of size 1.
+struct AppliedLoad {
+  std::string load_case;  ///< its name; empty: a force on a node
+  std::string node;       ///< name of the node, of a force
+  int component = 0;      ///< 0 to 2 forces, 3 to 5 moments, part axes
+};
+
 /// Static answers of the part to the inertia loads of its floating frame, with the boundary held, less what the
 /// internal coordinates hold of them: what the basis leaves out of displacement and stress. Loads: M D_a of the
 /// accelerations of the reference point (3) and of the angular accelerations (3), then those of products of angular
 /// velocities ω_j ω_k, jk = xx yy zz yz xz xy (COMPANION.md: g_a, g_jk).
 struct RecoveryLoads {
   Eigen::Vector3d reference_point = Eigen::Vector3d::Zero();  ///< part frame
-  Eigen::MatrixXd share;      ///< n x 12: Φᵀ g of internal coordinates, zero for those of the boundary
+  std::vector<AppliedLoad> applied;  ///< since version 1.3: columns behind the twelve
+  Eigen::MatrixXd share;      ///< n x columns(): Φᵀ g of internal coordinates, zero for those of the boundary
   Eigen::VectorXd stiffness;  ///< n: ω² of internal coordinates, zero for those of the boundary
   double left_out = 0.0;      ///< no mode that is left out has an ω² below this; 0: none is left out
   /// n_B x n_B: S̄ of the coordinates of the boundary; without entries: the file has no nodal forces (before version 1.2).
   Eigen::MatrixXd boundary_stiffness;
 
   bool has_forces() const { return boundary_stiffness.size() > 0; }
+  int columns() const { return inertia_loads + static_cast<int>(applied.size()); }
 };
 
 /// Forces of the inside on the nodes, by which the static answer of the unreduced part is what recovery gives
-/// (RECOVERY.md, nodal forces): those of the twelve loads, and S_II φ of each internal coordinate; part axes, on
+/// (RECOVERY.md, nodal forces): those of the loads, and S_II φ of each internal coordinate; part axes, on
 /// coordinates that ties leave independent. 3 per node.
 enum class NodalForce { load_force, load_moment, mode_force, mode_moment };
 inline constexpr std::array<NodalForce, 4> nodal_forces{NodalForce::load_force, NodalForce::load_moment,
@@ -162,9 +171,9 @@ class RecoveryWriter {
   /// The next items of a field: whole chunks, or to the last item. Throws Error (values beyond 32-bit numbers, disk
   /// full).
   void append(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows);
-  /// The same of the loads' answers: 12 columns. Only of a file with loads.
+  /// The same of the loads' answers: RecoveryLoads::columns(). Only of a file with loads.
   void append_loads(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows);
-  /// The same of forces on nodes: 12 columns, or one for each internal coordinate. Only of a file with nodal forces.
+  /// The same of forces on nodes: RecoveryLoads::columns(), or one for each internal coordinate. Only of a file with nodal forces.
   void append_forces(NodalForce force, const Eigen::Ref<const Eigen::MatrixXd>& rows);
   /// Translations or rotations of the shapes of second order. Only of a file with such shapes.
   void append_second_order(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows);
@@ -188,9 +197,9 @@ class RecoveryReader {
   const Recovery& recovery() const;
   /// Items [first, first + count) of a field: (width · count) x n, finite.
   FieldRows read(RecoveryField field, int first, int count) const;
-  /// The same of the loads' answers: (width · count) x 12. Only of a file with loads.
+  /// The same of the loads' answers: (width · count) x RecoveryLoads::columns(). Only of a file with loads.
   FieldRows read_loads(RecoveryField field, int first, int count) const;
-  /// Nodes [first, first + count): 3 count x 12, or x internal coordinates. Only of a file with nodal forces.
+  /// Nodes [first, first + count): 3 count x RecoveryLoads::columns(), or x internal coordinates. Only of a file with nodal forces.
   FieldRows read_forces(NodalForce force, int first, int count) const;
   /// Translations or rotations of nodes [first, first + count): 3 count x shapes of second order; of a file without:
   /// without columns.

@@ -55,6 +55,16 @@ std::vector<std::string> boundary_names(const ResultsLayout& layout) {
   return names;
 }
 
+/// "beam/gust", "beam/weight", ...: names between the offsets of each owner.
+std::vector<std::string> owned(const std::vector<std::string>& owners, const std::vector<int>& offset,
+                               const std::vector<std::string>& own) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i + 1 < offset.size() && i < owners.size(); ++i)
+    for (int k = offset[i]; k < offset[i + 1] && k < static_cast<int>(own.size()); ++k)
+      names.push_back(owners[i] + "/" + own[static_cast<std::size_t>(k)]);
+  return names;
+}
+
 void add_nodes(const ResultsLayout& layout, std::vector<Block>& blocks) {
   using Row = const ResultsRow&;
   const Units& u = layout.units;
@@ -95,6 +105,9 @@ void add_superelements(const ResultsLayout& layout, std::vector<Block>& blocks) 
   if (layout.strained)
     blocks.push_back(scalars("/superelements/y_strain", numbered(layout.superelements, layout.modes_offset), "",
                              [](Row r) { return r.y_strain.data(); }));
+  blocks.push_back(scalars("/superelements/load_factor",
+                           owned(layout.superelements, layout.load_case_offset, layout.load_cases), "1",
+                           [](Row r) { return r.load_factor.data(); }));
   Block boundary = vectors("/superelements/boundary_force", boundary_names(layout), wrench,
                            force.empty() ? "" : force + ", " + moment, [](Row r) { return r.boundary_force.data(); });
   for (std::size_t column = 0; column < boundary.width(); ++column)
@@ -107,6 +120,22 @@ void add_modal_bodies(const ResultsLayout& layout, std::vector<Block>& blocks) {
                            [](const ResultsRow& r) { return r.w.data(); }));
   blocks.push_back(scalars("/modal_bodies/w_rate", numbered(layout.modal_bodies, layout.modal_offset), "",
                            [](const ResultsRow& r) { return r.w_rate.data(); }));
+  using Row = const ResultsRow&;
+  const Units& u = layout.units;
+  const auto add = [&](const char* name, const std::string& unit, const double* (*values)(Row)) {
+    blocks.push_back(vectors(std::string("/modal_bodies/") + name, layout.modal_bodies, xyz, unit, values));
+  };
+  add("frame_acceleration", unit_label(u, 1, 0, -2), [](Row r) { return r.modal.acceleration.data(); });
+  add("frame_angular_velocity", with_radian(unit_label(u, 0, 0, -1)),
+      [](Row r) { return r.modal.angular_velocity.data(); });
+  add("frame_angular_acceleration", with_radian(unit_label(u, 0, 0, -2)),
+      [](Row r) { return r.modal.angular_acceleration.data(); });
+  const std::string force = unit_label(u, 1, 1, -2), moment = unit_label(u, 2, 1, -2);
+  Block nodes = vectors("/modal_bodies/node_force",
+                        owned(layout.modal_bodies, layout.modal_node_offset, layout.modal_nodes), wrench,
+                        force.empty() ? "" : force + ", " + moment, [](Row r) { return r.modal.node_force.data(); });
+  for (std::size_t column = 0; column < nodes.width(); ++column) nodes.units[column] = column % 6 < 3 ? force : moment;
+  blocks.push_back(nodes);
 }
 
 void add_joints(const ResultsLayout& layout, std::vector<Block>& blocks) {
@@ -236,9 +265,10 @@ bool chooses(const std::string& entry, const std::string& dataset) {
   return dataset == wanted || dataset.starts_with(wanted + "/") || matches_wildcard(dataset, wanted);
 }
 
-/// y without the strain that it stands for would give stresses that are wrong.
+/// y without the strain that it stands for would give stresses that are wrong, and so without the factors of load cases.
 bool belongs_to(const std::string& entry, const std::string& dataset) {
-  return dataset == "/superelements/y_strain" && chooses(entry, "/superelements/y");
+  return (dataset == "/superelements/y_strain" || dataset == "/superelements/load_factor") &&
+         chooses(entry, "/superelements/y");
 }
 
 std::string bare(const std::string& entry) { return entry.starts_with("/") ? entry.substr(1) : entry; }
@@ -290,7 +320,11 @@ void ResultsRow::resize(const ResultsLayout& layout) {
   y_strain.setZero(layout.strained ? last(layout.modes_offset) : 0);
   for (Eigen::Matrix3Xd* block : {&frame_acceleration, &frame_angular_velocity, &frame_angular_acceleration})
     block->setZero(3, superelements);
+  load_factor.setZero(static_cast<Eigen::Index>(layout.load_cases.size()));
   boundary_force.setZero(6, last(layout.boundary_offset));
+  for (Eigen::Matrix3Xd* block : {&modal.acceleration, &modal.angular_velocity, &modal.angular_acceleration})
+    block->setZero(3, static_cast<Eigen::Index>(layout.modal_bodies.size()));
+  modal.node_force.setZero(6, static_cast<Eigen::Index>(layout.modal_nodes.size()));
   w.setZero(last(layout.modal_offset));
   w_rate.setZero(last(layout.modal_offset));
   joint_force.setZero(3, joints);
@@ -409,7 +443,8 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
   full.switched = true;
   full.coordinates = full.motions = full.springs = full.stops = full.loads = {{"a", false}};
   full.couplings = {{"a", false, false}};
-  full.modes_offset = full.boundary_offset = full.modal_offset = {0, 1};
+  full.modes_offset = full.boundary_offset = full.modal_offset = full.load_case_offset = full.modal_node_offset = {0, 1};
+  full.load_cases = full.modal_nodes = {"a"};
   for (const Block& block : all_blocks(full)) {
     const std::string name = block.dataset.substr(1), group = name.substr(0, name.find('/'));
     known.push_back(name);

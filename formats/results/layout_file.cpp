@@ -78,10 +78,19 @@ void write_names(hdf5::Id file, const ResultsLayout& layout, const std::vector<B
     offsets("boundary_offset", layout.boundary_offset);
     if (!layout.boundary_nodes.empty())
       hdf5::write_texts(file, "/superelements/boundary_name", layout.boundary_nodes, where);
+    if (stores("/superelements/load_factor")) {
+      hdf5::write_texts(file, "/superelements/load_case", layout.load_cases, where);
+      offsets("load_case_offset", layout.load_case_offset);
+    }
   }
   if (stores("/modal_bodies/")) {
     hdf5::write_texts(file, "/modal_bodies/name", layout.modal_bodies, where);
     hdf5::write_dataset(file, "/modal_bodies/offset", {layout.modal_offset.size()}, layout.modal_offset.data(), where);
+    if (stores("/modal_bodies/node_force")) {
+      hdf5::write_texts(file, "/modal_bodies/node_name", layout.modal_nodes, where);
+      hdf5::write_dataset(file, "/modal_bodies/node_offset", {layout.modal_node_offset.size()},
+                          layout.modal_node_offset.data(), where);
+    }
   }
 }
 

@@ -46,6 +46,17 @@ std::vector<int> offsets(const hdf5::InputFile& file, const std::string& dataset
   return std::vector<int>(wide.begin(), wide.end());
 }
 
+/// As many as the offsets end with. Throws Error otherwise.
+std::vector<std::string> owned_names(const hdf5::InputFile& file, const std::string& dataset,
+                                     const std::vector<int>& offset) {
+  std::vector<std::string> list = names(file, dataset);
+  const std::size_t expected = offset.empty() ? 0 : static_cast<std::size_t>(offset.back());
+  if (list.size() != expected)
+    throw Error(fmt::format("holds {} names, its offsets end with {}", list.size(), expected),
+                fmt::format("{}: {}", file.path(), dataset), "compare the file with formats/RESULTS.md");
+  return list;
+}
+
 Unit read_unit(const hdf5::InputFile& file, const std::string& name) {
   return {file.number_attribute("/", name), file.text_attribute("/", name + "_label")};
 }
@@ -116,6 +127,10 @@ ResultsLayout read_layout(const hdf5::InputFile& file) {
   l.boundary_nodes = names(file, "/superelements/boundary_name");
   l.modal_bodies = names(file, "/modal_bodies/name");
   l.modal_offset = offsets(file, "/modal_bodies/offset", l.modal_bodies.size());
+  l.load_case_offset = offsets(file, "/superelements/load_case_offset", l.superelements.size());
+  l.load_cases = owned_names(file, "/superelements/load_case", l.load_case_offset);
+  l.modal_node_offset = offsets(file, "/modal_bodies/node_offset", l.modal_bodies.size());
+  l.modal_nodes = owned_names(file, "/modal_bodies/node_name", l.modal_node_offset);
   const std::size_t boundary = l.boundary_offset.empty() ? 0 : static_cast<std::size_t>(l.boundary_offset.back());
   if (l.boundary_nodes.size() != boundary) l.boundary_nodes.clear();
   l.simulated = read_simulated(file, l.nodes.size());

@@ -28,8 +28,12 @@ struct ResultsLayout {
   std::vector<int> boundary_offset;  ///< superelements.size() + 1; into the rows of boundary_force
   std::vector<std::string>
       boundary_nodes;  ///< boundary_offset.back() names of the rows of boundary_force; empty: numbers
+  std::vector<int> load_case_offset;     ///< superelements.size() + 1; into load_cases
+  std::vector<std::string> load_cases;   ///< of their parts, those that loads of the scene name
   std::vector<std::string> modal_bodies;
-  std::vector<int> modal_offset;  ///< modal_bodies.size() + 1; into the columns of w
+  std::vector<int> modal_offset;               ///< modal_bodies.size() + 1; into the columns of w
+  std::vector<int> modal_node_offset;          ///< modal_bodies.size() + 1; into modal_nodes
+  std::vector<std::string> modal_nodes;        ///< of each modal body those that something acts on, by their own names
   std::vector<std::string> joints;
   struct Coordinate {
     std::string name;     ///< "hinge", or "slide/z" of a joint with several
@@ -57,6 +61,13 @@ struct ResultsLayout {
   SimulatedScene simulated;
 };
 
+/// Of modal bodies, in axes of their parts: acceleration of the origin of the frame less gravity, angular velocity and
+/// its rate; wrench [force; moment about the node] on each of layout.modal_nodes.
+struct ModalFrames {
+  Eigen::Matrix3Xd acceleration, angular_velocity, angular_acceleration;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> node_force;
+};
+
 /// One instant. World frame unless said; sized once by resize(layout). Joint force and moment: what A's body exerts on
 /// B's body, at B's origin, in A's axes; so those of bushings and friction. Boundary force: wrench that each boundary
 /// node receives from the rest of the mechanism, world axes.
@@ -71,9 +82,11 @@ struct ResultsRow {
   Eigen::VectorXd y_strain;  ///< y with the second-order strain: what stress follows from; empty unless strained
   /// Of floating frames, in axes of the part: acceleration of the origin less gravity, angular velocity, its rate.
   Eigen::Matrix3Xd frame_acceleration, frame_angular_velocity, frame_angular_acceleration;
+  Eigen::VectorXd load_factor;                              ///< of layout.load_cases
   Eigen::Matrix<double, 6, Eigen::Dynamic> boundary_force;  ///< [force; moment]
   Eigen::VectorXd w;                                        ///< all modal bodies, modal_offset
   Eigen::VectorXd w_rate;                                   ///< of w
+  ModalFrames modal;
   Eigen::Matrix3Xd joint_force, joint_moment;
   Eigen::VectorXd joint_coordinate, joint_rate;                 ///< of layout.coordinates
   Eigen::VectorXd coupling_first_force, coupling_second_force;  ///< along the two coordinates, as of springs

@@ -59,6 +59,12 @@ LoadedModalBody mirrored(LoadedModalBody file, const Vector3d& axes) {
   Eigen::Matrix<double, 6, 1> sign;
   sign << axes, axes.prod() * axes;
   for (auto& X : body.X) X = (sign.asDiagonal() * X).eval();
+  ModalResidual& residual = body.residual;
+  Eigen::VectorXd own(static_cast<Eigen::Index>(residual.component.size()));
+  for (Eigen::Index k = 0; k < own.size(); ++k) own[k] = sign[residual.component[static_cast<std::size_t>(k)]];
+  for (Eigen::MatrixXd* matrix : {&residual.flexibility, &residual.mass})
+    *matrix = (own.asDiagonal() * *matrix * own.asDiagonal()).eval();
+  if (own.size() > 0) residual.coupling = (sign.asDiagonal() * residual.coupling * own.asDiagonal()).eval();
   mirror_integrals(axes, body.integrals);
   return file;
 }

@@ -134,6 +134,7 @@ class BodyBuilder {
     built.body.gravity = spec.gravity.value_or(c_.scene.gravity);
     built.body.offset = std::exchange(c_.model.sizes.modal, c_.model.sizes.modal + built.body.modes);
     const Matrix3d part_axes = built.frame_rotation.transpose();
+    built.body.axes = built.frame_rotation;
     add_frame(spec.name, {built.body.node, Vector3d::Zero(), part_axes});
     for (ModalNode& node : built.nodes) {
       const std::string name = spec.name + "/" + node.name;
@@ -143,6 +144,9 @@ class BodyBuilder {
       c_.model.modal_nodes.push_back(std::move(node));
       add_place(name, {c_.model.modal_nodes.back().node, Vector3d::Zero(), part_axes});
     }
+    if (!file.body.residual.node.empty())
+      c_.reference_models.push_back(
+          reference_model(file.body, built.body.modes, spec.name, built.body.node, units));
     c_.model.modal_bodies.push_back(std::move(built.body));
   }
 

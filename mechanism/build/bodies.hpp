@@ -11,6 +11,7 @@
 #include "mechanism/build/build_model.hpp"
 #include "mechanism/build/markers.hpp"
 #include "mechanism/build/mirrored_files.hpp"
+#include "mechanism/bodies/modal/reference_model.hpp"
 #include "mechanism/build/part_loads.hpp"
 #include "mechanism/build/superelements.hpp"
 
@@ -34,6 +35,7 @@ struct Construction {
   std::map<std::string, std::vector<PartResultant>> part_resultants;  ///< of load cases on rigid superelements
   std::set<std::string> vanished;                                     ///< joints that eliminated virtual bodies hung on
   std::vector<RigidArm> arms;
+  std::vector<ReferenceModel> reference_models;  ///< of modal bodies whose files hold what their modes leave out
   std::set<double> breakpoints;
   std::vector<std::string> notes;
   std::vector<BodyNote> body_notes;

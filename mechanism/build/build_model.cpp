@@ -6,6 +6,7 @@
 #include "mechanism/build/initial_state.hpp"
 #include "mechanism/build/joints.hpp"
 #include "mechanism/build/loads.hpp"
+#include "mechanism/build/modal_bodies.hpp"
 #include "mechanism/build/planar.hpp"
 #include "mechanism/build/tyres.hpp"
 
@@ -67,6 +68,7 @@ BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files) {
   for (const formats::LoadSpec& load : scene.loads) c.collect([&] { add_load(load, c); });
   for (const formats::PartLoadSpec& load : scene.part_loads) c.collect([&] { add_part_load(load, c); });
   c.throw_errors();
+  if (scene.planar_at.empty()) note_held_modes(c);
   if (!scene.planar_at.empty()) make_planar(initial, c);
 
   finish(c);

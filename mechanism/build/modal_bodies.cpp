@@ -1,18 +1,23 @@
 // Constants of modal bodies in the units of the scene.
 #include "mechanism/build/modal_bodies.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
 #include "common/error.hpp"
+#include "common/text.hpp"
+#include "mechanism/build/bodies.hpp"
 
 namespace tisserand::mechanism {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 
 int count_modes(const formats::ModalBody& file, const formats::ModalBodySpec& spec, const UnitConversion& units) {
   const int all = static_cast<int>(file.modes());
@@ -63,6 +68,101 @@ bool node_turns(const formats::ModalBody& file, std::size_t k) {
   return held == 3;
 }
 
+constexpr double told_excess = 0.02;    ///< of the first frequency
+constexpr double share_of_a_row = 0.1;  ///< of its largest entry, by which a component counts as held
+
+/// Six rows of a joint's side on a body -> on its components in axes of the frame and units of the file.
+void add_rows(const ReferenceModel& model, const std::string& node, const Eigen::Matrix<double, Eigen::Dynamic, 6>& B,
+              const Eigen::Matrix3d& R, MatrixXd& held) {
+  const Index first = held.rows();
+  held.conservativeResize(first + B.rows(), static_cast<Index>(model.nodes.size()));
+  held.bottomRows(B.rows()).setZero();
+  for (std::size_t k = 0; k < model.nodes.size(); ++k) {
+    if (model.nodes[k] != node) continue;
+    const int c = model.component[k];
+    const auto column = static_cast<Index>(k);
+    if (c < 3)
+      held.col(column).tail(B.rows()) = model.units.length * (B.leftCols<3>() * R.col(c));
+    else
+      held.col(column).tail(B.rows()) = B.col(c);
+  }
+}
+
+/// Nodes that fixed joints hold on the ground.
+std::set<int> grounded(const Model& model) {
+  std::set<int> nodes{-1};
+  for (const Joint& joint : model.joints) {
+    if (joint.kind != JointKind::fixed || (joint.a.node >= 0) == (joint.b.node >= 0)) continue;
+    const int node = std::max(joint.a.node, joint.b.node);
+    if (model.nodes[node].modal < 0 && model.nodes[node].translation >= 0 && model.nodes[node].rotation >= 0)
+      nodes.insert(node);
+  }
+  return nodes;
+}
+
+/// What joints to the nodes `others` (empty: to all of other bodies) hold of the body's components. Without rows if one
+/// acts where the file knows no component.
+MatrixXd held_rows(const ReferenceModel& model, const Construction& c, const std::set<int>& others) {
+  MatrixXd held(0, static_cast<Index>(model.nodes.size()));
+  const auto motion = [&c](int node) { return node < 0 ? NodeMotion{} : c.markers.start[node]; };
+  const auto is_own = [&](int node) {
+    return node >= 0 && c.model.nodes[node].modal >= 0 &&
+           c.model.modal_bodies[c.model.modal_nodes[c.model.nodes[node].modal].body].name == model.name;
+  };
+  for (const Joint& joint : c.model.joints)
+    for (const bool first : {true, false}) {
+      const int own = first ? joint.a.node : joint.b.node, other = first ? joint.b.node : joint.a.node;
+      if (!is_own(own) || is_own(other) || (!others.empty() && !others.contains(other))) continue;
+      const std::string& node = c.model.nodes[own].name;
+      if (std::ranges::find(model.nodes, node) == model.nodes.end()) return MatrixXd(0, held.cols());
+      JointTerms terms;
+      joint_constraints(joint, motion(joint.a.node), motion(joint.b.node), terms);
+      const Eigen::Matrix<double, Eigen::Dynamic, 6> B = terms.B.middleCols<6>(first ? 0 : 6).topRows(joint.size());
+      add_rows(model, node, B, c.markers.start[model.frame].R, held);
+    }
+  return held;
+}
+
+/// "'r' (rotations y, z)": what is held and the reference leaves free.
+std::string beyond_reference(const ReferenceModel& model, const MatrixXd& held) {
+  std::vector<std::string> texts;
+  for (std::size_t k = 0; k < model.nodes.size();) {
+    std::size_t end = k;
+    std::string moves, turns;
+    for (; end < model.nodes.size() && model.nodes[end] == model.nodes[k]; ++end) {
+      bool counts = false;
+      for (Index r = 0; r < held.rows(); ++r)
+        counts = counts || (!model.held[end] && std::abs(held(r, static_cast<Index>(end))) >
+                                                    share_of_a_row * held.row(r).cwiseAbs().maxCoeff());
+      if (!counts) continue;
+      std::string& text = model.component[end] < 3 ? moves : turns;
+      text += (text.empty() ? "" : ", ") + std::string(1, "xyz"[model.component[end] % 3]);
+    }
+    const std::string own = model.nodes[k].substr(model.name.size() + 1);
+    if (!moves.empty() && !turns.empty()) moves += ", ";
+    if (!turns.empty()) moves += (turns.size() > 1 ? "rotations " : "rotation ") + turns;
+    if (!moves.empty()) texts.push_back(fmt::format("'{}' ({})", own, moves));
+    k = end;
+  }
+  return join(texts, ", ");
+}
+
+std::string too_stiff(const ReferenceModel& model, const MatrixXd& held, const HeldFrequencies& found,
+                      const Units& units) {
+  const double to_hertz = 1.0 / (2.0 * std::numbers::pi * model.units.time);
+  const std::string what = beyond_reference(model, held), unit = unit_label(units, 0, 0, -1) == "s^-1" ? " Hz" : "";
+  const std::string by_modes =
+      std::isinf(found.by_modes)
+          ? fmt::format("cannot deform by its {} modes", model.omega2.size())
+          : fmt::format("has its first frequency at {:.4g}{} by its {} modes", found.by_modes * to_hertz, unit,
+                        model.omega2.size());
+  return fmt::format(
+      "modal body '{}' is too stiff: the scene holds it on the ground at {}, which the `reference` of its modes leaves "
+      "free. The body alone, so held, {}; with its static flexibility there it has {:.4g}{}. Take more modes, a "
+      "`reference` that holds what the scene holds, or the superelement of the part",
+      model.name, what.empty() ? "its nodes" : what, by_modes, found.with_residual * to_hertz, unit);
+}
+
 }  // namespace
 
 BuiltModalBody build_modal_body(const formats::ModalBody& file, const formats::ModalBodySpec& spec,
@@ -88,6 +188,20 @@ BuiltModalBody build_modal_body(const formats::ModalBody& file, const formats::M
   const Eigen::Vector4d& q = file.frame_orientation;
   built.frame_rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
   return built;
+}
+
+void note_held_modes(Construction& c) {
+  const std::set<int> ground = grounded(c.model);
+  for (const ReferenceModel& model : c.reference_models) {
+    const MatrixXd held = held_rows(model, c, ground);
+    if (held.rows() == 0 || model.omega2.size() == 0) continue;
+    const HeldFrequencies found = held_frequencies(model, held);
+    if (!(found.with_residual > 0.0) || !(found.by_modes > (1.0 + told_excess) * found.with_residual)) continue;
+    // The same with all joints: a body between moving ones may have the modes that it needs.
+    const HeldFrequencies joined = held_frequencies(model, held_rows(model, c, {}));
+    if (joined.by_modes > 0.0 && joined.by_modes < (1.0 + told_excess) * joined.with_residual) continue;
+    c.notes.push_back(too_stiff(model, held, found, c.model.units));
+  }
 }
 
 }  // namespace tisserand::mechanism

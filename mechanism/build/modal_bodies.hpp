@@ -21,4 +21,10 @@ struct BuiltModalBody {
 BuiltModalBody build_modal_body(const formats::ModalBody& file, const formats::ModalBodySpec& spec,
                                 const UnitConversion& units);
 
+struct Construction;
+
+/// Notes each modal body whose first frequency, with held what joints to ground hold, is too high by more than 2 % for
+/// want of static flexibility. After all joints; not of planar scenes, where motion out of the plane does not matter.
+void note_held_modes(Construction& c);
+
 }  // namespace tisserand::mechanism

@@ -65,6 +65,13 @@ void scatter_pulled(const Model& model, const ElementMap& map, const double* for
   });
 }
 
+void add_pulled_force(const Model& model, const ElementMap& map, const double* force, Evaluation& evaluation) {
+  scatter_pulled(model, map, force, evaluation, evaluation.residual);
+  for (std::size_t c = 0; c < map.carriers.size(); ++c)
+    if (const int modal = modal_node(model, map.carriers[c]); modal >= 0)
+      evaluation.modal_forces[modal] += Eigen::Map<const Vector6d>(force + 6 * c);
+}
+
 CarrierMatrix pulled_rows(const Model& model, const ElementMap& map, const LocalMatrix& B, const Evaluation& evaluation,
                           Eigen::VectorXd& buffer) {
   CarrierMatrix rows(buffer.data(), B.rows(), static_cast<Index>(map.coordinates.size()));

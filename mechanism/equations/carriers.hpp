@@ -30,6 +30,9 @@ LocalMatrix local_view(const Matrix& m) {
 void scatter_pulled(const Model& model, const ElementMap& map, const double* force, const Evaluation& evaluation,
                     Eigen::VectorXd& result);
 
+/// The same onto the residual; modal nodes keep what they got (Evaluation::modal_forces).
+void add_pulled_force(const Model& model, const ElementMap& map, const double* force, Evaluation& evaluation);
+
 /// Tᵀ K T + ∂(Tᵀ force)/∂q, n x n: the tangent of a force that the carriers receive.
 CarrierMatrix pulled_tangent(const Model& model, const ElementMap& map, const LocalMatrix& K, const double* force,
                              Evaluation& evaluation);
@@ -69,6 +72,14 @@ inline void scatter_in_plane(const Model& model, const ElementMap& map, int carr
     scatter_in_plane(map, carrier, force, result);
   else
     scatter_through_carrier(model, map, carrier, force, evaluation, result);
+}
+/// The same onto the residual; modal nodes keep what they got (Evaluation::modal_forces).
+inline void add_force_in_plane(const Model& model, const ElementMap& map, int carrier, const Eigen::Vector3d& force,
+                               Evaluation& evaluation) {
+  scatter_in_plane(model, map, carrier, force, evaluation, evaluation.residual);
+  if (map.carriers.empty()) return;
+  if (const int modal = modal_node(model, map.carriers[carrier / 3]); modal >= 0)
+    for (int c = 0; c < 3; ++c) evaluation.modal_forces[modal][planar_columns[c]] += force[c];
 }
 
 /// Multiplies the columns of turns with T(displacement of the step): rows for increments of rotation vectors.

@@ -78,6 +78,7 @@ Evaluation::Evaluation(const Model& model)
   for (std::size_t i = 0; i < model.superelements.size(); ++i) superelements.push_back(make_scratch(body_of(model, i)));
   for (const ModalBody& body : model.modal_bodies) modal_bodies.push_back(make_scratch(body));
   for (const ModalNode& node : model.modal_nodes) modal_nodes.push_back(make_terms(node));
+  modal_forces.assign(model.modal_nodes.size(), Vector6d::Zero());
 }
 
 void require_stage([[maybe_unused]] const Evaluation& evaluation, [[maybe_unused]] Stage stage) {

@@ -116,7 +116,7 @@ void add_along(const Model& model, std::size_t at, double Q, Evaluation& evaluat
   if (model.coordinates[at].planar) {
     for (const int carrier : {0, 3}) {
       const Vector3d force = Q * in_plane(G, carrier);
-      scatter_in_plane(model, map, carrier, force, evaluation, evaluation.residual);
+      add_force_in_plane(model, map, carrier, force, evaluation);
       note_scale_in_plane(force, evaluation);
     }
     return;
@@ -187,7 +187,7 @@ void add_joints(const Model& model, const State& state, Evaluation& evaluation) 
       for (const int carrier : {0, 3}) {
         const Vector3d force =
             transposed_times_in_plane(joint, evaluation.joints[i], state.lambda().data() + joint.row, carrier);
-        scatter_in_plane(model, model.joints.maps[i], carrier, force, evaluation, evaluation.residual);
+        add_force_in_plane(model, model.joints.maps[i], carrier, force, evaluation);
         note_scale_in_plane(force, evaluation);
       }
       continue;

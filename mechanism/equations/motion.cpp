@@ -64,6 +64,7 @@ void update_motion(const Model& model, const State& state, Evaluation& evaluatio
 
 /// Frames, modes and the nodes that something acts on.
 void update_modal_bodies(const Model& model, const State& state, Evaluation& evaluation) {
+  for (Vector6d& force : evaluation.modal_forces) force.setZero();  // what acts there is added with all forces
   for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
     const ModalBody& body = model.modal_bodies[i];
     const int first = model.sizes.first_modal() + body.offset;

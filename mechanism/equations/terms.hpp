@@ -53,7 +53,7 @@ void add_force(const Model& model, const ElementMap& map, const Vector& local, E
   if (map.carriers.empty())
     scatter(map, local, evaluation.residual);
   else
-    scatter_pulled(model, map, local.data(), evaluation, evaluation.residual);
+    add_pulled_force(model, map, local.data(), evaluation);
 }
 
 /// Adds factor times the local matrix ∂(force)/∂(local coordinates) to the stored values; `force()` gives the local

@@ -49,7 +49,7 @@ void fill_places(const Model& model, const Evaluation& evaluation, formats::Resu
 }
 
 void fill_superelements(const Model& model, Evaluation& evaluation, formats::ResultsRow& row) {
-  Eigen::Index y = 0, boundary = 0;
+  Eigen::Index y = 0, boundary = 0, load_case = 0;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const SuperelementBody& body = body_of(model, i);
     SuperelementScratch& scratch = evaluation.superelements[i];
@@ -68,6 +68,9 @@ void fill_superelements(const Model& model, Evaluation& evaluation, formats::Res
     row.frame_angular_velocity.col(column) = frame.angular_velocity;
     row.frame_angular_acceleration.col(column) = frame.angular_acceleration;
     y += count;
+    const auto cases = static_cast<Eigen::Index>(body.load_cases.size());
+    if (cases > 0) row.load_factor.segment(load_case, cases) = scratch.forces.loads.factors;
+    load_case += cases;
     for (std::size_t j = 0; j < body.node.size(); ++j, ++boundary) {
       const SuperelementNode& node = body.node[j];
       row.boundary_force.col(boundary).setZero();
@@ -213,6 +216,72 @@ void add_force_names(const Model& model, formats::ResultsLayout& layout) {
   for (const Friction& friction : model.frictions) layout.frictions.push_back(model.joints[friction.joint].name);
 }
 
+/// The name of a node within its body.
+std::string own_name(const Model& model, const ModalNode& node) {
+  const std::string& body = model.modal_bodies[node.body].name;
+  return node.name.starts_with(body + "/") ? node.name.substr(body.size() + 1) : node.name;
+}
+
+/// What acts on a node, [force; moment about the node] in axes of the part.
+Vector6d received(const Model& model, const ModalNode& node, const Vector6d& residual, const Evaluation& evaluation) {
+  const ModalBody& body = model.modal_bodies[node.body];
+  const Matrix3d to_part = body.axes * motion_of(evaluation, body.node).R.transpose();
+  Vector6d force;
+  force.head<3>() = -(to_part * residual.head<3>());
+  force.tail<3>() = -(to_part * (motion_of(evaluation, node.node).R * residual.tail<3>()));
+  return force;
+}
+
+/// Names and offsets of modal bodies, and of those of their nodes that something acts on.
+void add_modal_names(const Model& model, formats::ResultsLayout& layout) {
+  layout.modal_offset = layout.modal_node_offset = {0};
+  for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
+    const ModalBody& body = model.modal_bodies[i];
+    layout.modal_bodies.push_back(body.name);
+    layout.modal_offset.push_back(layout.modal_offset.back() + body.modes_in_space());
+    for (const ModalNode& node : model.modal_nodes)
+      if (node.active && node.body == static_cast<int>(i)) layout.modal_nodes.push_back(own_name(model, node));
+    layout.modal_node_offset.push_back(static_cast<int>(layout.modal_nodes.size()));
+  }
+}
+
+/// Motion of the frames of modal bodies in axes of their parts, after evaluate().
+void fill_modal_frames(const Model& model, const Evaluation& evaluation, formats::ResultsRow& row) {
+  for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
+    const ModalBody& body = model.modal_bodies[i];
+    const NodeMotion& frame = motion_of(evaluation, body.node);
+    const auto column = static_cast<Eigen::Index>(i);
+    row.modal.acceleration.col(column) =
+        body.axes * (frame.R.transpose() * (frame.xdd - evaluation.load_factor * body.gravity));
+    row.modal.angular_velocity.col(column) = body.axes * frame.Omega;
+    row.modal.angular_acceleration.col(column) = body.axes * frame.Omegad;
+  }
+}
+
+/// Forces on nodes of modal bodies, after evaluate() of `running`, a model of the same scene as `whole`, whose layout the
+/// row has. A body that is rigid in `running` has no forces, and no motion of the frame that would load it.
+void fill_modal_forces(const Model& whole, const Model& running, const Evaluation& evaluation,
+                       formats::ResultsRow& row) {
+  row.modal.node_force.setZero();
+  Eigen::Index column = 0;
+  for (std::size_t i = 0; i < whole.modal_bodies.size(); ++i) {
+    const auto same = std::ranges::find(running.modal_bodies, whole.modal_bodies[i].name, &ModalBody::name);
+    const bool runs = same != running.modal_bodies.end();
+    if (!runs)
+      for (Eigen::Matrix3Xd* block :
+           {&row.modal.acceleration, &row.modal.angular_velocity, &row.modal.angular_acceleration})
+        block->col(static_cast<Eigen::Index>(i)).setZero();
+    const int body = static_cast<int>(same - running.modal_bodies.begin());
+    for (const ModalNode& node : whole.modal_nodes) {
+      if (!node.active || node.body != static_cast<int>(i)) continue;
+      for (std::size_t k = 0; runs && k < running.modal_nodes.size(); ++k)
+        if (const ModalNode& own = running.modal_nodes[k]; own.body == body && own.name == node.name)
+          row.modal.node_force.col(column) = received(running, own, evaluation.modal_forces[k], evaluation);
+      ++column;
+    }
+  }
+}
+
 }  // namespace
 
 void keep_chosen_places(const formats::Scene& scene, Model& model) {
@@ -238,6 +307,7 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
   for (const PlaceAlias& alias : model.place_aliases) layout.node_aliases.push_back({alias.name, alias.place});
   layout.modes_offset = {0};
   layout.boundary_offset = {0};
+  layout.load_case_offset = {0};
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const SuperelementBody& body = body_of(model, i);
     layout.superelements.push_back(model.superelements[i].name);
@@ -245,12 +315,10 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
     layout.boundary_offset.push_back(layout.boundary_offset.back() + static_cast<int>(body.node.size()));
     for (const SuperelementNode& node : body.node) layout.boundary_nodes.push_back(node.name);
     layout.strained = layout.strained || body.second_order.stiffening;
+    for (const BodyLoadCase& load : body.load_cases) layout.load_cases.push_back(load.name);
+    layout.load_case_offset.push_back(static_cast<int>(layout.load_cases.size()));
   }
-  layout.modal_offset = {0};
-  for (const ModalBody& body : model.modal_bodies) {
-    layout.modal_bodies.push_back(body.name);
-    layout.modal_offset.push_back(layout.modal_offset.back() + body.modes_in_space());
-  }
+  add_modal_names(model, layout);
   for (const Joint& joint : model.joints) layout.joints.push_back(joint.name);
   for (const Tie& tie : model.ties) layout.joints.push_back(tie.name);
   for (const Coordinate& c : model.coordinates)
@@ -292,6 +360,7 @@ void fill_bodies(const Model& model, const State& state, Evaluation& evaluation,
     fill(state.v().segment(model.sizes.first_modal() + body.offset, body.modes), row.w_rate.segment(first, modes));
     first += modes;
   }
+  fill_modal_frames(model, evaluation, row);
 }
 
 /// After evaluate() and update_modal_nodes().
@@ -321,8 +390,9 @@ void fill_actions(const Model& model, const State& state, Evaluation& evaluation
 /// what is left over there.
 void fill_rigid_superelement(const Model& model, std::size_t i, const Evaluation& evaluation,
                              formats::ResultsRow& row) {
-  Eigen::Index y = 0, boundary = 0;
+  Eigen::Index y = 0, boundary = 0, load_case = 0;
   for (std::size_t k = 0; k < i; ++k) {
+    load_case += static_cast<Eigen::Index>(body_of(model, k).load_cases.size());
     y += file_coordinate_count(body_of(model, k));
     boundary += static_cast<Eigen::Index>(body_of(model, k).node.size());
   }
@@ -330,6 +400,7 @@ void fill_rigid_superelement(const Model& model, std::size_t i, const Evaluation
   row.y.segment(y, file_coordinate_count(body)).setZero();
   row.y_rate.segment(y, file_coordinate_count(body)).setZero();
   if (row.y_strain.size() > 0) row.y_strain.segment(y, file_coordinate_count(body)).setZero();
+  row.load_factor.segment(load_case, static_cast<Eigen::Index>(body.load_cases.size())).setZero();
   for (Eigen::Matrix3Xd* block :
        {&row.frame_acceleration, &row.frame_angular_velocity, &row.frame_angular_acceleration})
     block->col(static_cast<Eigen::Index>(i)).setZero();
@@ -348,6 +419,7 @@ void fill_rigid_superelement(const Model& model, std::size_t i, const Evaluation
 void fill_row(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
   fill_bodies(model, state, evaluation, row);
   fill_actions(model, state, evaluation, row);
+  fill_modal_forces(model, model, evaluation, row);
 }
 
 void fill_row(const RowSource& running, const RowSource& whole, formats::ResultsRow& row) {
@@ -367,6 +439,7 @@ void fill_row(const RowSource& running, const RowSource& whole, formats::Results
   evaluate(running.model, running.state, running.evaluation);
   update_modal_nodes(running.model, running.evaluation);
   fill_actions(running.model, running.state, running.evaluation, row);
+  fill_modal_forces(whole.model, running.model, running.evaluation, row);
 }
 
 }  // namespace tisserand::mechanism

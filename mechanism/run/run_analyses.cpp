@@ -32,12 +32,15 @@ void blank(formats::AnalysisKind kind, formats::ResultsRow& row) {
   row.boundary_force.setConstant(none);
   row.friction_force.setConstant(none);
   row.friction_moment.setConstant(none);
+  row.modal.node_force.setConstant(none);
   row.work = row.dissipated = row.balance = row.residual = none;
   if (kind == formats::AnalysisKind::kinematics) return;
   row.node_acceleration.setConstant(none);
   row.node_angular_acceleration.setConstant(none);
   row.frame_acceleration.setConstant(none);
   row.frame_angular_acceleration.setConstant(none);
+  row.modal.acceleration.setConstant(none);
+  row.modal.angular_acceleration.setConstant(none);
 }
 
 /// Work of drives, loads and dampers by the trapezoidal rule over the step that has ended.

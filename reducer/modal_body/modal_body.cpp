@@ -14,6 +14,7 @@
 #include "common/parallel.hpp"
 #include "common/text.hpp"
 #include "reducer/elements/element_matrices.hpp"
+#include "reducer/modal_body/static_answers.hpp"
 #include "reducer/modes/full_model.hpp"
 #include "reducer/modes/internal_modes.hpp"
 #include "reducer/system/assembly.hpp"
@@ -246,6 +247,33 @@ ModalBodyCertificate describe(const formats::ModalBody& body, const std::string&
   return c;
 }
 
+/// What the modes leave out, at all nodes that the part names.
+LumpedAnswers answers_of(const Mesh& mesh, const Mesh& lumped, const System& system, const LumpedModes& modes,
+                         const std::vector<LumpedNode>& nodes, const formats::ModalBody& body) {
+  AnsweredBody asked{system, held_partition(lumped, system).boundary, modes.lambda, modes.q, {}, {}, mesh.position,
+                     body.frame_position};
+  for (const LumpedNode& node : nodes) asked.masses.push_back({node.mass, node.arm});
+  for (const MeshBoundary& boundary : mesh.boundary) asked.nodes.push_back({boundary.name, boundary.node});
+  for (const FrameNode& held : mesh.held)
+    if (std::ranges::find(asked.nodes, held.node, &NamedNode::node) == asked.nodes.end())
+      asked.nodes.push_back({held.name, held.node});
+  return lumped_answers(asked);
+}
+
+/// Of a large number of nodes the file would be large and nobody holds them all: none is written.
+void set_residual(const LumpedAnswers& answers, formats::ModalBody& body) {
+  constexpr std::size_t most = 600;
+  if (answers.forces.size() > most) return;
+  for (const formats::AppliedLoad& force : answers.forces) {
+    const auto row = std::ranges::find(body.node_name, force.node);
+    body.residual.node.push_back(static_cast<int>(row - body.node_name.begin()));
+    body.residual.component.push_back(force.component);
+  }
+  body.residual.flexibility = answers.flexibility;
+  body.residual.mass = answers.mass;
+  body.residual.coupling = answers.coupling;
+}
+
 struct FoundBody {
   formats::ModalBody body;
   std::string solver;
@@ -269,12 +297,19 @@ FoundBody find_body(const Mesh& mesh, const formats::Part& part, double lowest, 
   body.zeta.setConstant(modes.lambda.size(), request.damping);
   fill(mesh, system, modes, nodes, body);
   body.integrals = formats::integrals_of(body);
+  const std::vector<LumpedNode> all = nodes;
   if (!request.all_nodes) {
     std::erase_if(nodes, [](const LumpedNode& node) { return !node.kept; });
     fill(mesh, system, modes, nodes, body);
   }
   set_reference(mesh, body);
-  if (recover) recover(recovery_source(mesh, system, modes.q, body));
+  LumpedAnswers answers = answers_of(mesh, lumped, system, modes, all, body);
+  set_residual(answers, body);
+  if (recover) {
+    formats::RecoveryLoads loads{body.frame_position,      std::move(answers.forces),       std::move(answers.share),
+                                 body.omega2, body.omega2.maxCoeff(), {}};
+    recover(recovery_source(mesh, system, modes.q, body, std::move(loads), std::move(answers.x)));
+  }
   return {std::move(body), modes.solver};
 }
 

@@ -5,9 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "common/text.hpp"
 #include "formats/recovery/load_factors.hpp"
-#include "formats/yaml/tree.hpp"
 #include "reducer/recover/stresses.hpp"
 
 namespace tisserand::reducer {
@@ -52,11 +50,12 @@ void raise_largest(const formats::Recovery& r, const BodyMotion& unit, const Fie
 /// The largest stress of the mesh under each load with the factor 1.
 VectorXd stress_of_loads(const formats::RecoveryReader& file, const BodyMotion& still) {
   BodyMotion unit = still;
-  unit.y = unit.y_strain = MatrixXd::Zero(file.recovery().coordinates(), formats::inertia_loads);
-  unit.load_factor = MatrixXd::Identity(formats::inertia_loads, formats::inertia_loads);
-  unit.second_order.resize(0, formats::inertia_loads);
+  const Index columns = file.recovery().loads->columns();
+  unit.y = unit.y_strain = MatrixXd::Zero(file.recovery().coordinates(), columns);
+  unit.load_factor = MatrixXd::Identity(columns, columns);
+  unit.second_order.resize(0, columns);
   unit.mirror.setOnes();
-  VectorXd largest = VectorXd::Zero(formats::inertia_loads);
+  VectorXd largest = VectorXd::Zero(columns);
   for_field_blocks(file, unit, [&](const FieldBlock& block) { raise_largest(file.recovery(), unit, block, largest); });
   return largest;
 }
@@ -80,31 +79,15 @@ bool may_have_loads(const formats::Recovery& recovery, std::vector<std::string>&
 }
 
 std::string unknown_loads_note() {
-  return "the results do not hold the acceleration of the floating frame (written before version 1.10, or of an "
-         "analysis without accelerations): stress that the modes leave out is not added; run the scene again";
-}
-
-std::string load_cases_note(const formats::SimulatedScene& scene, const std::string& body) {
-  if (scene.text.empty()) return "";
-  const formats::YamlDocument document = formats::parse_yaml(scene.text, "/scene/text");
-  const formats::YamlNode* loads = formats::find_child(document.root, "loads");
-  std::vector<std::string> names;
-  for (const formats::YamlNode& load : loads == nullptr ? std::vector<formats::YamlNode>{} : loads->children) {
-    const formats::YamlNode *type = formats::find_child(load, "type"), *of = formats::find_child(load, "body");
-    if (type != nullptr && of != nullptr && type->text == "part_load" && of->text == body)
-      names.push_back(fmt::format("'{}'", load.key));
-  }
-  if (names.empty()) return "";
-  return fmt::format(
-      "load cases of the part act on the body ({}): the stress of load cases that the modes leave out is neither added "
-      "nor estimated; with more `modes` or `moments` in the part file less of it is left out",
-      join(names, ", "));
+  return "the results do not hold the acceleration of the floating frame (written before version 1.10, of modal bodies "
+         "before 1.11, without these channels, or of an analysis without accelerations): stress that the modes leave out "
+         "is not added; run the scene again";
 }
 
 void add_load_factors(const formats::Recovery& recovery, const formats::ResultsReader& results,
-                      const std::vector<std::size_t>& rows, std::size_t row, BodyMotion& motion) {
-  const formats::LoadFactors loads =
-      formats::load_factors(recovery, results, rows, {row, motion.mirror, motion.origin, motion.to_scene});
+                      const std::vector<std::size_t>& rows, const BodyRow& body, BodyMotion& motion) {
+  const formats::LoadFactors loads = formats::load_factors(
+      recovery, results, rows, {body.row, motion.mirror, motion.origin, motion.to_scene, body.is_modal});
   if (!loads.known()) return;
   motion.load_factor = loads.factor;
   motion.spin_squared = loads.spin_squared;

@@ -19,14 +19,18 @@ bool may_have_loads(const formats::Recovery& recovery, std::vector<std::string>&
 /// What is said where the results do not hold the motion of the frame.
 std::string unknown_loads_note();
 
-/// What is said where load cases of the part act on the body in the run, whose static answers the file does not hold;
-/// empty where none do, or where the results do not hold the scene.
-std::string load_cases_note(const formats::SimulatedScene& scene, const std::string& body);
+/// Notes on load cases that act on the body and on forces on its nodes whose static answers cannot be added: the
+/// recovery file has none, or the results do not hold their factors.
+std::vector<std::string> applied_loads_notes(const formats::Recovery& recovery, const formats::ResultsLayout& layout,
+                                             const BodyRow& body);
 
-/// Sets load_factor and spin_squared of the motion, at the rows of superelement `row`, where the results hold the
-/// motion of the frame.
+/// "inertia, weight and load cases": the loads whose answers the recovery file has.
+std::string answered_loads(const formats::Recovery& recovery);
+
+/// Sets load_factor and spin_squared of the motion, at the rows of the body, where the results hold the motion of its
+/// frame.
 void add_load_factors(const formats::Recovery& recovery, const formats::ResultsReader& results,
-                      const std::vector<std::size_t>& rows, std::size_t row, BodyMotion& motion);
+                      const std::vector<std::size_t>& rows, const BodyRow& body, BodyMotion& motion);
 
 /// n: the largest forces that the loads may have on each mode, share by share.
 Eigen::VectorXd reach_of_loads(const formats::Recovery& recovery, const BodyMotion& motion);

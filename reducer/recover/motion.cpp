@@ -155,8 +155,8 @@ MotionReader::MotionReader(const formats::Recovery& recovery, const formats::Res
     notes_.push_back(
         "the results were written before version 1.10: of a body with its companion file, stress holds the strain of "
         "foreshortening, which is none; run the scene again");
-  if (!body_.is_modal) has_loads_ = may_have_loads(recovery, notes_);
-  if (std::string note = load_cases_note(layout.simulated, body_.name); !note.empty()) notes_.push_back(std::move(note));
+  has_loads_ = may_have_loads(recovery, notes_);
+  for (std::string& note : applied_loads_notes(recovery, layout, body_)) notes_.push_back(std::move(note));
   look_at_all(request);
 }
 
@@ -176,7 +176,7 @@ BodyMotion MotionReader::stored(Index first, Index count) const {
   if (body_.is_modal) motion.y /= std::sqrt(motion.to_scene.mass) * motion.to_scene.length;
   if (body_.is_modal) motion.y_strain = motion.y;
   add_frame(layout, results_, body_, rows, motion);
-  if (has_loads_) add_load_factors(recovery_, results_, rows, body_.row, motion);
+  if (has_loads_) add_load_factors(recovery_, results_, rows, body_, motion);
   return motion;
 }
 

@@ -23,7 +23,7 @@ struct BodyMotion {
   Eigen::MatrixXd y_strain;      ///< the same of what stress follows from: y with the second-order strain
   Eigen::RowVectorXd stiffened;  ///< T: 1 of instants at which the body had its stiffening, else 0
   Eigen::MatrixXd second_order;  ///< shapes x T: amplitudes of the shapes of second order; without rows: there are none
-  Eigen::MatrixXd load_factor;   ///< 12 x T: of the loads of the recovery file; without columns: not known
+  Eigen::MatrixXd load_factor;   ///< columns x T: of the loads of the recovery file; without columns: not known
   Eigen::VectorXd spin_squared;  ///< T: of the frame, with load_factor
   Eigen::Matrix3Xd position;     ///< of the floating frame, units of the scene; empty: not stored
   Eigen::Matrix4Xd rotation;     ///< w x y z

@@ -76,13 +76,12 @@ std::string element_place(const Recovery& r, const BodyMotion& still, int elemen
   return element_text(r, element) + fmt::format(" ({:.4g}, {:.4g}, {:.4g})", middle.x(), middle.y(), middle.z());
 }
 
-std::string left_out_line(const LeftOutStress& stress, const BodyMotion& still) {
+std::string left_out_line(const Recovery& r, const LeftOutStress& stress, const BodyMotion& still) {
   if (!stress.known) return "";
   const std::string after = after_number(labels_of(still.scene_units).stress);
   return fmt::format(
-      "{:<29}at most {:.3g}{} added by static answers to inertia and weight; what is still missing is "
-      "estimated at {:.2g}{}\n",
-      "stress left out by modes", stress.added, after, stress.remaining, after);
+      "{:<29}at most {:.3g}{} added by static answers to {}; what is still missing is estimated at {:.2g}{}\n",
+      "stress left out by modes", stress.added, after, answered_loads(r), stress.remaining, after);
 }
 
 /// The largest of everything over time.
@@ -223,7 +222,7 @@ std::string recover(const RecoverRequest& request) {
   for (const std::string& path : histories.publish()) written.push_back(path);
   std::string text = fmt::format("body '{}', {} instants\n", motion.body().name, motion.instants());
   text += "displacements count from the floating frame of the body\n" + peaks_text(r, motion, envelope);
-  text += left_out_line(left_out_stress(file, motion), motion.still());
+  text += left_out_line(r, left_out_stress(file, motion), motion.still());
   text += write_loads(file, results, motion, request, files, written);
   for (const std::string& note : motion.notes()) text += fmt::format("{:<29}{}\n", "note", note);
   return text + written_text(written, request);

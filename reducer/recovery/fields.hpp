@@ -38,9 +38,9 @@ using RecoveryListener = std::function<void(const RecoverySource& source)>;
 RecoverySource recovery_source(const InternalProblem& problem, const BoundaryModes& boundary,
                                const InternalModes& internal, const formats::Superelement& superelement,
                                std::optional<SecondOrderDisplacement> second_order);
-/// `q`: its modes in the system's coordinates.
+/// `q`: its modes in the system's coordinates; `answers`: displacements of all coordinates x under `loads`.
 RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eigen::MatrixXd& q,
-                               const formats::ModalBody& body);
+                               const formats::ModalBody& body, formats::RecoveryLoads loads, Eigen::MatrixXd answers);
 
 /// Takes the next rows of a field.
 using FieldSink = std::function<void(formats::RecoveryField field, const Eigen::MatrixXd& rows)>;

@@ -9,6 +9,7 @@
 #include "reducer/elements/shell/geometry.hpp"
 #include "reducer/algebra/petsc.hpp"
 #include "reducer/elements/turning_mass.hpp"
+#include "reducer/loads/load_vectors.hpp"
 #include "reducer/recovery/fields.hpp"
 #include "reducer/recovery/surface.hpp"
 #include "reducer/second_order/inertia_loads.hpp"
@@ -171,6 +172,12 @@ MotionSource motions_of(std::shared_ptr<const Eigen::MatrixXd> x, const Coordina
   return {motions, columns};
 }
 
+Eigen::MatrixXd beside(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+  Eigen::MatrixXd both(A.rows(), A.cols() + B.cols());
+  both << A, B;
+  return both;
+}
+
 /// Forces on some coordinates q.
 struct CoordinateForces {
   Eigen::MatrixXd rows;
@@ -227,14 +234,30 @@ void add_forces(const InternalProblem& problem, const InternalModes& internal, E
     source.head.loads->boundary_stiffness = superelement.stiffness.topLeftCorner(n_B, n_B);
 }
 
+/// Load cases of the part behind the twelve.
+void add_load_cases(const InternalProblem& problem, const InternalModes& internal, InertiaAnswers& answers,
+                    formats::RecoveryLoads& loads) {
+  if (problem.mesh.load_cases.empty()) return;
+  const System& system = problem.system;
+  const Eigen::MatrixXd f = load_vectors(problem.mesh, system).q;
+  answers.x = beside(answers.x, expand(system.T, residual_displacements(problem, internal, f)));
+  Eigen::MatrixXd share = Eigen::MatrixXd::Zero(internal.lambda.size(), f.cols());
+  if (problem.partition.n_I() > 0) share = internal.Phi.transpose() * rows(f, problem.partition.internal);
+  share.topRows(internal.loose()).setZero();
+  answers.share = beside(answers.share, share);
+  answers.force = beside(answers.force, f);
+  for (const MeshLoadCase& load : problem.mesh.load_cases) loads.applied.push_back({load.name, "", 0});
+}
+
 void add_loads(const InternalProblem& problem, const InternalModes& internal, const formats::Superelement& superelement,
                RecoverySource& source) {
   const formats::RigidProperties rigid = formats::rigid_properties(superelement);
   InertiaAnswers answers = inertia_answers(problem, internal, rigid.center_of_mass);
   formats::RecoveryLoads loads;
   loads.reference_point = answers.reference_point;
+  add_load_cases(problem, internal, answers, loads);
   const Eigen::Index n = superelement.size(), m = internal.lambda.size();
-  loads.share = Eigen::MatrixXd::Zero(n, inertial_loads);
+  loads.share = Eigen::MatrixXd::Zero(n, loads.columns());
   loads.share.bottomRows(m) = answers.share;
   loads.stiffness = Eigen::VectorXd::Zero(n);
   loads.stiffness.tail(m) = internal.lambda;
@@ -276,7 +299,7 @@ RecoverySource recovery_source(const InternalProblem& problem, const BoundaryMod
 }
 
 RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eigen::MatrixXd& q,
-                               const formats::ModalBody& body) {
+                               const formats::ModalBody& body, formats::RecoveryLoads loads, Eigen::MatrixXd answers) {
   Recovery head = head_of(body, [&](const Eigen::Vector3d& axes) {
     return formats::mirrored(formats::LoadedModalBody{body, {}}, axes).body;
   });
@@ -284,10 +307,11 @@ RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eig
     head.dof_node.push_back(-1);
     head.dof_component.push_back(k);
   }
+  head.loads = std::move(loads);
   return {mesh,
           system.coordinates,
           motions_of(std::make_shared<const Eigen::MatrixXd>(expand(system.T, q)), system.coordinates),
-          {},
+          motions_of(std::make_shared<const Eigen::MatrixXd>(std::move(answers)), system.coordinates),
           {},
           {},
           {},

@@ -17,6 +17,10 @@ formats::ResultsLayout example_layout() {
   layout.boundary_nodes = {"base", "tip", "foot"};
   layout.modal_bodies = {"rod"};
   layout.modal_offset = {0, 2};
+  layout.load_case_offset = {0, 0, 1};
+  layout.load_cases = {"gust"};
+  layout.modal_node_offset = {0, 1};
+  layout.modal_nodes = {"tip"};
   layout.joints = {"hinge", "slide"};
   layout.coordinates = {{"hinge", false}, {"slide", true}};
   layout.couplings = {{"pair", false, false}, {"rack", false, true}};
@@ -53,9 +57,14 @@ void fill_row(int t, formats::ResultsRow& row) {
   fill(row.y);
   fill(row.y_rate);
   fill(row.y_strain);
+  fill(row.load_factor);
   fill(row.boundary_force);
   fill(row.w);
   fill(row.w_rate);
+  for (Eigen::Matrix3Xd* block :
+       {&row.modal.acceleration, &row.modal.angular_velocity, &row.modal.angular_acceleration})
+    fill(*block);
+  fill(row.modal.node_force);
   fill(row.joint_force);
   fill(row.joint_moment);
   fill(row.joint_coordinate);

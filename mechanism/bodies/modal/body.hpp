@@ -35,6 +35,7 @@ struct ModalBody {
   Eigen::VectorXd stiffness;                          ///< ω_j²
   Eigen::VectorXd damping;                            ///< 2 ζ_j ω_j, and mass- and stiffness-proportional parts
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< for the caller to scale and pass on
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of the frame in axes of the part
   bool planar = false;                                ///< of make_planar(), with sums and kernels of the plane
   Eigen::MatrixXd lift;  ///< of planar bodies: w of the body in space = lift w, of orthonormal columns, maybe none
 

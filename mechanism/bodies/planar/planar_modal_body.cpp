@@ -148,6 +148,7 @@ void clear_normal(ModalBody& body) {
 
 void make_planar(const Matrix3d& axes, double reach, ModalBody& body, const std::vector<ModalNode*>& nodes) {
   turn_sums(axes, body, nodes);
+  body.axes = (body.axes * axes).eval();
   const double inertia = body.P0.trace() + body.J_mu.trace();
   require_nothing(body.c0.tail<1>(), std::sqrt(body.mass * body.P0.trace()), "its centre of mass");
   require_nothing(body.P0.col(2).head<2>() - body.J_mu.col(2).head<2>(), inertia, "a product of inertia");

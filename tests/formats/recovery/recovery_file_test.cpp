@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
+#include "formats/hdf5/file.hpp"
 #include "formats/recovery/load_factors.hpp"
 #include "tests/support/bodies/small_recovery.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -149,6 +150,68 @@ TEST(RecoveryFile, HoldsForcesOnNodes) {
   EXPECT_EQ(reader.recovery().node_number, expected.node_number);
   for (const NodalForce force : nodal_forces)
     EXPECT_EQ(reader.read_forces(force, 0, expected.nodes()), FieldRows(forces(force).cast<float>()));
+}
+
+/// forced_recovery() with a load case and a moment on a node.
+Recovery applied_recovery() {
+  Recovery r = forced_recovery();
+  r.loads->applied = {{"gust", "", 0}, {"", "tip", 4}};
+  r.loads->share = Eigen::MatrixXd::Random(r.coordinates(), r.loads->columns());
+  return r;
+}
+
+// Applied loads stand behind the twelve of inertia in memory, in datasets of their own in the file.
+TEST(RecoveryFile, HoldsAppliedLoads) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.recovery.h5");
+  const Recovery expected = applied_recovery();
+  const auto answers = [&](RecoveryField field) {
+    std::srand(static_cast<unsigned>(field) + 1u);
+    return Eigen::MatrixXd::Random(width(field) * items(expected, field), expected.loads->columns()).eval();
+  };
+  const auto forces = [&](NodalForce force) {
+    const bool of_load = force == NodalForce::load_force || force == NodalForce::load_moment;
+    std::srand(static_cast<unsigned>(force) + 10u);
+    return Eigen::MatrixXd::Random(3 * expected.nodes(), of_load ? expected.loads->columns() : expected.internal())
+        .eval();
+  };
+  RecoveryWriter writer(path, expected);
+  for (const RecoveryField field : recovery_fields) {
+    writer.append(field, small_field(expected, field));
+    writer.append_loads(field, answers(field));
+  }
+  for (const NodalForce force : nodal_forces) writer.append_forces(force, forces(force));
+  writer.finish();
+  const RecoveryReader reader(path);
+  const RecoveryLoads& loads = *reader.recovery().loads;
+  ASSERT_EQ(loads.applied.size(), 2u);
+  EXPECT_EQ(loads.applied[0].load_case, "gust");
+  EXPECT_EQ(loads.applied[1].node, "tip");
+  EXPECT_EQ(loads.applied[1].component, 4);
+  EXPECT_EQ(loads.share, expected.loads->share);
+  for (const RecoveryField field : recovery_fields)
+    EXPECT_EQ(reader.read_loads(field, 0, items(expected, field)), FieldRows(answers(field).cast<float>()));
+  for (const NodalForce force : nodal_forces)
+    EXPECT_EQ(reader.read_forces(force, 0, expected.nodes()), FieldRows(forces(force).cast<float>()));
+  const hdf5::InputFile file(path, hdf5::Completeness::closed);
+  EXPECT_EQ(file.text_attribute("/", "version"), "1.3");
+  EXPECT_EQ(file.info("/loads/share").shape[1], 12u);
+}
+
+TEST(RecoveryFile, AppliedLoadsAreChecked) {
+  const auto fault = [](const auto& change) {
+    Recovery r = applied_recovery();
+    change(*r.loads);
+    return error_of([&] { check(r, "a.recovery.h5"); });
+  };
+  EXPECT_EQ(fault([](RecoveryLoads&) {}), "no error");
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied.pop_back(); }), HasSubstr("/loads/share"));
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied[1].node = ""; }), HasSubstr("a node, or neither"));
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied[0].node = "tip"; }), HasSubstr("a node, or neither"));
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied[1].component = 6; }), HasSubstr("/applied/component"));
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied[0].component = 1; }), HasSubstr("/applied/component"));
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied[1] = loads.applied[0]; }), HasSubstr("given twice"));
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied[0].load_case = "a\nb"; }), HasSubstr("no line"));
 }
 
 TEST(RecoveryFile, ForcesOnNodesAreChecked) {

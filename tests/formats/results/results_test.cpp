@@ -57,7 +57,7 @@ TEST(Results, EveryChannelComesBackBitEqual) {
   // 1 time, 3 nodes x (5 x 3 + 4), 2 frames x (7 + 9), 5 coordinates y with rates and strains, 2 of a modal body with
   // rates, 3 boundary nodes x 6, 2 joints x 8, 2 couplings x 2, 2 drives, 2 springs, 1 stop, 2 bushings x 6, friction x
   // 6, 2 tyres x 18, 7 energies, 4 of solver.
-  EXPECT_EQ(unit.size(), 1u + 57 + 14 + 18 + 10 + 5 + 4 + 18 + 16 + 4 + 2 + 21 + 44 + 7 + 4);
+  EXPECT_EQ(unit.size(), 1u + 57 + 14 + 18 + 10 + 5 + 1 + 4 + 15 + 18 + 16 + 4 + 2 + 21 + 44 + 7 + 4);
   ResultsRow row;
   row.resize(layout);
   const std::map<std::string, std::function<double()>> expected{
@@ -77,6 +77,11 @@ TEST(Results, EveryChannelComesBackBitEqual) {
       {"superelements/y_strain/frame/0", [&] { return row.y_strain[3]; }},
       {"superelements/y/beam/1", [&] { return row.y[1]; }},
       {"superelements/y/frame/0", [&] { return row.y[3]; }},
+      {"superelements/load_factor/frame/gust", [&] { return row.load_factor[0]; }},
+      {"modal_bodies/frame_acceleration/rod/y", [&] { return row.modal.acceleration(1, 0); }},
+      {"modal_bodies/frame_angular_velocity/rod/z", [&] { return row.modal.angular_velocity(2, 0); }},
+      {"modal_bodies/frame_angular_acceleration/rod/x", [&] { return row.modal.angular_acceleration(0, 0); }},
+      {"modal_bodies/node_force/rod/tip/moment_x", [&] { return row.modal.node_force(3, 0); }},
       {"superelements/boundary_force/beam/tip/moment_z", [&] { return row.boundary_force(5, 1); }},
       {"superelements/boundary_force/frame/foot/force_x", [&] { return row.boundary_force(0, 2); }},
       {"joints/force/slide/y", [&] { return row.joint_force(1, 1); }},
@@ -172,8 +177,8 @@ TEST(Results, CoordinatesAreStoredWithTheirStrain) {
   write_rows(folder.file("a.h5"), layout, 3);
   const ResultsReader reader(folder.file("a.h5"));
   EXPECT_TRUE(reader.layout().strained);
-  EXPECT_EQ(reader.version(), "1.10");
-  EXPECT_EQ(reader.channels().size(), 1u + 5 + 5);
+  EXPECT_EQ(reader.version(), "1.11");
+  EXPECT_EQ(reader.channels().size(), 1u + 5 + 5 + 1);  // with the factor of a load case
   layout.strained = false;
   write_rows(folder.file("b.h5"), layout, 3);
   EXPECT_FALSE(ResultsReader(folder.file("b.h5")).layout().strained);

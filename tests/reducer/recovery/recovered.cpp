@@ -17,7 +17,7 @@ void keep(const reducer::RecoverySource& source, Recovered& result) {
         static_cast<Eigen::Index>(formats::width(field)) * formats::items(result.tables, field),
         result.tables.coordinates());
   for (std::size_t f = 0; f < 5; ++f)
-    result.loads[f].resize(result.field[f].rows(), result.tables.loads ? formats::inertia_loads : 0);
+    result.loads[f].resize(result.field[f].rows(), result.tables.loads ? result.tables.loads->columns() : 0);
   for (std::size_t f = 0; f < 2; ++f)
     result.second_order[f].resize(result.field[f].rows(),
                                   result.tables.second_order ? result.tables.second_order->shapes() : 0);

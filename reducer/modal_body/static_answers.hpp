@@ -1,0 +1,55 @@
+// What the modes of a modal body leave out: static answers to inertia loads of its frame and to forces on its nodes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/recovery/recovery.hpp"
+#include "reducer/mesh/mesh.hpp"
+#include "reducer/system/partition.hpp"
+#include "reducer/system/system.hpp"
+
+namespace tisserand::reducer {
+
+/// A mass of the body: that of a node, with its arm from the node.
+struct LumpedMass {
+  NodalMass mass;
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
+};
+
+/// A node at which joints and forces of a scene may act.
+struct NamedNode {
+  std::string name;
+  int node = 0;
+};
+
+/// What answers are asked of.
+struct AnsweredBody {
+  const System& system;           ///< of the mesh with lumped masses
+  std::vector<int> held;          ///< coordinates q of the reference; none: mean axis
+  const Eigen::VectorXd& lambda;  ///< ω² of the modes
+  const Eigen::MatrixXd& q;       ///< modes
+  std::vector<LumpedMass> masses;
+  std::vector<NamedNode> nodes;
+  const Eigen::Matrix3Xd& position;                  ///< of all nodes of the mesh
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< of mass
+};
+
+/// Static answers of the elastic body on its reference, w = K⁺ g − Φ ω⁻² Φᵀ g. Of a mean axis K⁺ is that of the free
+/// body under loads without resultant: rigid accelerations balance the others, and the answer has no part in rigid
+/// motions.
+struct LumpedAnswers {
+  std::vector<formats::AppliedLoad> forces;  ///< of each node in turn, three or six components
+  Eigen::MatrixXd x;                         ///< displacements of all coordinates x (12 + forces): inertia loads first
+  Eigen::MatrixXd share;                     ///< m x (12 + forces): Φᵀ g
+  /// Of the forces: what the file of the body holds of the answers.
+  Eigen::MatrixXd flexibility;  ///< forces x forces: fᵀ w
+  Eigen::MatrixXd mass;         ///< forces x forces: wᵀ M w
+  Eigen::MatrixXd coupling;     ///< 6 x forces: Rᵀ M w about the centre of mass
+};
+
+LumpedAnswers lumped_answers(const AnsweredBody& body);
+
+}  // namespace tisserand::reducer

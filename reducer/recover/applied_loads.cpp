@@ -1,0 +1,79 @@
+// What is said of load cases, and of forces on nodes of modal bodies.
+#include "reducer/recover/inertia_loads.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "common/text.hpp"
+#include "formats/recovery/load_factors.hpp"
+#include "formats/yaml/tree.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+/// Loads of the scene with load cases of the body, by name; none where the results do not hold the scene.
+std::vector<std::string> loads_of_scene(const formats::SimulatedScene& scene, const std::string& body) {
+  if (scene.text.empty()) return {};
+  const formats::YamlDocument document = formats::parse_yaml(scene.text, "/scene/text");
+  const formats::YamlNode* loads = formats::find_child(document.root, "loads");
+  std::vector<std::string> names;
+  for (const formats::YamlNode& load : loads == nullptr ? std::vector<formats::YamlNode>{} : loads->children) {
+    const formats::YamlNode *type = formats::find_child(load, "type"), *of = formats::find_child(load, "body");
+    if (type != nullptr && of != nullptr && type->text == "part_load" && of->text == body) names.push_back(load.key);
+  }
+  return names;
+}
+
+std::string quoted_names(std::vector<std::string> names) {
+  for (std::string& name : names) name = "'" + printable_line(name, 60) + "'";
+  return join(names, ", ");
+}
+
+}  // namespace
+
+std::vector<std::string> applied_loads_notes(const formats::Recovery& recovery, const formats::ResultsLayout& layout,
+                                             const BodyRow& body) {
+  std::vector<std::string> notes;
+  formats::LoadedBody loaded;
+  loaded.row = body.row;
+  loaded.is_modal = body.is_modal;
+  const std::vector<std::string> unanswered = formats::loads_without_answer(recovery, layout, loaded);
+  if (body.is_modal) {
+    if (recovery.loads && !unanswered.empty())
+      notes.push_back(fmt::format(
+          "forces act on the body at {}, of which its recovery file has no static answers: the stress of these forces "
+          "that the modes leave out is neither added nor estimated; make these nodes `boundary` nodes in the part file",
+          quoted_names(unanswered)));
+    return notes;
+  }
+  if (!unanswered.empty())
+    notes.push_back(fmt::format(
+        "load cases of the part act on the body ({}), of which the recovery file has no static answers: the stress of "
+        "load cases that the modes leave out is neither added nor estimated; reduce the part again with `recovery: "
+        "yes` "
+        "(method macneal has none)",
+        quoted_names(unanswered)));
+  const std::size_t row = body.row;
+  const bool stored =
+      row + 1 < layout.load_case_offset.size() && layout.load_case_offset[row + 1] > layout.load_case_offset[row];
+  if (stored) return notes;
+  if (const std::vector<std::string> names = loads_of_scene(layout.simulated, body.name); !names.empty())
+    notes.push_back(fmt::format(
+        "load cases of the part act on the body ({}), whose factors the results do not hold (written before version "
+        "1.11, or without the channel superelements/load_factor): the stress of load cases that the modes leave out is "
+        "neither added nor estimated; run the scene again",
+        quoted_names(names)));
+  return notes;
+}
+
+std::string answered_loads(const formats::Recovery& recovery) {
+  bool cases = false, nodes = false;
+  if (recovery.loads)
+    for (const formats::AppliedLoad& load : recovery.loads->applied) (load.node.empty() ? cases : nodes) = true;
+  return nodes   ? "inertia, weight and forces at its nodes"
+         : cases ? "inertia, weight and load cases"
+                 : "inertia and weight";
+}
+
+}  // namespace tisserand::reducer
