@@ -8,6 +8,8 @@
 
 namespace tisserand::formats {
 
+inline constexpr const char* recovery_format = "tisserand-recovery";
+
 /// A field per coordinate, or per load: items x width x columns.
 struct FieldSet {
   const char* dataset;
