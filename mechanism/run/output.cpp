@@ -266,7 +266,8 @@ void fill_modal_forces(const Model& whole, const Model& running, const Evaluatio
   Eigen::Index column = 0;
   for (std::size_t i = 0; i < whole.modal_bodies.size(); ++i) {
     const auto same = std::ranges::find(running.modal_bodies, whole.modal_bodies[i].name, &ModalBody::name);
-    const bool runs = same != running.modal_bodies.end();
+    const bool runs =
+        same != running.modal_bodies.end() && (same->modes > 0 || whole.modal_bodies[i].modes == 0);  // not asleep
     if (!runs)
       for (Eigen::Matrix3Xd* block :
            {&row.modal.acceleration, &row.modal.angular_velocity, &row.modal.angular_acceleration})
