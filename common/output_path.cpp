@@ -77,7 +77,7 @@ void require_output(const std::string& path, const std::vector<std::string>& end
     if (fs::equivalent(input, path, ignored))
       throw Error("the output would replace its own input", path, "give -o another name");
   if (std::ranges::find(endings, ending_of(path)) == endings.end())
-    throw Error("does not end in " + join(endings, " or "), path, "give -o a name that does: others are taken for other kinds of files");
+    throw Error("does not end in " + join(endings, " or "), path, "give -o a name that does: other endings are those of another kind of file");
   if (is_hdf5 && is_of_another_kind(path))
     throw Error("exists and is a file of another kind (not HDF5)", path,
                 "give -o another name, or remove that file first");

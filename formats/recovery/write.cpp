@@ -239,6 +239,7 @@ void RecoveryWriter::append_forces(NodalForce force, const Eigen::Ref<const Eige
 }
 
 void RecoveryWriter::append_second_order(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
+  if (rows.cols() == 0) return;  // of no shapes
   impl_->append(impl_->of(of_second_order(impl_->head, field)), rows);
 }
 

@@ -104,7 +104,7 @@ TEST_F(Outputs, ResultsOfAWrongKindAreRefused) {
   make_results();
   for (const char* command : {"channels", "export", "plot"}) {
     std::vector<std::string> rest{"-c", "energy/total"};
-    if (std::string(command) != "channels") rest.insert(rest.end(), {"-o", "x.svg"});
+    if (std::string(command) != "channels") rest.insert(rest.end(), {"-o", std::string(command) == "plot" ? "x.svg" : "x.csv"});
     const auto refused = [&](const std::string& input, const std::vector<std::string>& words) {
       std::vector<std::string> all{command, input};
       all.insert(all.end(), rest.begin(), rest.end());
@@ -120,6 +120,7 @@ TEST_F(Outputs, ResultsOfAWrongKindAreRefused) {
   }
   expect_error(with("check", {"bodies.se.file=arm.results.h5"}), {"arm.results.h5", "tisserand-results"});
   EXPECT_FALSE(std::filesystem::exists(file("x.svg")));
+  EXPECT_FALSE(std::filesystem::exists(file("x.csv")));
 }
 
 TEST_F(Outputs, RhythmOfOutput) {

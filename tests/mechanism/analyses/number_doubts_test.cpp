@@ -66,7 +66,7 @@ TEST(NumberDoubts, NameWhatCannotBeMeant) {
       {"bodies.crank.inertia=[42632,42632,42632]", "'crank' has a radius of gyration"},
       {"joints.S.friction={coefficient: 15, velocity: 0.01}", "joint 'S' has a coefficient of friction of 15"},
       {"gravity=[0,0,-9810]", "gravity is 9810 m s^-2"},
-      {"springs={s: {a: ground, b: piston, position_a: [0,0,0], stiffness: 10, free: 300}}", "has a free length of 300 m"},
+      {"springs={s: {a: {node: ground, position: [0,0,0]}, b: piston, stiffness: 10, free: 300}}", "has a free length of 300 m"},
       {"motions.m.value={table: [[5, 0], [6, 1]]}", "the table of motion 'm' holds 5 to 6 s, the run goes from 0 to 0.3 s"},
       {"output={interval: 2}", "is longer than the run of 0.3 s"}};
   EXPECT_THAT(doubts_with({}), IsEmpty());
@@ -106,7 +106,7 @@ TEST(NumberDoubts, AreSilentAboutExamplesAndTheirVariations) {
       try {
         EXPECT_THAT(doubts_of(formats::read_scene(path, {})), IsEmpty()) << path << " round " << round;
         ++told;
-      } catch (const Error&) {
+      } catch (const std::exception&) {  // as where a superelement file is missing
       }
       if (round > 0) write_text_file(path, text);
     }
