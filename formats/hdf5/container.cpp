@@ -396,6 +396,14 @@ Id Container::dataset(const std::string& name) const {
   return last_.id();
 }
 
+bool Container::is_fixed_and_below(const std::string& name, std::uint64_t bytes) const {
+  const Handle handle(H5Dopen2(file_.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle type(H5Dget_type(handle.id()), H5Tclose), space(H5Dget_space(handle.id()), H5Sclose);
+  std::vector<hsize_t> now(H5S_MAX_RANK), most(H5S_MAX_RANK);
+  H5Sget_simple_extent_dims(space.id(), now.data(), most.data());
+  return now == most && H5Tget_size(type.id()) * count_of(shape_of(space.id())) <= bytes;
+}
+
 std::vector<std::string> Container::read_texts(const std::string& name, std::uint64_t count) const {
   const Id dataset = this->dataset(name);
   const Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);

@@ -38,6 +38,8 @@ class Container {
   const std::string& path() const { return path_; }
   bool closed_properly() const { return closed_properly_; }
   ObjectEntry describe(const std::string& object) const;
+  /// Whether a dataset cannot grow and has no more than so many bytes (texts of variable length: no more references).
+  bool is_fixed_and_below(const std::string& dataset, std::uint64_t bytes) const;
   // Both throw Error, also if there are not as many as expected.
   std::vector<std::string> read_texts(const std::string& dataset, std::uint64_t count) const;
   void read(const ValuesRequest& request, const Place& place) const;

@@ -11,7 +11,7 @@ namespace {
 
 enum class Question : std::uint8_t { entry, texts, values };
 
-constexpr std::size_t most_first_objects = 256, most_first_bytes = 1u << 20;
+constexpr std::size_t most_first_objects = 256, most_first_bytes = 1u << 20, most_small_values = 8192;
 
 void pack_problem(Packer& to, const Problem& problem) {
   to.text(problem.message);
@@ -99,6 +99,7 @@ void pack(Packer& to, const ObjectEntry& entry) {
   for (const AttributeEntry& attribute : entry.attributes) pack_attribute(to, attribute);
   pack_problem(to, entry.attribute_problem);
   pack_info(to, entry.info);
+  to.text(entry.whole);
 }
 
 ObjectEntry unpack_entry(Unpacker& from) {
@@ -112,6 +113,7 @@ ObjectEntry unpack_entry(Unpacker& from) {
   for (AttributeEntry& attribute : entry.attributes) attribute = unpack_attribute(from);
   entry.attribute_problem = unpack_problem(from);
   entry.info = unpack_info(from);
+  entry.whole = from.raw_text();
   return entry;
 }
 
@@ -140,14 +142,55 @@ std::string values_request(const ValuesRequest& request) {
   return to.bytes;
 }
 
+namespace {
+
+std::string packed_texts(const std::vector<std::string>& texts) {
+  Packer to;
+  for (const std::string& text : texts) to.text(text);
+  return to.bytes;
+}
+
+/// All values of a small dataset that cannot grow, so that files which are read whole take one request; else nothing.
+std::string whole_of(const Container& container, const ObjectEntry& entry) {
+  const DatasetInfo& info = entry.info;
+  std::uint64_t count = 1;
+  for (const std::uint64_t extent : info.shape)
+    count = std::max(count, extent) > most_small_values ? 0 : count * extent;
+  const bool is_wanted =
+      info.kind == ElementKind::float64 || info.kind == ElementKind::integer || info.kind == ElementKind::text;
+  if (entry.state != ObjectState::dataset || !entry.problem.message.empty() || !info.written || !is_wanted ||
+      count == 0 || count > most_small_values || !container.is_fixed_and_below(entry.name, 8 * most_small_values))
+    return "";
+  std::string whole;
+  try {
+    if (info.kind == ElementKind::text)
+      whole = packed_texts(container.read_texts(entry.name, count));
+    else
+      container.read(
+          {.dataset = entry.name,
+           .type = info.kind == ElementKind::integer ? ValuesRequest::Type::int64 : ValuesRequest::Type::float64,
+           .values = count},
+          [&whole](std::uint64_t bytes) {
+            whole.resize(bytes);
+            return whole.data();
+          });
+  } catch (const Error&) {
+    return "";  // met again where it is asked for
+  }
+  return whole.size() <= 16 * most_small_values ? whole : "";
+}
+
+}  // namespace
+
 std::string opening_of(const Container& container) {
   Packer to;
   to.value(static_cast<std::uint8_t>(container.closed_properly()));
   std::deque<std::string> next{"/"};
   for (std::size_t count = 0; !next.empty() && count < most_first_objects && to.bytes.size() < most_first_bytes;
        ++count) {
-    const ObjectEntry entry = container.describe(next.front());
+    ObjectEntry entry = container.describe(next.front());
     next.pop_front();
+    entry.whole = whole_of(container, entry);
     pack(to, entry);
     const std::string before = entry.name == "/" ? "/" : entry.name + "/";
     for (const std::string& member : entry.members) next.push_back(before + member);
@@ -165,9 +208,7 @@ void answer(const Container& container, std::string_view request, const Place& p
     }
     case Question::texts: {
       const std::string dataset = from.raw_text();
-      Packer to;
-      for (const std::string& text : container.read_texts(dataset, from.value<std::uint64_t>())) to.text(text);
-      return put(place, to.bytes);
+      return put(place, packed_texts(container.read_texts(dataset, from.value<std::uint64_t>())));
     }
     case Question::values:
       return container.read(unpack_values_request(from), place);

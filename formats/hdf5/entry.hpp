@@ -59,6 +59,7 @@ struct ObjectEntry {
   std::vector<AttributeEntry> attributes;  ///< at most max_members
   Problem attribute_problem;
   DatasetInfo info;
+  std::string whole;  ///< the answer to a request for all values or texts, of a small dataset at the opening; or empty
 };
 
 void pack(Packer& to, const ObjectEntry& entry);

@@ -2,6 +2,7 @@
 #include "formats/hdf5/file.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "common/text.hpp"
 #include "formats/hdf5/apart.hpp"
@@ -181,8 +182,13 @@ std::uint64_t product(const Shape& shape, std::size_t first_axis = 0) {
 
 }  // namespace
 
-void InputFile::values(ValuesRequest request, void* values) const {
+void InputFile::values(const ValuesRequest& request, void* values) const {
   const std::uint64_t bytes = request.values * (request.type == ValuesRequest::Type::float32 ? 4 : 8);
+  const std::string& whole = entry(request.dataset).whole;
+  if (request.part == ValuesRequest::Part::all && whole.size() == bytes) {
+    std::memcpy(values, whole.data(), bytes);
+    return;
+  }
   apart_->ask(number_, values_request(request), [&](std::uint64_t size) {
     if (size != bytes)
       throw Error(fmt::format("{}: it has {} bytes in place of {}", no_answer, size, bytes), place(request.dataset),
@@ -203,7 +209,8 @@ void InputFile::read(const std::string& dataset, const Shape& shape, const std::
 }
 
 std::vector<std::string> InputFile::texts(const std::string& dataset, std::uint64_t count) const {
-  const std::string bytes = apart_->ask(number_, texts_request(dataset, count));
+  const std::string& whole = entry(dataset).whole;
+  const std::string bytes = whole.empty() ? apart_->ask(number_, texts_request(dataset, count)) : whole;
   Unpacker from = unpack(bytes, path_);
   std::vector<std::string> texts(from.is_at_end() ? 0 : count);
   for (std::string& text : texts) text = from.raw_text();

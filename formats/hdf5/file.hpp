@@ -102,7 +102,7 @@ class InputFile {
                                   const char* meaning) const;
   void require(const std::string& dataset, ElementKind kind, const Shape& shape, const std::string& meaning) const;
   std::vector<std::string> texts(const std::string& dataset, std::uint64_t count) const;
-  void values(ValuesRequest request, void* values) const;
+  void values(const ValuesRequest& request, void* values) const;
 
   std::string path_;
   bool closed_properly_ = true;
