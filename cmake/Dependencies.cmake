@@ -103,6 +103,4 @@ if(TISSERAND_REDUCER)
   add_library(dep::cholmod ALIAS dep_cholmod)
   target_link_libraries(dep_cholmod INTERFACE ${CHOLMOD_SHARED} gomp)
   dep_simple(gmsh gmsh.h "" gmsh)
-  # What the process that runs gmsh may not do.
-  dep_simple(seccomp seccomp.h "" seccomp)
 endif()

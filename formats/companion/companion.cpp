@@ -233,14 +233,7 @@ std::string companion_id(const Companion& c) {
   return identity.hex();
 }
 
-void try_companion(const std::string& path) { static_cast<void>(read_unchecked_companion(path)); }
-
 Companion read_companion(const std::string& path, const Superelement& superelement) {
-  hdf5::rehearse(path, [&path] { try_companion(path); });
-  return read_rehearsed_companion(path, superelement);
-}
-
-Companion read_rehearsed_companion(const std::string& path, const Superelement& superelement) {
   UncheckedCompanion file = read_unchecked_companion(path);
   Companion& c = file.companion;
   check(c, superelement, path);

@@ -99,10 +99,6 @@ std::string companion_id(const Companion& companion);
 /// Reads and checks. Throws Error naming dataset, indices, value and meaning.
 Companion read_companion(const std::string& path, const Superelement& superelement);
 
-/// As of superelements (try_superelement()): several files may share one rehearsal.
-void try_companion(const std::string& path);
-Companion read_rehearsed_companion(const std::string& path, const Superelement& superelement);
-
 /// Checks, fills companion_id and returns the bytes of the file; arrays compressed and with checksums.
 std::string companion_image(const std::string& path, Companion& companion, const Superelement& superelement);
 

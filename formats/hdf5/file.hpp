@@ -1,20 +1,22 @@
-// Small owner of HDF5 objects: every read is bounded, typed and checked before memory is taken, every failure is an
-// Error.
+// Reading and writing of HDF5 files: every read is bounded, typed and checked before memory is taken, every failure is
+// an Error.
 //
-// Files are untrusted input. Nothing of hdf5.h is seen outside hdf5_*.cpp; identifiers are HDF5's 64-bit hid_t.
+// Files are untrusted input, whoever is said to have written them: a process that may only compute reads them
+// (apart.hpp). Nothing of hdf5.h is seen outside formats/hdf5/*.cpp; identifiers are HDF5's 64-bit hid_t.
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "common/error.hpp"
+#include "formats/hdf5/entry.hpp"
 
 namespace tisserand::formats::hdf5 {
 
 using Id = std::int64_t;
-using Shape = std::vector<std::uint64_t>;
 
 /// Owner of one HDF5 identifier.
 class Handle {
@@ -37,22 +39,6 @@ class Handle {
   int (*close_)(Id) = nullptr;
 };
 
-enum class ElementKind { float64, float32, integer, text, other };
-
-/// What the file says about a dataset, before any of its data are read.
-struct DatasetInfo {
-  ElementKind kind = ElementKind::other;
-  std::string type_text;           ///< in words, e.g. "32-bit float"
-  Shape shape;                     ///< empty: scalar
-  bool written = true;             ///< false: some of its storage was never written
-  bool filtered = false;           ///< compressed or otherwise packed; checksums do not count
-  std::uint64_t stored_bytes = 0;  ///< without checksums
-};
-
-/// Which files may be opened: only those that were closed properly, or also those of a run that still writes or was
-/// killed.
-enum class Completeness { closed, any };
-
 /// "12 x 3"; "scalar" if empty.
 std::string shape_text(const Shape& shape);
 
@@ -60,11 +46,16 @@ std::string shape_text(const Shape& shape);
 /// remedy.
 Error last_error(const std::string& action, const std::string& where, const std::string& remedy);
 
-/// A file opened for reading. Object names are absolute paths; `object` = "/" is the root group.
+class Apart;
+
+/// A file opened for reading, by a process that lives as long as this does. Object names are absolute paths; `object` =
+/// "/" is the root group. Each function but read...() says what the file held when it was opened or first asked.
 class InputFile {
  public:
-  /// Throws Error: no such file, no permission, a folder, not HDF5, cut short, not closed properly.
+  /// Throws Error: no such file, no permission, a folder, not HDF5, cut short, not closed properly, so damaged that
+  /// HDF5 cannot read it.
   InputFile(const std::string& path, Completeness completeness);
+  ~InputFile();
 
   const std::string& path() const { return path_; }
   bool closed_properly() const { return closed_properly_; }
@@ -75,6 +66,8 @@ class InputFile {
   std::vector<std::string> members(const std::string& group) const;
   std::vector<std::string> attributes(const std::string& object) const;
 
+  // All of these throw Error, too, if HDF5 crashes, or needs ten times the processor time of an ordinary read (it can
+  // loop for ever), or much more time by the clock than a slow disk.
   /// One string (variable or fixed length, at most 1 MiB).
   std::string text_attribute(const std::string& object, const std::string& name) const;
   /// One number, integer or floating, as double.
@@ -92,7 +85,7 @@ class InputFile {
   /// A scalar string dataset (at most 64 MiB).
   std::string read_text(const std::string& dataset) const;
 
-  /// Rows [first, first + count) of a float64 dataset of `width` values per row.
+  /// Rows [first, first + count) of a float64 dataset.
   void read_rows(const std::string& dataset, std::uint64_t first, std::uint64_t count, double* values) const;
   /// The same of a float32 dataset.
   void read_rows(const std::string& dataset, std::uint64_t first, std::uint64_t count, float* values) const;
@@ -101,33 +94,22 @@ class InputFile {
 
  private:
   std::string place(const std::string& object) const;
-  Handle open_dataset(const std::string& dataset) const;
-  Handle open_object(const std::string& object) const;
+  const ObjectEntry& entry(const std::string& object) const;
+  /// Null if there is no such object; the first link or broken object on the way to it.
+  const ObjectEntry* find(const std::string& object) const;
+  const ObjectEntry& open(const std::string& object) const;
+  const AttributeEntry& attribute(const std::string& object, const std::string& name, AttributeEntry::Kind kind,
+                                  const char* meaning) const;
   void require(const std::string& dataset, ElementKind kind, const Shape& shape, const std::string& meaning) const;
-  std::vector<std::string> read_all_texts(Id dataset, std::uint64_t count, const std::string& where) const;
+  std::vector<std::string> texts(const std::string& dataset, std::uint64_t count) const;
+  void values(const ValuesRequest& request, void* values) const;
 
   std::string path_;
   bool closed_properly_ = true;
-  Handle file_;
+  std::shared_ptr<Apart> apart_;
+  std::size_t number_ = 0;  ///< of this file there
+  mutable std::map<std::string, ObjectEntry> known_;
 };
-
-/// The bytes that `read` returns in a child process; none if the child died or threw.
-std::string read_apart(const std::string& path, const std::function<std::string()>& read);
-
-/// What reading in a child process may take.
-struct ReadingLimits {
-  unsigned processor_seconds = 0;
-  unsigned wall_seconds = 0;
-};
-
-/// Runs `read` in a child process first, because HDF5 itself can crash on damaged files. Throws Error if the child dies
-/// or needs ten times the processor time of an ordinary read (HDF5 can also loop for ever), or, where it waits, much
-/// more wall time than a slow disk; what `read` throws is left to be met again when the caller reads.
-void rehearse(const std::string& path, const std::function<void()>& read);
-void rehearse(const std::string& path, const std::function<void()>& read, const ReadingLimits& limits);
-
-/// The same for many files in one child process, in their order; false if it dies or needs too long at one of them.
-[[nodiscard]] bool survives(const std::vector<std::string>& paths, const std::function<void(const std::string&)>& read);
 
 // Writing, used by the writers of superelements and results. `file` is a file or group identifier; missing groups on
 // the way are made. Texts are UTF-8. All throw Error with `where` in front.

@@ -136,14 +136,4 @@ void write_packed_texts(Id file, const std::string& dataset, const std::vector<s
   write_all(file, dataset, {values.size()}, size, type.id(), type.id(), buffer.data(), where);
 }
 
-void InputFile::read_rows(const std::string& dataset, std::uint64_t first, std::uint64_t count, float* values) const {
-  const Handle handle = open_dataset(dataset), space(H5Dget_space(handle.id()), H5Sclose);
-  const hsize_t total = select_rows(space.id(), first, count);
-  const Handle memory(H5Screate_simple(1, &total, nullptr), H5Sclose);
-  if (H5Dread(handle.id(), H5T_NATIVE_FLOAT, memory.id(), space.id(), H5P_DEFAULT, values) < 0)
-    throw last_error(
-        "cannot be read", place(dataset),
-        "the file is damaged (checksums tell) or uses a filter that is not installed; write or copy it again");
-}
-
 }  // namespace tisserand::formats::hdf5

@@ -223,8 +223,6 @@ void write_integrals(hdf5::Id file, const ModalIntegrals& sums, const std::strin
 
 }  // namespace
 
-void try_modal_body(const std::string& path) { static_cast<void>(read_unchecked(path)); }
-
 std::string content_id(const ModalBody& body) {
   Sha256 sha;
   const auto add = [&sha](const double* values, Index count) {
@@ -243,11 +241,6 @@ std::string content_id(const ModalBody& body) {
 }
 
 LoadedModalBody read_modal_body(const std::string& path) {
-  hdf5::rehearse(path, [&path] { try_modal_body(path); });
-  return read_rehearsed_modal_body(path);
-}
-
-LoadedModalBody read_rehearsed_modal_body(const std::string& path) {
   LoadedModalBody loaded{read_unchecked(path), {}};
   loaded.warnings = check(loaded.body, path);
   return loaded;

@@ -78,10 +78,6 @@ struct LoadedModalBody {
 /// Reads and checks. Throws Error naming dataset, indices, value and meaning.
 LoadedModalBody read_modal_body(const std::string& path);
 
-/// As try_superelement() and read_rehearsed_superelement(): for many files in one child process.
-void try_modal_body(const std::string& path);
-LoadedModalBody read_rehearsed_modal_body(const std::string& path);
-
 /// Checks and returns the bytes of the file.
 std::string modal_body_image(const std::string& path, const ModalBody& body);
 

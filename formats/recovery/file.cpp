@@ -19,7 +19,6 @@ constexpr hdf5::FileKind recovery_kind{recovery_format, "recovery file",
                                        "reduce the part again with a program of the same major version"};
 constexpr std::uint64_t most_entries = 200'000'000;  // of a table; bounds memory before it is taken
 constexpr std::uint64_t most_applied = 10'000;         // loads
-constexpr std::uint64_t block_bytes = 8u << 20;      // of what a rehearsal holds at once
 
 /// Tables of a file; every length is looked at before memory is taken.
 class Tables {
@@ -227,21 +226,6 @@ FieldRows read_field(const hdf5::InputFile& file, const FieldSet& set, int first
   return rows;
 }
 
-/// Everything once, a block of a field at a time: what HDF5 cannot survive ends the rehearsal.
-void try_recovery(const std::string& path) {
-  const hdf5::InputFile file(path, hdf5::Completeness::closed);
-  hdf5::check_format(file, recovery_kind);
-  const Recovery recovery = read_tables(file);
-  check(recovery, path);
-  check_field_shapes(file, recovery);
-  for (const FieldSet& set : field_sets(recovery)) {
-    const auto item = static_cast<std::uint64_t>(set.width) * static_cast<std::uint64_t>(set.columns) * sizeof(float);
-    const int block = static_cast<int>(std::clamp<std::uint64_t>(block_bytes / item, 1, 1u << 20));
-    for (int first = 0; first < set.items; first += block)
-      static_cast<void>(read_field(file, set, first, std::min(block, set.items - first)));
-  }
-}
-
 }  // namespace
 
 struct RecoveryReader::Impl {
@@ -265,7 +249,6 @@ struct RecoveryReader::Impl {
 };
 
 RecoveryReader::RecoveryReader(const std::string& path) {
-  hdf5::rehearse(path, [&path] { try_recovery(path); });
   impl_ = std::make_unique<Impl>(path);
   hdf5::check_format(impl_->file, recovery_kind);
   impl_->recovery = read_tables(impl_->file);

@@ -264,10 +264,7 @@ const ResultsReader::Impl::Place& ResultsReader::Impl::find(const std::string& c
               near ? fmt::format("did you mean '{}'?", *near) : "`mechanism channels` lists all names");
 }
 
-ResultsReader::ResultsReader(const std::string& path) {
-  hdf5::rehearse(path, [&path] { Impl rehearsal(path); });
-  impl_ = std::make_unique<Impl>(path);
-}
+ResultsReader::ResultsReader(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
 
 ResultsReader::~ResultsReader() = default;
 

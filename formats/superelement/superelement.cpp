@@ -178,14 +178,7 @@ std::string content_id(const Superelement& element) {
   return sha.hex();
 }
 
-void try_superelement(const std::string& path) { static_cast<void>(read_unchecked(path)); }
-
 LoadedSuperelement read_superelement(const std::string& path) {
-  hdf5::rehearse(path, [&path] { try_superelement(path); });
-  return read_rehearsed_superelement(path);
-}
-
-LoadedSuperelement read_rehearsed_superelement(const std::string& path) {
   Unchecked file = read_unchecked(path);
   LoadedSuperelement loaded{std::move(file.superelement), {}};
   Superelement& e = loaded.superelement;

@@ -81,12 +81,6 @@ std::string content_id(const Superelement& element);
 /// Reads, checks and (needs_filter()) filters. Throws Error naming dataset, indices, value and meaning.
 LoadedSuperelement read_superelement(const std::string& path);
 
-/// Many files at less cost: HDF5 can crash on a damaged file, so each is read in a child process first, which takes
-/// longer than the reading. One child tries them all (hdf5::survives); then read_rehearsed_superelement() may read
-/// them. If it does not survive, read_superelement() finds out which one is to blame.
-void try_superelement(const std::string& path);
-LoadedSuperelement read_rehearsed_superelement(const std::string& path);
-
 /// Checks, fills element.content_id and returns the bytes of the file.
 std::string superelement_image(const std::string& path, Superelement& element);
 

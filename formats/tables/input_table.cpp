@@ -85,12 +85,8 @@ std::vector<double> read_dataset(const hdf5::InputFile& file, const std::string&
 }
 
 TimeTable read_hdf5_table(const InputPlace& place) {
-  const auto read = [&place] {
-    const hdf5::InputFile file(place.file, hdf5::Completeness::closed);
-    return TimeTable{read_dataset(file, place.time), read_dataset(file, place.value)};
-  };
-  hdf5::rehearse(place.file, [&read] { read(); });
-  TimeTable table = read();
+  const hdf5::InputFile file(place.file, hdf5::Completeness::closed);
+  TimeTable table{read_dataset(file, place.time), read_dataset(file, place.value)};
   if (table.time.size() != table.value.size())
     throw Error(
         fmt::format("{} has {} points, {} has {}", place.time, table.time.size(), place.value, table.value.size()),

@@ -1,10 +1,9 @@
-// The door: rlimits, Landlock and seccomp.
+// The door: rlimits, Landlock and the filter of calls.
 #include "reducer/gmsh/door.hpp"
 
 #include <fcntl.h>
 #include <linux/landlock.h>
 #include <sched.h>
-#include <seccomp.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -16,9 +15,9 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <initializer_list>
 #include <new>
 
+#include "common/call_filter.hpp"
 #include "reducer/mesher/parcel.hpp"
 
 namespace tisserand::reducer {
@@ -63,126 +62,103 @@ bool is_alone() {
   return !error && std::distance(begin(threads), end(threads)) == 1;
 }
 
-using Calls = std::initializer_list<int>;
-
 /// What reading, computing, threads and giving up need. Through pipes to themselves sanitizers see which memory is
 /// there.
-constexpr Calls harmless{SCMP_SYS(read),
-                         SCMP_SYS(pread64),
-                         SCMP_SYS(readv),
-                         SCMP_SYS(write),
-                         SCMP_SYS(writev),
-                         SCMP_SYS(lseek),
-                         SCMP_SYS(_llseek),
-                         SCMP_SYS(close),
-                         SCMP_SYS(fstat),
-                         SCMP_SYS(fstat64),
-                         SCMP_SYS(stat),
-                         SCMP_SYS(stat64),
-                         SCMP_SYS(lstat),
-                         SCMP_SYS(lstat64),
-                         SCMP_SYS(newfstatat),
-                         SCMP_SYS(fstatat64),
-                         SCMP_SYS(statx),
-                         SCMP_SYS(access),
-                         SCMP_SYS(faccessat),
-                         SCMP_SYS(faccessat2),
-                         SCMP_SYS(readlink),
-                         SCMP_SYS(readlinkat),
-                         SCMP_SYS(getcwd),
-                         SCMP_SYS(getdents64),
-                         SCMP_SYS(dup),
-                         SCMP_SYS(poll),
-                         SCMP_SYS(ppoll),
-                         SCMP_SYS(munmap),
-                         SCMP_SYS(mprotect),
-                         SCMP_SYS(mremap),
-                         SCMP_SYS(madvise),
-                         SCMP_SYS(brk),
-                         SCMP_SYS(futex),
-                         SCMP_SYS(futex_time64),
-                         SCMP_SYS(set_robust_list),
-                         SCMP_SYS(rseq),
-                         SCMP_SYS(set_tid_address),
-                         SCMP_SYS(exit),
-                         SCMP_SYS(exit_group),
-                         SCMP_SYS(rt_sigaction),
-                         SCMP_SYS(rt_sigprocmask),
-                         SCMP_SYS(rt_sigreturn),
-                         SCMP_SYS(sigreturn),
-                         SCMP_SYS(sigaltstack),
-                         SCMP_SYS(restart_syscall),
-                         SCMP_SYS(sched_yield),
-                         SCMP_SYS(sched_getaffinity),
-                         SCMP_SYS(membarrier),
-                         SCMP_SYS(gettid),
-                         SCMP_SYS(getpid),
-                         SCMP_SYS(getppid),
-                         SCMP_SYS(getuid),
-                         SCMP_SYS(geteuid),
-                         SCMP_SYS(getgid),
-                         SCMP_SYS(getegid),
-                         SCMP_SYS(uname),
-                         SCMP_SYS(sysinfo),
-                         SCMP_SYS(getrlimit),
-                         SCMP_SYS(ugetrlimit),
-                         SCMP_SYS(getrusage),
-                         SCMP_SYS(times),
-                         SCMP_SYS(time),
-                         SCMP_SYS(gettimeofday),
-                         SCMP_SYS(clock_gettime),
-                         SCMP_SYS(clock_gettime64),
-                         SCMP_SYS(clock_getres),
-                         SCMP_SYS(clock_nanosleep),
-                         SCMP_SYS(clock_nanosleep_time64),
-                         SCMP_SYS(nanosleep),
-                         SCMP_SYS(getrandom),
-                         SCMP_SYS(getcpu),
-                         SCMP_SYS(pipe),
-                         SCMP_SYS(pipe2)};
+void allow_harmless(CallFilter& filter) {
+  using enum CallFilter::Action;
+  filter.add(allow, {SYS_read,
+                     SYS_pread64,
+                     SYS_readv,
+                     SYS_write,
+                     SYS_writev,
+                     SYS_lseek,
+                     SYS_close,
+                     SYS_fstat,
+                     SYS_newfstatat,
+                     SYS_statx,
+                     SYS_faccessat,
+                     SYS_faccessat2,
+                     SYS_readlinkat,
+                     SYS_getcwd,
+                     SYS_getdents64,
+                     SYS_dup,
+                     SYS_ppoll,
+                     SYS_munmap,
+                     SYS_mprotect,
+                     SYS_mremap,
+                     SYS_madvise,
+                     SYS_brk,
+                     SYS_futex,
+                     SYS_set_robust_list,
+                     SYS_rseq,
+                     SYS_set_tid_address,
+                     SYS_exit,
+                     SYS_exit_group,
+                     SYS_rt_sigaction,
+                     SYS_rt_sigprocmask,
+                     SYS_rt_sigreturn,
+                     SYS_sigaltstack,
+                     SYS_restart_syscall,
+                     SYS_sched_yield,
+                     SYS_sched_getaffinity,
+                     SYS_membarrier,
+                     SYS_gettid,
+                     SYS_getpid,
+                     SYS_getppid,
+                     SYS_getuid,
+                     SYS_geteuid,
+                     SYS_getgid,
+                     SYS_getegid,
+                     SYS_uname,
+                     SYS_sysinfo,
+                     SYS_getrlimit,
+                     SYS_getrusage,
+                     SYS_times,
+                     SYS_gettimeofday,
+                     SYS_clock_gettime,
+                     SYS_clock_getres,
+                     SYS_clock_nanosleep,
+                     SYS_nanosleep,
+                     SYS_getrandom,
+                     SYS_getcpu,
+                     SYS_pipe2});
+#if defined(__x86_64__)  // younger processors lack these, which others of the list replace
+  filter.add(allow, {SYS_stat, SYS_lstat, SYS_access, SYS_readlink, SYS_poll, SYS_time, SYS_pipe});
+#endif
+}
 
 /// What no geometry does by accident: the process ends, and its parent says why. Sockets are not among them: the C
 /// library asks for names of users through one, which OpenCASCADE wants to know for IGES.
-constexpr Calls harmful{
-    SCMP_SYS(execve),    SCMP_SYS(execveat),  SCMP_SYS(fork),      SCMP_SYS(vfork),    SCMP_SYS(mkdir),
-    SCMP_SYS(mkdirat),   SCMP_SYS(rmdir),     SCMP_SYS(unlink),    SCMP_SYS(unlinkat), SCMP_SYS(rename),
-    SCMP_SYS(renameat),  SCMP_SYS(renameat2), SCMP_SYS(link),      SCMP_SYS(linkat),   SCMP_SYS(symlink),
-    SCMP_SYS(symlinkat), SCMP_SYS(truncate),  SCMP_SYS(ftruncate), SCMP_SYS(chmod),    SCMP_SYS(fchmod),
-    SCMP_SYS(fchmodat),  SCMP_SYS(chown),     SCMP_SYS(fchown),    SCMP_SYS(lchown),   SCMP_SYS(fchownat),
-    SCMP_SYS(mknod),     SCMP_SYS(mknodat),   SCMP_SYS(ptrace),    SCMP_SYS(kill)};
-
-/// Condition on the argument at a position; SCMP_A0 and the like are compound literals, which C++ does not have.
-constexpr scmp_arg_cmp argument(unsigned position, scmp_compare compare, scmp_datum_t a, scmp_datum_t b = 0) {
-  return {position, compare, a, b};
+void kill_harmful(CallFilter& filter) {
+  using enum CallFilter::Action;
+  filter.add(kill_process, {SYS_execve, SYS_execveat, SYS_mkdirat, SYS_unlinkat, SYS_renameat, SYS_renameat2,
+                            SYS_linkat, SYS_symlinkat, SYS_truncate, SYS_ftruncate, SYS_fchmod, SYS_fchmodat,
+                            SYS_fchown, SYS_fchownat, SYS_mknodat, SYS_ptrace, SYS_kill});
+#if defined(__x86_64__)
+  filter.add(kill_process, {SYS_fork, SYS_vfork, SYS_mkdir, SYS_rmdir, SYS_unlink, SYS_rename, SYS_link, SYS_symlink,
+                            SYS_chmod, SYS_chown, SYS_lchown, SYS_mknod});
+#endif
 }
 
 /// Rules that look at arguments too.
-bool add_conditional(scmp_filter_ctx filter) {
-  constexpr scmp_datum_t writing = O_ACCMODE | O_CREAT | O_TRUNC, thread = CLONE_THREAD | CLONE_VM | CLONE_SIGHAND,
-                         uncounted = MAP_TYPE | MAP_GROWSDOWN;
-  const auto own = static_cast<scmp_datum_t>(::getpid());
-  const auto allow = [filter](int call, const scmp_arg_cmp& condition) {
-    return seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 1, condition) == 0;
-  };
-  bool done = allow(SCMP_SYS(open), argument(1, SCMP_CMP_MASKED_EQ, writing, O_RDONLY)) &&
-              allow(SCMP_SYS(openat), argument(2, SCMP_CMP_MASKED_EQ, writing, O_RDONLY)) &&
-              allow(SCMP_SYS(clone), argument(0, SCMP_CMP_MASKED_EQ, thread, thread)) &&
-              allow(SCMP_SYS(tgkill), argument(0, SCMP_CMP_EQ, own)) &&
-              // Nothing shared and no stacks: the limit of memory would not count them.
-              allow(SCMP_SYS(mmap), argument(3, SCMP_CMP_MASKED_EQ, uncounted, MAP_PRIVATE)) &&
-              allow(SCMP_SYS(mmap2), argument(3, SCMP_CMP_MASKED_EQ, uncounted, MAP_PRIVATE)) &&
-              allow(SCMP_SYS(prlimit64), argument(2, SCMP_CMP_EQ, 0));
-  for (const int question : {F_GETFD, F_SETFD, F_GETFL})
-    done = done && allow(SCMP_SYS(fcntl), argument(1, SCMP_CMP_EQ, static_cast<scmp_datum_t>(question)));
+void add_conditional(CallFilter& filter) {
+  using enum CallFilter::Action;
+  constexpr std::uint32_t writing = O_ACCMODE | O_CREAT | O_TRUNC, thread = CLONE_THREAD | CLONE_VM | CLONE_SIGHAND,
+                          uncounted = MAP_TYPE | MAP_GROWSDOWN, all = ~0u;
+#if defined(__x86_64__)
+  filter.add(allow, SYS_open, {1, writing, O_RDONLY});
+#endif
+  filter.add(allow, SYS_openat, {2, writing, O_RDONLY});
   // Without CLONE_VM or CLONE_THREAD a clone is a process, as in posix_spawn and system.
-  for (const scmp_datum_t flag : {CLONE_THREAD, CLONE_VM, CLONE_SIGHAND})
-    done = done && seccomp_rule_add(filter, SCMP_ACT_KILL_PROCESS, SCMP_SYS(clone), 1,
-                                    argument(0, SCMP_CMP_MASKED_EQ, flag, 0)) == 0;
-  return done && seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOTTY), SCMP_SYS(ioctl), 0) == 0;
-}
-
-bool add_all(scmp_filter_ctx filter, Calls calls, std::uint32_t action) {
-  return std::ranges::all_of(calls, [&](int call) { return seccomp_rule_add(filter, action, call, 0) == 0; });
+  filter.add(allow, SYS_clone, {0, thread, thread});
+  for (const std::uint32_t flag : {CLONE_THREAD, CLONE_VM, CLONE_SIGHAND})
+    filter.add(kill_process, SYS_clone, {0, flag, 0});
+  filter.add(allow, SYS_tgkill, {0, all, static_cast<std::uint32_t>(::getpid())});
+  // Nothing shared and no stacks: the limit of memory would not count them.
+  filter.add(allow, SYS_mmap, {3, uncounted, MAP_PRIVATE});
+  filter.add(allow, SYS_prlimit64, {2, all, 0, true});
+  for (const std::uint32_t question : {F_GETFD, F_SETFD, F_GETFL}) filter.add(allow, SYS_fcntl, {1, all, question});
+  filter.add(no_terminal, {SYS_ioctl});
 }
 
 }  // namespace
@@ -219,15 +195,13 @@ bool close_paths(const std::string& file, bool whole_folder) {
 
 bool close_calls() {
   limit(RLIMIT_FSIZE, 0.0);
-  // As on a kernel that knows no other calls: libraries then do without, also without clone3 and openat2, whose
-  // arguments a filter cannot see.
-  const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ERRNO(ENOSYS));
-  if (filter == nullptr) return false;
-  const bool done = add_all(filter, harmless, SCMP_ACT_ALLOW) && add_all(filter, harmful, SCMP_ACT_KILL_PROCESS) &&
-                    add_conditional(filter) && seccomp_attr_set(filter, SCMP_FLTATR_CTL_TSYNC, 1) == 0 &&
-                    seccomp_load(filter) == 0;
-  seccomp_release(filter);
-  return done;
+  // All else as on a kernel that knows no other calls: libraries then do without, also without clone3 and openat2,
+  // whose arguments a filter cannot see.
+  CallFilter filter;
+  allow_harmless(filter);
+  kill_harmful(filter);
+  add_conditional(filter);
+  return filter.install();
 }
 
 }  // namespace tisserand::reducer

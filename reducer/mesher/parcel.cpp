@@ -2,84 +2,15 @@
 #include "reducer/mesher/parcel.hpp"
 
 #include <cmath>
-#include <cstring>
-#include <limits>
-#include <type_traits>
 
-#include <fmt/format.h>
-
-#include "common/text.hpp"
+#include "common/packing.hpp"
 
 namespace tisserand::reducer {
 namespace {
 
-constexpr std::size_t longest_text = 4000;
 enum class AnswerKind : std::uint8_t { mesh = 1, error = 2 };
 
-class Packer {
- public:
-  template <class T>
-  void value(T value) {
-    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  void text(const std::string& text) {
-    value(text.size());
-    bytes += text;
-  }
-  template <class T>
-  void row(const std::vector<T>& values) {
-    value(values.size());
-    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-  }
-  std::string bytes;
-};
-
-class Unpacker {
- public:
-  Unpacker(std::string_view bytes, const std::string& file) : left_(bytes), file_(file) {}
-
-  template <class T>
-  T value() {
-    static_assert(std::is_arithmetic_v<T>);
-    T result{};
-    std::memcpy(&result, take(sizeof result).data(), sizeof result);
-    return result;
-  }
-  bool flag() { return value<std::uint8_t>() != 0; }
-  std::string raw_text() { return std::string(take(size(1))); }
-  std::string text() { return printable_line(raw_text(), longest_text); }
-  template <class T>
-  std::vector<T> row() {
-    static_assert(std::is_arithmetic_v<T>);
-    std::vector<T> values(size(sizeof(T)));
-    const std::string_view bytes = take(values.size() * sizeof(T));
-    if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
-    return values;
-  }
-  /// A number of things of which each takes at least `least` bytes of what is left.
-  std::size_t size(std::size_t least) {
-    const auto count = value<std::size_t>();
-    require(count <= left_.size() / least && count <= std::numeric_limits<int>::max(), "it is too short");
-    return count;
-  }
-  void require(bool fits, const char* what) const {
-    if (!fits)
-      throw Error(fmt::format("what gmsh made of it is no mesh: {}", what), file_,
-                  "the file is damaged, or made to do harm: do not use it");
-  }
-  void end() const { require(left_.empty(), "it is too long"); }
-
- private:
-  std::string_view take(std::size_t count) {
-    require(count <= left_.size(), "it is too short");
-    const std::string_view bytes = left_.substr(0, count);
-    left_.remove_prefix(count);
-    return bytes;
-  }
-  std::string_view left_;
-  const std::string& file_;
-};
+constexpr const char* no_mesh = "what gmsh made of it is no mesh";
 
 void pack_cells(Packer& to, const std::vector<Cell>& cells) {
   std::vector<std::uint8_t> shapes;
@@ -224,7 +155,7 @@ std::string pack(const GeometryRequest& r) {
 GeometryRequest unpack_request(const std::string& bytes) {
   GeometryRequest r;
   const std::string nowhere;
-  Unpacker from(bytes, nowhere);
+  Unpacker from(bytes, nowhere, no_mesh);
   r.file = from.raw_text();
   r.kind = static_cast<MeshFileKind>(from.value<int>());
   r.target_unit = from.raw_text();
@@ -270,17 +201,14 @@ std::string pack(const CellMesh& mesh) {
 std::string pack(const Error& error) {
   Packer to;
   to.value(AnswerKind::error);
-  for (const std::string& text : {error.message(), error.where(), error.remedy()}) to.text(text);
+  to.error(error);
   return to.bytes;
 }
 
 CellMesh unpack_answer(const std::string& bytes, const std::string& file) {
-  Unpacker from(bytes, file);
+  Unpacker from(bytes, file, no_mesh);
   const auto kind = from.value<std::uint8_t>();
-  if (kind == static_cast<std::uint8_t>(AnswerKind::error)) {
-    const std::string what = from.text(), where = from.text(), remedy = from.text();
-    throw Error(what, where, remedy);
-  }
+  if (kind == static_cast<std::uint8_t>(AnswerKind::error)) throw from.error();
   from.require(kind == static_cast<std::uint8_t>(AnswerKind::mesh), "it has no known kind");
   CellMesh mesh;
   unpack_nodes(from, mesh);

@@ -8,18 +8,43 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "formats/hdf5/file.hpp"
+#include "formats/hdf5/apart.hpp"
+#include "formats/hdf5/container.hpp"
 #include "tests/formats/hdf5/mutated_container.hpp"
 #include "text_file.hpp"
 
 namespace tisserand::formats::hdf5 {
 
-/// In place of the child processes of formats/hdf5/rehearsal.cpp, which would hide a crash behind an Error and cost a
-/// fork: the containers are sound, so nothing may crash here.
-void rehearse(const std::string&, const std::function<void()>&) {}
-void rehearse(const std::string&, const std::function<void()>&, const ReadingLimits&) {}
-std::string read_apart(const std::string&, const std::function<std::string()>& read) { return read(); }
-bool survives(const std::vector<std::string>&, const std::function<void(const std::string&)>&) { return true; }
+/// In place of formats/hdf5/apart.cpp, whose child would hide a crash behind an Error and cost a fork: the containers
+/// are sound, so nothing may crash here.
+struct Apart::Impl {
+  explicit Impl(const std::string& path) : path(path), file(path) {}
+  std::string path;
+  OpenFile file;
+  std::optional<Container> container;
+};
+
+Apart::Apart(const std::vector<std::string>& paths, const ReadingLimits&)
+    : impl_(std::make_unique<Impl>(paths.front())) {}
+Apart::~Apart() = default;
+std::optional<std::size_t> Apart::number_of(const std::string& path) const {
+  return path == impl_->path ? std::optional<std::size_t>(0) : std::nullopt;
+}
+std::string Apart::open(std::size_t, Completeness completeness) {
+  return opening_of(impl_->container.emplace(impl_->file, completeness));
+}
+void Apart::ask(std::size_t, const std::string& request, const Place& place) {
+  answer(*impl_->container, request, place);
+}
+std::string Apart::ask(std::size_t file, const std::string& request) {
+  std::string text;
+  ask(file, request, [&text](std::uint64_t bytes) {
+    text.resize(bytes);
+    return text.data();
+  });
+  return text;
+}
+std::shared_ptr<Apart> Together::child_of(const std::string&) { return nullptr; }
 
 }  // namespace tisserand::formats::hdf5
 

@@ -1,0 +1,63 @@
+// The file as HDF5 sees it. HDF5 1.10 can be led astray by a damaged or crafted file, so this is used only in the
+// process of apart.hpp.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "formats/hdf5/entry.hpp"
+#include "formats/hdf5/file.hpp"
+#include "formats/hdf5/variable_texts.hpp"
+
+namespace tisserand::formats::hdf5 {
+
+/// An ordinary file, open for reading, before anything of it is read. Throws Error: no such file, no permission, a
+/// folder, no bytes.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path);
+  ~OpenFile();
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  int descriptor() const { return descriptor_; }
+  std::uint64_t size() const { return size_; }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+class Container {
+ public:
+  /// Throws Error: not HDF5, cut short, not closed properly. The file stays open as long as this lives.
+  Container(const OpenFile& file, Completeness completeness);
+
+  const std::string& path() const { return path_; }
+  bool closed_properly() const { return closed_properly_; }
+  ObjectEntry describe(const std::string& object) const;
+  /// Whether a dataset cannot grow and has no more than so many bytes (texts of variable length: no more references).
+  bool is_fixed_and_below(const std::string& dataset, std::uint64_t bytes) const;
+  // Both throw Error, also if there are not as many as expected.
+  std::vector<std::string> read_texts(const std::string& dataset, std::uint64_t count) const;
+  void read(const ValuesRequest& request, const Place& place) const;
+
+ private:
+  std::string place(const std::string& object) const;
+  /// The dataset stays open until another one is asked for.
+  Id dataset(const std::string& name) const;
+  void describe_attributes(Id object, ObjectEntry& entry) const;
+  AttributeEntry describe_attribute(Id object, const std::string& name) const;
+  void read_text(Id attribute, Id type, AttributeEntry& entry) const;
+
+  std::string path_;
+  bool closed_properly_ = true;
+  Handle file_;
+  std::unique_ptr<VariableTexts> texts_;
+  mutable std::string last_name_;
+  mutable Handle last_;
+};
+
+}  // namespace tisserand::formats::hdf5

@@ -1,0 +1,41 @@
+// Texts of variable length, read without HDF5: it copies as many bytes as the heap of a crafted file says, over what
+// lies behind a buffer of the length that the reference says (1.10.8, H5HG_read).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "formats/hdf5/file.hpp"
+
+namespace tisserand::formats::hdf5 {
+
+class VariableTexts {
+ public:
+  /// `descriptor` is the file whose HDF5 identifier is `file`.
+  VariableTexts(int descriptor, Id file);
+
+  /// `count` texts, each cut off at its first byte 0, which `read` puts into a buffer as elements of a type: of
+  /// references, as the file holds them. Throws Error at `where`: a reference that does not fit what it refers to,
+  /// altogether more than `most` bytes.
+  std::vector<std::string> read(std::uint64_t count, std::uint64_t most, const std::string& where,
+                                const std::function<bool(Id type, void* references)>& read);
+
+ private:
+  struct Item {
+    std::uint64_t index = 0, begin = 0, size = 0;
+  };
+
+  void load(std::uint64_t address, const std::string& where);
+  std::string text_at(std::uint64_t address, std::uint64_t index, std::uint64_t length, const std::string& where);
+  std::uint64_t number(const char* bytes, std::uint64_t size) const;
+
+  int descriptor_;
+  std::uint64_t address_bytes_ = 8, length_bytes_ = 8, begin_ = 0;  ///< of this file
+  std::uint64_t loaded_ = 0;                                        ///< address of the collection below; 0: none
+  std::string collection_;
+  std::vector<Item> items_;
+};
+
+}  // namespace tisserand::formats::hdf5
