@@ -20,7 +20,7 @@
 #include <ctime>
 #include <optional>
 
-#include "common/call_filter.hpp"
+#include "common/confined/call_filter.hpp"
 #include "common/console.hpp"
 #include "common/text.hpp"
 #include "formats/hdf5/container.hpp"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/packing.hpp"
+#include "common/confined/packing.hpp"
 
 namespace tisserand::formats::hdf5 {
 

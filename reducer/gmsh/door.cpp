@@ -17,7 +17,7 @@
 #include <filesystem>
 #include <new>
 
-#include "common/call_filter.hpp"
+#include "common/confined/call_filter.hpp"
 #include "reducer/mesher/parcel.hpp"
 
 namespace tisserand::reducer {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "common/packing.hpp"
+#include "common/confined/packing.hpp"
 
 namespace tisserand::reducer {
 namespace {

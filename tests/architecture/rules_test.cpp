@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"formats/x.cpp", "#include <slepceps.h>\n", "PETSc and SLEPc stay in reducer"},
         Planted{"reducer/other.cpp", "#include <gmsh.h>\n", "gmsh stays in reducer/gmsh"},
         Planted{"reducer/other.cpp", "#include <linux/landlock.h>\n", "the door is one file of reducer/gmsh"},
-        Planted{"reducer/other.cpp", "#include <linux/seccomp.h>\n", "filtered by common/call_filter"},
+        Planted{"reducer/other.cpp", "#include <linux/seccomp.h>\n", "filtered by common/confined/call_filter"},
         Planted{"mechanism/gmsh.cpp", "#include <gmsh.h>\n", "gmsh stays in reducer/gmsh"},
         Planted{"mechanism/equations/newton.cpp", "#include <suitesparse/klu.h>\n", "SuiteSparse stays in four files"},
         Planted{"reducer/x.cpp", "#include <cholmod.h>\n", "SuiteSparse stays in four files"},

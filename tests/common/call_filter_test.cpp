@@ -1,5 +1,5 @@
 // System calls that a process may make, tried in a child each.
-#include "common/call_filter.hpp"
+#include "common/confined/call_filter.hpp"
 
 #include <fcntl.h>
 #include <sys/prctl.h>

@@ -16,7 +16,6 @@
 #include "reducer/modes/eps_block_lanczos.hpp"
 #include "reducer/modes/spectrum.hpp"
 #include "tests/reducer/parts.hpp"
-#include "tests/reducer/modes/registered_type.hpp"
 #include "tests/support/thrown.hpp"
 
 namespace tisserand::testing::eps_test {

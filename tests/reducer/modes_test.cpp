@@ -13,7 +13,6 @@
 #include "reducer/report/memory.hpp"
 #include "reducer/sources/build_mesh.hpp"
 #include "tests/reducer/parts.hpp"
-#include "tests/reducer/modes/registered_type.hpp"
 #include "tests/support/thrown.hpp"
 
 namespace tisserand::testing::modes_test {

@@ -4,12 +4,21 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
 #include <Eigen/Core>
 
 #include "formats/part/part.hpp"
 #include "reducer/mesh/mesh.hpp"
+#include "reducer/modes/eps_block_lanczos.hpp"
 #include "reducer/reduce.hpp"
 #include "reducer/system/system.hpp"
+
+/// Skips a test of the block Lanczos type where SLEPc's header for new solvers was not found.
+#define NEEDS_BLOCK_LANCZOS()                                                       \
+  if (!reducer::has_block_lanczos()) {                                              \
+    GTEST_SKIP() << "slepc/private/epsimpl.h was missing when this was configured"; \
+  }                                                                                 \
+  static_assert(true)
 
 namespace tisserand::testing {
 

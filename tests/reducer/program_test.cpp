@@ -17,7 +17,7 @@
 #include "formats/modal_body/modal_body.hpp"
 #include "formats/recovery/recovery.hpp"
 #include "formats/superelement/superelement.hpp"
-#include "tests/reducer/modes/registered_type.hpp"
+#include "tests/reducer/parts.hpp"
 
 namespace tisserand::testing::program_test {
 namespace {

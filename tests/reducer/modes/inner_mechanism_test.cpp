@@ -17,7 +17,6 @@
 #include "reducer/solve/solve.hpp"
 #include "reducer/system/partition.hpp"
 #include "tests/reducer/parts.hpp"
-#include "tests/reducer/modes/registered_type.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/thrown.hpp"
 

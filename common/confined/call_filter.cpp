@@ -1,5 +1,5 @@
 // Rules as a program of the kernel's packet filter, over struct seccomp_data.
-#include "common/call_filter.hpp"
+#include "common/confined/call_filter.hpp"
 
 #include <linux/audit.h>
 #include <linux/seccomp.h>
