@@ -105,10 +105,10 @@ void doubt_friction(const std::string& whose, double coefficient, Doubts& doubts
 void doubt_times(const formats::Scene& scene, Doubts& doubts) {
   const double start = scene.integrator.start, end = scene.integrator.end;
   const std::string second = after_number(unit_label(scene.units, 0, 0, 1));
-  const auto table = [&](const std::string& whose, const formats::TimeTable& table) {
-    if (table.time.empty() || (table.time.front() < end && table.time.back() > start)) return;
+  const auto table = [&](const std::string& whose, const formats::TimeTable& held) {
+    if (held.time.empty() || (held.time.front() < end && held.time.back() > start)) return;
     doubts.add("the table of {} holds {:g} to {:g}{}, the run goes from {:g} to {:g}{}: it is constant", whose,
-               table.time.front(), table.time.back(), second, start, end, second);
+               held.time.front(), held.time.back(), second, start, end, second);
   };
   const auto function = [&](const std::string& whose, const formats::TimeFunctionSpec& spec) {
     if (const auto* values = std::get_if<formats::TimeTable>(&spec)) table(whose, *values);

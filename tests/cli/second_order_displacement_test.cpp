@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <Eigen/Core>
 
 #include "tests/cli/scenes.hpp"

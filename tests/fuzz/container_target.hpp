@@ -18,7 +18,7 @@ namespace tisserand::formats::hdf5 {
 /// In place of formats/hdf5/apart.cpp, whose child would hide a crash behind an Error and cost a fork: the containers
 /// are sound, so nothing may crash here.
 struct Apart::Impl {
-  explicit Impl(const std::string& path) : path(path), file(path) {}
+  explicit Impl(const std::string& name) : path(name), file(name) {}
   std::string path;
   OpenFile file;
   std::optional<Container> container;

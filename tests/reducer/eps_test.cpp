@@ -142,7 +142,7 @@ TEST_P(EpsTypes, FindAllThatExist) {
 
 INSTANTIATE_TEST_SUITE_P(All, EpsTypes,
                          ::testing::Values(EigenSolver::lapack, EigenSolver::block_lanczos, EigenSolver::krylov_schur),
-                         [](const auto& info) { return reducer::eps_type(info.param); });
+                         [](const auto& one) { return reducer::eps_type(one.param); });
 
 class EpsIterations : public EpsTypes {};
 
@@ -175,7 +175,7 @@ TEST_P(EpsIterations, HandOverTheErrorOfASolution) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EpsIterations, ::testing::Values(EigenSolver::block_lanczos, EigenSolver::krylov_schur),
-                         [](const auto& info) { return reducer::eps_type(info.param); });
+                         [](const auto& one) { return reducer::eps_type(one.param); });
 
 // Five masses, blocks of eight columns: the basis cannot grow, and Krylov-Schur finds them.
 TEST(EpsFallBack, IsKrylovSchurWhereTheBlocksBreakDown) {

@@ -11,6 +11,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "formats/recovery/second_order.hpp"
 #include "reducer/properties/laminate.hpp"
