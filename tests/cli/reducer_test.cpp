@@ -8,6 +8,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr const char* beam_part = R"yaml(part: beam
 materials: {steel: {E: 2.1e11, nu: 0.3, density: 7850}}
@@ -58,6 +59,18 @@ TEST_F(Reducer, FaultsOfAPartAreToldAndLeaveNothing) {
 }
 
 // As of `mechanism`; here gmsh has a process of its own, which is called through descriptors 3 and 4.
+// A plate that takes some ten seconds.
+TEST_F(Reducer, InterruptedLeavesNothingHalfWritten) {
+  const Outcome outcome =
+      call({"/usr/bin/timeout", "--preserve-status", "-s", "INT", "1", program("reducer"), "run",
+            std::string(TISSERAND_SOURCE_DIR) + "/tests/benchmarks/spider_plate.part.yaml", "--set",
+            "plates.sheet.elements=[200, 200]", "-o", file("plate.superelement.h5")},
+           where);
+  EXPECT_EQ(outcome.code, 130) << outcome.error;
+  EXPECT_THAT(outcome.error, HasSubstr("reducer: interrupted: no file was written or changed"));
+  for (const std::string& name : names()) EXPECT_THAT(name, Not(HasSubstr("plate")));
+}
+
 TEST_F(Reducer, ClosedStreamsHarmNothing) {
   write_text(file("square.part.yaml"),
              "part: square\nunits: {length: mm, mass: t, time: s}\nmesh: {file: " + std::string(TISSERAND_SOURCE_DIR) +
