@@ -31,7 +31,7 @@ void wake(int /*signal*/) {
     if (errno != EINTR) ::pause();
   const bool published = remove_temporaries();
   if (!program.empty())
-    complain(program, published ? "interrupted: the files that it names were complete before"
+    complain(program, published ? "interrupted: files that were written before are complete"
                                 : "interrupted: no file was written or changed");
   ::_exit(exit_interrupted);
 }

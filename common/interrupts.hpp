@@ -5,9 +5,10 @@
 
 namespace tisserand {
 
-/// Ends this program on Ctrl-C, `kill` or a closed terminal, whatever its threads are doing: files under temporary names
-/// are removed, files that are taking their names do so first, one line says what became of them, and the exit status is
-/// 130. `program`: begins the line; empty: says nothing. A signal that the caller ignores stays ignored. Call it once.
+/// Ends this program on Ctrl-C, `kill` or a closed terminal, whatever its threads are doing: files under temporary
+/// names are removed, files that are taking their names do so first, one line says what became of them, and the exit
+/// status is 130. `program`: begins the line; empty: says nothing. A signal that the caller ignores stays ignored. Call
+/// it once.
 void end_on_interrupt(const std::string& program);
 
 }  // namespace tisserand

@@ -7,9 +7,9 @@
 namespace tisserand {
 
 /// Throws Error if `path` is empty, a folder, in a folder that is missing or not writable, one of the `inputs` of the
-/// same command, or has none of the `endings` (".csv", ".results.h5"). A name like "a.companion.h5" ends like files of
-/// another kind, and not in ".h5". Where files in HDF5 are written: a device, or an existing file of another kind.
-/// Elsewhere "-" and devices are streams.
+/// same command, or has none of the `endings` (".csv", ".results.h5"). A name that ends in ".companion.h5" is that of
+/// a companion file, and does not count as ".h5". Where the output is HDF5,
+/// a device and an existing file of another kind are errors, too. Elsewhere "-" and devices are streams.
 void require_output(const std::string& path, const std::vector<std::string>& endings,
                     const std::vector<std::string>& inputs);
 

@@ -42,4 +42,13 @@ void on_threads(int threads, const Work& work) {
     if (f) std::rethrow_exception(f);
 }
 
+/// work(t, k) for all k below `count`, a share of them on each thread t.
+template <class Work>
+void share_out(int count, int threads, const Work& work) {
+  on_threads(threads, [&](int t) {
+    const Share share = share_of(count, t, threads);
+    for (int k = share.first; k < share.end; ++k) work(t, k);
+  });
+}
+
 }  // namespace tisserand

@@ -1,16 +1,16 @@
-// One list for the process; names of complete files stay in it and no longer exist.
+// One set for the process.
 #include "common/temporaries.hpp"
 
 #include <unistd.h>
 
-#include <vector>
+#include <set>
 
 namespace tisserand {
 namespace {
 
 struct Temporaries {
   std::recursive_mutex mutex;
-  std::vector<std::string> names;
+  std::set<std::string> names;
   bool published = false;
 };
 
@@ -23,7 +23,12 @@ Temporaries& temporaries() {
 
 void note_temporary(const std::string& name) {
   const std::lock_guard lock(temporaries().mutex);
-  temporaries().names.push_back(name);
+  temporaries().names.insert(name);
+}
+
+void forget_temporary(const std::string& name) {
+  const std::lock_guard lock(temporaries().mutex);
+  temporaries().names.erase(name);
 }
 
 std::unique_lock<std::recursive_mutex> publishing() {

@@ -9,6 +9,9 @@ namespace tisserand {
 /// Remembers the name of a file that is not complete. Does not return once remove_temporaries() was called.
 void note_temporary(const std::string& name);
 
+/// Forgets a file that took its name or was removed.
+void forget_temporary(const std::string& name);
+
 /// Held while files take their names: several that belong together under one lock. Counts as published from then on.
 std::unique_lock<std::recursive_mutex> publishing();
 

@@ -224,7 +224,9 @@ TextFile::TextFile(const std::string& path) : path_(path) {
 TextFile::~TextFile() {
   if (file_ < 0) return;
   ::close(file_);
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (temporary_.empty()) return;
+  ::unlink(temporary_.c_str());
+  forget_temporary(temporary_);
 }
 
 void TextFile::write(const std::string& text) {
@@ -243,6 +245,7 @@ void TextFile::publish() {
   const auto lock = publishing();
   if (!temporary_.empty() && ::rename(temporary_.c_str(), path_.c_str()) != 0)
     fail("cannot move the complete file to its name", path_, errno);
+  forget_temporary(temporary_);
   ::close(file_);
   file_ = -1;
 }
@@ -260,9 +263,11 @@ void publish_file(const std::string& from, const std::string& to) {
   if (file >= 0 && ::fsync(file) != 0) number = errno;
   if (file >= 0) ::close(file);
   const auto lock = publishing();
-  if (number == 0 && ::rename(from.c_str(), to.c_str()) == 0) return;
-  if (number == 0) number = errno;
-  ::unlink(from.c_str());
+  const bool moved = number == 0 && ::rename(from.c_str(), to.c_str()) == 0;
+  if (!moved && number == 0) number = errno;
+  if (!moved) ::unlink(from.c_str());
+  forget_temporary(from);
+  if (moved) return;
   fail("cannot write the file", to, number);
 }
 

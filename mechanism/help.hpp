@@ -72,7 +72,7 @@ inline constexpr const char* about_export =
 
   mechanism export arm.results.h5 -o arm.csv
   mechanism export arm.results.h5 -c nodes/position -c 'joints/*/hinge/*' -o arm.csv
-  mechanism export arm.results.h5 -c energy -o /dev/stdout | head
+  mechanism export arm.results.h5 -c energy -o - | head
   mechanism export tones.results.h5 -c modes/frequency -c modes/damping_ratio -o tones.csv)help";
 
 inline constexpr const char* about_channels = R"help(Lists the channels of a results file with their units.

@@ -438,11 +438,9 @@ int command_line(int argc, char** argv) {
   view_command->callback([&] {
     view_request.shown = complete(view_arguments);
     if (view_request.output.empty()) view_request.output = mechanism::default_page(view_request.shown.files, ".html");
-    if (paraview.empty()) require_output(view_request.output, {".html"}, drawn_files(view_arguments));
-    if (paraview.empty())
-      say_of(view_request.output, mechanism::view(view_request));
-    else
-      say(mechanism::write_paraview(view_request, paraview));
+    if (!paraview.empty()) return say(mechanism::write_paraview(view_request, paraview));
+    require_output(view_request.output, {".html"}, drawn_files(view_arguments));
+    say_of(view_request.output, mechanism::view(view_request));
   });
 
   PictureArguments picture_arguments;

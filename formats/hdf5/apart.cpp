@@ -205,7 +205,8 @@ void tell_unconfined() {
   if (!told)
     complain(
         "note",
-        "HDF5 files are read with less protection from files made to do harm: seccomp is missing, or forbidden here");
+        "HDF5 files are read by a process that keeps all its rights: this system lacks seccomp or forbids it. A crafted "
+        "file could do more harm");
   told = true;
 }
 

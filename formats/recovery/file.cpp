@@ -236,7 +236,7 @@ struct RecoveryReader::Impl {
                      set.dataset);
     return read_field(file, set, first, count);
   }
-  /// Of inertia loads, and behind them of applied loads.
+  /// Columns of the inertia loads, then those of the applied loads.
   FieldRows read_loads(const FieldSet& inertia, const FieldSet& applied, int first, int count) const {
     FieldRows rows(static_cast<Eigen::Index>(inertia.width) * count, inertia.columns + applied.columns);
     rows.leftCols(inertia.columns) = read(inertia, first, count);

@@ -31,7 +31,8 @@ std::vector<std::string> names_of(const ResultsLayout& layout, const LoadedBody&
   return {names.begin() + offset[body.row], names.begin() + offset[body.row + 1]};
 }
 
-/// Of the image in the scene -> of the part in its units; components as AppliedLoad::component.
+/// Factor of a force or moment on the mirrored body in the scene, which makes it that on the part in units of its file;
+/// `component`: AppliedLoad::component.
 double force_to_file(const LoadedBody& body, int component) {
   const UnitConversion& to = body.to_scene;
   const double sign = body.mirror[component % 3] * (component < 3 ? 1.0 : body.mirror.prod());
@@ -54,8 +55,7 @@ void set_applied(const std::vector<AppliedLoad>& applied, const ResultsReader& r
     const auto item = static_cast<Index>(first + static_cast<std::size_t>(at - names.begin()));
     const Index column = body.is_modal ? 6 * item + load.component : item;
     const double scale = body.is_modal ? force_to_file(body, load.component) : 1.0;
-    if (column < all.cols())
-      factor.row(inertia_loads + static_cast<Index>(k)) = scale * all.col(column).transpose();
+    if (column < all.cols()) factor.row(inertia_loads + static_cast<Index>(k)) = scale * all.col(column).transpose();
   }
 }
 
@@ -99,9 +99,10 @@ LoadFactors load_factors(const Recovery& recovery, const ResultsReader& results,
   set_applied(recovery.loads->applied, results, rows, body, loads.factor);
   if (!loads.factor.bottomRows(static_cast<Index>(recovery.loads->applied.size())).allFinite()) return {};
   for (Index t = 0; t < a.cols(); ++t)
-    loads.factor.col(t).head<inertia_loads>() = inertia_factors(body.mirror.cwiseProduct(a.col(t)) * (to.time * to.time / to.length),
-                                          turning * body.mirror.cwiseProduct(w.col(t)) * to.time,
-                                          turning * body.mirror.cwiseProduct(wd.col(t)) * (to.time * to.time), d);
+    loads.factor.col(t).head<inertia_loads>() =
+        inertia_factors(body.mirror.cwiseProduct(a.col(t)) * (to.time * to.time / to.length),
+                        turning * body.mirror.cwiseProduct(w.col(t)) * to.time,
+                        turning * body.mirror.cwiseProduct(wd.col(t)) * (to.time * to.time), d);
   loads.spin_squared = w.colwise().squaredNorm().transpose() * (to.time * to.time);
   return loads;
 }

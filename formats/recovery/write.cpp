@@ -195,7 +195,7 @@ struct RecoveryWriter::Impl {
     }
   }
 
-  /// Of inertia loads, and behind them of applied loads.
+  /// Columns of the inertia loads, then those of the applied loads.
   void append_loads(const FieldSet& inertia, const FieldSet& applied, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
     TISSERAND_ENSURE(rows.cols() == inertia.columns + applied.columns, "{} columns for {}", rows.cols(),
                      inertia.dataset);

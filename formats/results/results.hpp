@@ -61,8 +61,8 @@ struct ResultsLayout {
   SimulatedScene simulated;
 };
 
-/// Of modal bodies, in axes of their parts: acceleration of the origin of the frame less gravity, angular velocity and
-/// its rate; wrench [force; moment about the node] on each of layout.modal_nodes.
+/// Motion of the frames of modal bodies, in axes of their parts: acceleration of the origin less gravity, angular
+/// velocity and its rate; and what acts on each of layout.modal_nodes, [force; moment about the node].
 struct ModalFrames {
   Eigen::Matrix3Xd acceleration, angular_velocity, angular_acceleration;
   Eigen::Matrix<double, 6, Eigen::Dynamic> node_force;

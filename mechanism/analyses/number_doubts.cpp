@@ -1,9 +1,10 @@
-// Limits far beyond what is built: a factor of 1000 between two units is beyond each of them, a bold design is not.
+// Limits lie far beyond usual designs. A mistake of units is mostly a factor of 1000.
 #include "mechanism/analyses/number_doubts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <variant>
 
 #include <fmt/format.h>
@@ -22,21 +23,45 @@ using Eigen::Vector3d;
 constexpr double least_gravity = 0.03, most_gravity = 300.0;  // [m/s²]
 constexpr double most_friction = 3.0;                         // rubber on dry ground has 1 to 1.5
 constexpr double most_damping = 2.0;                          // dampers in cars 0.2 to 0.4, critical 1
-constexpr double most_gyration = 100.0;  // of the extent of a body's nodes: a flywheel on a short bearing has some 20
+constexpr double most_gyration = 100.0;  // of the extents of body and scene: a flywheel on a short bearing has some 20
 constexpr double most_section = 5.0;     // radius of gyration of a section, over the length of the beam
 constexpr double most_free_length = 100.0;  // of a spring, over its length at the start
 
-struct Doubts {
-  const Units& units;
-  std::vector<std::string> list;
+constexpr int most_told = 3;  // of one kind: the rest is counted
+
+/// Doubts by kind: of a thousand links with the same mistake a few are named.
+class Doubts {
+ public:
+  explicit Doubts(const formats::Scene& scene) : units(scene.units) {}
 
   template <class... T>
   void add(fmt::format_string<T...> format, T&&... values) {
+    const fmt::string_view pattern = format;
+    Kind& kind = kinds_[std::string(pattern.data(), pattern.size())];
     std::string text = fmt::format(format, std::forward<T>(values)...);
-    if (std::ranges::find(list, text) == list.end()) list.push_back(std::move(text));
+    if (std::ranges::find(kind.told, text) != kind.told.end()) return;
+    if (++kind.count <= most_told) kind.told.push_back(std::move(text));
   }
-  std::string length(double value) const { return fmt::format("{:.4g}{}", value, unit(1)); }
-  std::string unit(int power) const { return after_number(unit_label(units, power, 0, 0)); }
+  std::string length(double value) const {
+    return fmt::format("{:.4g}{}", value, after_number(unit_label(units, 1, 0, 0)));
+  }
+  std::vector<std::string> list() && {
+    std::vector<std::string> all;
+    for (auto& [format, kind] : kinds_) {
+      if (kind.count > most_told) kind.told.back() += fmt::format(" (and {} more like this)", kind.count - most_told);
+      std::ranges::move(kind.told, std::back_inserter(all));
+    }
+    return all;
+  }
+
+  const Units& units;
+
+ private:
+  struct Kind {
+    std::vector<std::string> told;
+    int count = 0;
+  };
+  std::map<std::string, Kind> kinds_;
 };
 
 void doubt_gravity(const std::string& whose, const Vector3d& g, Doubts& doubts) {
@@ -59,18 +84,23 @@ void doubt_damping(const std::string& name, const formats::Damping& damping, Dou
                0.01 * largest);
 }
 
-void doubt_body(const formats::RigidBodySpec& body, Doubts& doubts) {
-  Eigen::AlignedBox3d box(Vector3d::Zero());  // the part frame is a node, too
-  box.extend(body.center_of_mass);
-  for (const formats::RigidNodeSpec& node : body.nodes) box.extend(node.pose.position);
-  const double extent = box.diagonal().norm();
-  const double gyration =
-      std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia, Eigen::EigenvaluesOnly).eigenvalues()[2] /
-                body.mass);
-  if (extent > 0.0 && gyration > most_gyration * extent)
-    doubts.add("'{}' has a radius of gyration of {}, and its nodes and centre of mass lie within {}: check `inertia`",
-               body.name, doubts.length(gyration), doubts.length(extent));
+/// A scene of one body has no size to compare with: a disc on an axle with an imbalance of 10 µm is no mistake.
+void doubt_inertia(const formats::Scene& scene, const Model& model, Doubts& doubts) {
+  if (scene.bodies.size() < 2) return;
+  for (const formats::BodySpec& any : scene.bodies) {
+    const auto* body = std::get_if<formats::RigidBodySpec>(&any);
+    if (body == nullptr) continue;
+    Eigen::AlignedBox3d box(Vector3d::Zero());  // the part frame is a node, too
+    for (const formats::RigidNodeSpec& node : body->nodes) box.extend(node.pose.position);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(body->inertia, Eigen::EigenvaluesOnly);
+    const double gyration = std::sqrt(principal.eigenvalues()[2] / body->mass);
+    if (gyration > most_gyration * std::max(model.length, box.diagonal().norm()))
+      doubts.add("'{}' has a radius of gyration of {}, the scene an extent of {}: check `inertia`", body->name,
+                 doubts.length(gyration), doubts.length(model.length));
+  }
 }
+
+void doubt_body(const formats::RigidBodySpec& /*body*/, Doubts& /*doubts*/) {}
 
 void doubt_body(const formats::BeamBodySpec& beam, Doubts& doubts) {
   const formats::Section& section = beam.section;
@@ -107,7 +137,9 @@ void doubt_times(const formats::Scene& scene, Doubts& doubts) {
   const std::string second = after_number(unit_label(scene.units, 0, 0, 1));
   const auto table = [&](const std::string& whose, const formats::TimeTable& held) {
     if (held.time.empty() || (held.time.front() < end && held.time.back() > start)) return;
-    doubts.add("the table of {} holds {:g} to {:g}{}, the run goes from {:g} to {:g}{}: it is constant", whose,
+    const auto [least, most] = std::ranges::minmax(held.value);
+    if (least == most) return;  // it is meant to be constant
+    doubts.add("the table of {} holds {:g} to {:g}{}, the run goes from {:g} to {:g}{}: the value is constant", whose,
                held.time.front(), held.time.back(), second, start, end, second);
   };
   const auto function = [&](const std::string& whose, const formats::TimeFunctionSpec& spec) {
@@ -123,7 +155,7 @@ void doubt_times(const formats::Scene& scene, Doubts& doubts) {
     if (spring.force) function(fmt::format("spring '{}'", spring.name), *spring.force);
   for (const formats::InputSpec& input : scene.inputs) table(fmt::format("input '{}'", input.name), input.table);
   if (const auto interval = scene.output.interval; interval && *interval > end - start)
-    doubts.add("`output: {{interval: {:g}}}` is longer than the run of {:g}{}: only its ends are stored", *interval,
+    doubts.add("`output: {{interval: {:g}}}` is longer than the run of {:g}{}: only the ends of the run are stored", *interval,
                end - start, second);
 }
 
@@ -140,7 +172,7 @@ void doubt_free_lengths(const Model& model, const Evaluation& now, Doubts& doubt
 }  // namespace
 
 std::vector<std::string> number_doubts(const formats::Scene& scene, const Model& model, const Evaluation& now) {
-  Doubts doubts{scene.units, {}};
+  Doubts doubts(scene);
   doubt_gravity("gravity", scene.gravity, doubts);
   for (const formats::BodySpec& body : scene.bodies)
     std::visit(
@@ -154,10 +186,10 @@ std::vector<std::string> number_doubts(const formats::Scene& scene, const Model&
     if (joint.friction) doubt_friction(fmt::format("joint '{}'", joint.name), joint.friction->coefficient, doubts);
   for (const formats::TyreSpec& tyre : scene.tyres)
     doubt_friction(fmt::format("tyre '{}'", tyre.name), tyre.friction, doubts);
-  if (takes_steps(scene.analysis))
-    doubt_times(scene, doubts);
+  doubt_inertia(scene, model, doubts);
+  if (takes_steps(scene.analysis)) doubt_times(scene, doubts);
   doubt_free_lengths(model, now, doubts);
-  return std::move(doubts.list);
+  return std::move(doubts).list();
 }
 
 }  // namespace tisserand::mechanism

@@ -23,8 +23,6 @@ using Eigen::Vector3d;
 constexpr double shown_gap = 1e-9;
 /// Ratio of masses at which one of them vanishes in round-off when the other is solved for.
 constexpr double largest_ratio = 1e12;
-/// Radii of gyration beyond this many characteristic lengths are doubted.
-constexpr double largest_gyration = 1e3;
 /// Squared singular values below this (relative) belong to motions that nothing determines.
 constexpr double null_tolerance = 1e-13;
 /// Components of a null vector below this do not count.
@@ -131,10 +129,6 @@ void add_inertia_doubts(const Model& model, std::vector<std::string>& doubts) {
   for (const RigidBody& body : model.rigid_bodies) {
     const Vector3d principal =
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia, Eigen::EigenvaluesOnly).eigenvalues();
-    const double gyration = std::sqrt(principal[2] / body.mass);
-    if (gyration > largest_gyration * model.length)
-      doubts.push_back(fmt::format("'{}' has a radius of gyration of {:.3g}, the scene an extent of {:.3g}", body.name,
-                                   gyration, model.length));
     if (principal[0] <= 1e-12 * principal[2])
       doubts.push_back(fmt::format("'{}' has no inertia about one of its axes", body.name));
   }

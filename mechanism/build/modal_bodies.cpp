@@ -158,7 +158,7 @@ std::string too_stiff(const ReferenceModel& model, const MatrixXd& held, const H
                         model.omega2.size());
   return fmt::format(
       "modal body '{}' is too stiff: the scene holds it on the ground at {}, which the `reference` of its modes leaves "
-      "free. The body alone, so held, {}; with its static flexibility there it has {:.4g}{}. Take more modes, a "
+      "free. The body alone, held like this, {}; with its static flexibility there it has {:.4g}{}. Take more modes, a "
       "`reference` that holds what the scene holds, or the superelement of the part",
       model.name, what.empty() ? "its nodes" : what, by_modes, found.with_residual * to_hertz, unit);
 }

@@ -73,7 +73,7 @@ struct Evaluation {
   std::vector<Eigen::Vector3d> load_values;
   std::vector<double> part_load_values;  ///< factors
   Eigen::VectorXd residual;              ///< r, boundary coordinates (uncondensed)
-  std::vector<Vector6d> modal_forces;    ///< what r has of each modal node: −[force world; moment node axes] on it
+  std::vector<Vector6d> modal_forces;    ///< share of each modal node in r: −[force, world; moment, node axes]
   std::array<double, 3> force_scale{};   ///< largest force, moment and internal force of any single term
   double outer_force = 0.0;              ///< that force without what modes bear inside their bodies
   double load_power = 0.0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/error.hpp"
 #include "formats/results/blocks.hpp"
 #include "mechanism/bodies/superelement/evaluate.hpp"
 #include "mechanism/equations/terms.hpp"
@@ -216,6 +217,11 @@ void add_force_names(const Model& model, formats::ResultsLayout& layout) {
   for (const Friction& friction : model.frictions) layout.frictions.push_back(model.joints[friction.joint].name);
 }
 
+/// The nodes of a modal body: they follow one another in the order of the bodies.
+auto nodes_of(const Model& model, std::size_t body) {
+  return std::ranges::equal_range(model.modal_nodes, static_cast<int>(body), {}, &ModalNode::body);
+}
+
 /// The name of a node within its body.
 std::string own_name(const Model& model, const ModalNode& node) {
   const std::string& body = model.modal_bodies[node.body].name;
@@ -239,8 +245,8 @@ void add_modal_names(const Model& model, formats::ResultsLayout& layout) {
     const ModalBody& body = model.modal_bodies[i];
     layout.modal_bodies.push_back(body.name);
     layout.modal_offset.push_back(layout.modal_offset.back() + body.modes_in_space());
-    for (const ModalNode& node : model.modal_nodes)
-      if (node.active && node.body == static_cast<int>(i)) layout.modal_nodes.push_back(own_name(model, node));
+    for (const ModalNode& node : nodes_of(model, i))
+      if (node.active) layout.modal_nodes.push_back(own_name(model, node));
     layout.modal_node_offset.push_back(static_cast<int>(layout.modal_nodes.size()));
   }
 }
@@ -263,21 +269,29 @@ void fill_modal_frames(const Model& model, const Evaluation& evaluation, formats
 void fill_modal_forces(const Model& whole, const Model& running, const Evaluation& evaluation,
                        formats::ResultsRow& row) {
   row.modal.node_force.setZero();
+  const auto& bodies = running.modal_bodies;
   Eigen::Index column = 0;
   for (std::size_t i = 0; i < whole.modal_bodies.size(); ++i) {
-    const auto same = std::ranges::find(running.modal_bodies, whole.modal_bodies[i].name, &ModalBody::name);
-    const bool runs =
-        same != running.modal_bodies.end() && (same->modes > 0 || whole.modal_bodies[i].modes == 0);  // not asleep
+    const auto same = &whole == &running
+                          ? bodies.begin() + static_cast<std::ptrdiff_t>(i)
+                          : std::ranges::find(bodies, whole.modal_bodies[i].name, &ModalBody::name);
+    const bool runs = same != bodies.end() && (same->modes > 0 || whole.modal_bodies[i].modes == 0);  // not asleep
     if (!runs)
       for (Eigen::Matrix3Xd* block :
            {&row.modal.acceleration, &row.modal.angular_velocity, &row.modal.angular_acceleration})
         block->col(static_cast<Eigen::Index>(i)).setZero();
-    const int body = static_cast<int>(same - running.modal_bodies.begin());
-    for (const ModalNode& node : whole.modal_nodes) {
-      if (!node.active || node.body != static_cast<int>(i)) continue;
-      for (std::size_t k = 0; runs && k < running.modal_nodes.size(); ++k)
-        if (const ModalNode& own = running.modal_nodes[k]; own.body == body && own.name == node.name)
-          row.modal.node_force.col(column) = received(running, own, evaluation.modal_forces[k], evaluation);
+    const auto nodes = nodes_of(whole, i);
+    const auto own = runs ? nodes_of(running, static_cast<std::size_t>(same - bodies.begin())) : nodes;
+    TISSERAND_ENSURE(own.size() == nodes.size(), "{} nodes of '{}', {} of them run", nodes.size(),
+                     whole.modal_bodies[i].name, own.size());
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const auto at = static_cast<std::ptrdiff_t>(k);
+      if (!nodes.begin()[at].active) continue;
+      const ModalNode& node = own.begin()[at];
+      if (runs) {
+        const auto place = static_cast<std::size_t>(&node - running.modal_nodes.data());
+        row.modal.node_force.col(column) = received(running, node, evaluation.modal_forces[place], evaluation);
+      }
       ++column;
     }
   }

@@ -79,7 +79,7 @@ int largest_cluster(const Eigen::VectorXd& value, double shift) {
 Spectrum iterated_spectrum(const Pencil& pencil, int count, int available, EigenSolver solver, Count verify) {
   constexpr int attempts = 6;
   const ShiftedOperator op = shifted_operator(pencil);
-  const int wanted = std::min(available, count + 2);
+  const int wanted = std::min(available, count + sought_beyond);
   SearchResult first = search(pencil, solver, wanted, {});
   Spectrum s;
   s.pairs = std::move(first.pairs);

@@ -60,6 +60,9 @@ int count_kept(const Pencil& pencil, const EigenPairs& pairs, int kept);
 /// The solver that the part asks for, else the one that serves a problem of this size. Throws Error if it cannot.
 EigenSolver choose_solver(Eigen::Index size, int count, const formats::ModeSelection& asked);
 
+/// Pairs that iterations seek beyond those asked for, to complete clusters and to know the next eigenvalue.
+inline constexpr int sought_beyond = 2;
+
 /// The `count` lowest pairs (count ≤ available, the number of finite eigenvalues); clusters are completed. They are
 /// counted always where a cluster is as large as the block of the iteration, which then proves nothing.
 /// Pairs with a residual above 1e-8 take up to three more steps of inverse iteration. Throws Error if pairs are still

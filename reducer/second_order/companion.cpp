@@ -71,16 +71,11 @@ class ElementBatches {
     for (int first = 0; first < mesh_.elements(); first += block) {
       done(static_cast<double>(first) / mesh_.elements());
       const int count = std::min(block, mesh_.elements() - first);
-      on_threads(threads_, [&](int t) {
-        const Share share = share_of(count, t, threads_);
-        for (int e = share.first; e < share.end; ++e)
-          with_element(mesh_, first + e, [&](const auto& kind) { second_order(mesh_, kind, rows_[e]); });
+      share_out(count, threads_, [&](int /*thread*/, int e) {
+        with_element(mesh_, first + e, [&](const auto& kind) { second_order(mesh_, kind, rows_[e]); });
       });
       const int batches = start_batches(count);
-      on_threads(threads_, [&](int t) {
-        const Share share = share_of(count, t, threads_);
-        for (int e = share.first; e < share.end; ++e) fill(first + e, e, scratch_[t]);
-      });
+      share_out(count, threads_, [&](int t, int e) { fill(first + e, e, scratch_[t]); });
       use(std::span(batches_.data(), static_cast<std::size_t>(batches)));
     }
   }

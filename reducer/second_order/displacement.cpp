@@ -99,16 +99,8 @@ class SampleForces {
     for (int first = 0; first < elements; first += block) {
       problem_.share(static_cast<double>(first) / elements);
       const int count = std::min(block, elements - first);
-      on_threads(threads_, [&](int t) {
-        const Share share = share_of(count, t, threads_);
-        for (int e = share.first; e < share.end; ++e) load(first + e, work_[t], loaded_[e]);
-      });
-      for (int e = 0; e < count; ++e) {
-        const Loaded& element = loaded_[e];
-        for (int i = 0; i < element.at.nodes; ++i)
-          force.middleRows(element.at.first[i], element.at.size) +=
-              element.f.middleRows(element.at.size * i, element.at.size);
-      }
+      share_out(count, threads_, [&](int t, int e) { load(first + e, work_[t], loaded_[e]); });
+      for (int e = 0; e < count; ++e) scatter(loaded_[e].at, loaded_[e].f, force);
     }
     return force;
   }

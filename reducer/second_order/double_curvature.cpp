@@ -155,10 +155,7 @@ class PairAssembly {
     for (int first = 0; first < elements; first += block) {
       problem_.share(static_cast<double>(first) / elements);
       const int count = std::min(block, elements - first);
-      on_threads(threads_, [&](int t) {
-        const Share share = share_of(count, t, threads_);
-        for (int e = share.first; e < share.end; ++e) load(first + e, work_[t], loaded_[e]);
-      });
+      share_out(count, threads_, [&](int t, int e) { load(first + e, work_[t], loaded_[e]); });
       add(count);
     }
     return std::move(out_);
@@ -205,9 +202,7 @@ class PairAssembly {
     rows = 0;
     for (int e = 0; e < count; ++e) {
       const Loaded& element = loaded_[e];
-      for (int i = 0; i < element.at.nodes; ++i)
-        out_.force.middleRows(element.at.first[i], element.at.size) +=
-            element.f.middleRows(element.at.size * i, element.at.size);
+      scatter(element.at, element.f, out_.force);
       stack_.middleRows(rows, element.root.rows()) = element.root;
       rows += element.root.rows();
     }

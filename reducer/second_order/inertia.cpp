@@ -163,12 +163,6 @@ void add_item(const InertiaBlock& block, int item, MatrixXd& product, Sums& sums
   }
 }
 
-void scatter_loads(const ElementInertia& element, MatrixXd& load) {
-  for (int i = 0; i < element.rows.nodes; ++i)
-    load.middleRows(element.rows.first[i], element.rows.size) +=
-        element.mass.load.middleRows(static_cast<Index>(element.rows.size) * i, element.rows.size);
-}
-
 FrameInertia finish(Sums& sums) {
   TurningForms& forms = sums.pivots;
   add_translations(sums.translations, forms);
@@ -200,6 +194,11 @@ void gather(const ElementRows& rows, const MatrixXd& all, Eigen::Ref<MatrixXd> o
     out.middleRows(rows.size * i, rows.size) = all.middleRows(rows.first[i], rows.size);
 }
 
+void scatter(const ElementRows& rows, const MatrixXd& of_element, MatrixXd& all) {
+  for (int i = 0; i < rows.nodes; ++i)
+    all.middleRows(rows.first[i], rows.size) += of_element.middleRows(rows.size * i, rows.size);
+}
+
 FrameInertia frame_inertia(const Mesh& mesh, const Coordinates& coordinates, const MatrixXd& Phi,
                            const Eigen::Vector3d& reference, int threads) {
   const Index n = Phi.cols();
@@ -211,17 +210,12 @@ FrameInertia frame_inertia(const Mesh& mesh, const Coordinates& coordinates, con
   block.product.resize(static_cast<std::size_t>(threads));
   for (int first = 0; first < all; first += block_elements) {
     block.count = std::min(block_elements, all - first);
-    on_threads(threads, [&](int t) {
-      const Share share = share_of(block.count, t, threads);
-      for (int e = share.first; e < share.end; ++e)
-        compute_inertia(mesh, coordinates, D, reference, first + e, block.elements[e]);
+    share_out(block.count, threads, [&](int /*thread*/, int e) {
+      compute_inertia(mesh, coordinates, D, reference, first + e, block.elements[e]);
     });
     start_block(n, block);
-    on_threads(threads, [&](int t) {
-      const Share share = share_of(block.count, t, threads);
-      for (int e = share.first; e < share.end; ++e) fill(Phi, block.elements[e], block);
-    });
-    for (int e = 0; e < block.count; ++e) scatter_loads(block.elements[e], load);
+    share_out(block.count, threads, [&](int /*thread*/, int e) { fill(Phi, block.elements[e], block); });
+    for (int e = 0; e < block.count; ++e) scatter(block.elements[e].rows, block.elements[e].mass.load, load);
     on_threads(threads, [&](int t) {
       for (int item = t; item < Sums::items; item += threads) add_item(block, item, block.product[t], sums);
     });
@@ -238,9 +232,7 @@ MatrixXd translation_loads(const Mesh& mesh, const Coordinates& coordinates) {
   const auto add = [&](const MatrixXd& M, const ElementRows& rows) {
     MatrixXd D_e(M.rows(), 3);
     gather(rows, D, D_e);
-    const MatrixXd of_element = M * D_e;
-    for (int i = 0; i < rows.nodes; ++i)
-      load.middleRows(rows.first[i], rows.size) += of_element.middleRows(static_cast<Index>(rows.size) * i, rows.size);
+    scatter(rows, M * D_e, load);
   };
   for (int e = 0; e < mesh.elements(); ++e) {
     with_element(mesh, e, [&](const auto& kind) { element_matrices(mesh, kind, matrices); });

@@ -36,5 +36,7 @@ ElementRows element_rows(const Mesh& mesh, const Coordinates& coordinates, int e
 
 /// The element's rows of displacements of all coordinates.
 void gather(const ElementRows& rows, const Eigen::MatrixXd& all, Eigen::Ref<Eigen::MatrixXd> out);
+/// Adds the element's rows to those of all coordinates.
+void scatter(const ElementRows& rows, const Eigen::MatrixXd& of_element, Eigen::MatrixXd& all);
 
 }  // namespace tisserand::reducer

@@ -53,6 +53,17 @@ class SecondOrderDisplacement : public ::testing::Test {
     ASSERT_EQ(outcome.code, 0) << outcome.error;
   }
 
+  /// Of the table of points.
+  std::vector<double> last_row() const {
+    std::istringstream lines(read_text(folder.file("out/bar_points.csv")));
+    std::string line, last;
+    while (std::getline(lines, line)) last = line;
+    std::istringstream cells(last);
+    std::vector<double> values;
+    for (std::string cell; std::getline(cells, cell, ',');) values.push_back(std::stod(cell));
+    return values;
+  }
+
   /// Positions of the nodes along the bar at the last instant; `output`: what is said. Points are those of the part.
   std::array<Vector3d, nodes> recover(double sign, std::string& output) const {
     std::vector<std::string> words{
@@ -61,12 +72,7 @@ class SecondOrderDisplacement : public ::testing::Test {
     const Outcome outcome = call(words, where);
     EXPECT_EQ(outcome.code, 0) << outcome.error;
     output = outcome.out;
-    std::istringstream lines(read_text(folder.file("out/bar_points.csv")));
-    std::string line, last;
-    while (std::getline(lines, line)) last = line;
-    std::istringstream cells(last);
-    std::vector<double> values;
-    for (std::string cell; std::getline(cells, cell, ',');) values.push_back(std::stod(cell));
+    const std::vector<double> values = last_row();
     std::array<Vector3d, nodes> places;
     const std::size_t width = (values.size() - 1) / nodes;  // displacement, position, stress
     for (std::size_t k = 0; k < nodes; ++k)
@@ -121,14 +127,32 @@ TEST_F(SecondOrderDisplacement, IsThatOfMirroredBodiesAndOtherUnits) {
                                    "--envelope",       "--point", "500,0,0"};
     const Outcome outcome = call(words, where);
     ASSERT_EQ(outcome.code, 0) << outcome.error;
-    std::istringstream lines(read_text(folder.file("out/bar_points.csv")));
-    std::string line, last;
-    while (std::getline(lines, line)) last = line;
-    std::istringstream cells(last);
-    std::vector<double> values;
-    for (std::string cell; std::getline(cells, cell, ',');) values.push_back(std::stod(cell));
+    const std::vector<double> values = last_row();
     EXPECT_NEAR(values.at(4), sign * std::sin(0.5 * theta) / theta, 0.02 * 0.064 * theta * theta) << mirror;
     EXPECT_NEAR(values.at(6), -(1.0 - std::cos(0.5 * theta)) / theta, 0.045 * std::pow(theta, 3)) << mirror;
+  }
+}
+
+// The equations of a plane move the same body, and stiffening that a run switches is there when it is wanted.
+TEST_F(SecondOrderDisplacement, IsTheSameInPlanarScenesAndWithAutomaticStiffening) {
+  write_text(folder.file("stress_cantilever.scene.yaml"), R"yaml(scene: cantilever in the x-y plane
+bodies: {bar: {type: superelement, file: stress_cantilever.superelement.h5, damping: {ratio: 0.5}}}
+joints: {clamp: {type: fixed, a: ground, b: bar/base}}
+loads: {bend: {type: moment, at: bar/tip, value: [0, 0, 0]}}
+integrator: {step: 2e-3, end: 0.6}
+)yaml");
+  reduce();
+  std::array<std::vector<double>, 3> middle;
+  const std::array<std::string, 3> effects{"effects={}", "effects={planar: on}", "effects={bar: {stiffening: auto}}"};
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    run(0.1, {fmt::format("loads.bend.value=[0, 0, {}]", 0.1 * EI), effects[k]});
+    std::string text;
+    const std::array<Vector3d, nodes> places = recover(1.0, text);
+    middle[k] = {places[nodes / 2].x(), places[nodes / 2].y()};
+  }
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    EXPECT_NEAR(middle[k][0], std::sin(0.05) / 0.1, 3e-5) << effects[k];  // Φ y alone misses by 6.4e-4
+    EXPECT_NEAR(middle[k][1], middle[0][1], 1e-7) << effects[k];
   }
 }
 

@@ -27,7 +27,8 @@ struct ReferenceModel {
   UnitConversion units;  ///< to those of the scene
 };
 
-/// Of the first `modes` modes; without components if the file does not hold what they leave out. `name`: of the body.
+/// The model of the body `name` with the first `modes` modes of its file. It has no components (f = 0) if the file does
+/// not hold what the modes leave out.
 ReferenceModel reference_model(const formats::ModalBody& file, int modes, const std::string& name, int frame,
                                const UnitConversion& units);
 

@@ -62,15 +62,38 @@ TEST(NumberDoubts, NameWhatCannotBeMeant) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"materials.steel.E=210", "the modulus looks like GPa (in units of the scene 2.1e+11)"},
       {"materials.steel.density=7.8", "the density looks like g/cm^3 (in units of the scene 7800)"},
-      {"bodies.rod.section.radius=10", "the section of 'rod' has a radius of gyration of 5 m, the beam a length of 0.3 m"},
+      {"bodies.rod.section.radius=10",
+       "the section of 'rod' has a radius of gyration of 5 m, the beam a length of 0.3 m"},
       {"bodies.crank.inertia=[42632,42632,42632]", "'crank' has a radius of gyration"},
       {"joints.S.friction={coefficient: 15, velocity: 0.01}", "joint 'S' has a coefficient of friction of 15"},
       {"gravity=[0,0,-9810]", "gravity is 9810 m s^-2"},
-      {"springs={s: {a: {node: ground, position: [0,0,0]}, b: piston, stiffness: 10, free: 300}}", "has a free length of 300 m"},
-      {"motions.m.value={table: [[5, 0], [6, 1]]}", "the table of motion 'm' holds 5 to 6 s, the run goes from 0 to 0.3 s"},
+      {"springs={s: {a: {node: ground, position: [0,0,0]}, b: piston, stiffness: 10, free: 300}}",
+       "has a free length of 300 m"},
+      {"motions.m.value={table: [[5, 0], [6, 1]]}",
+       "the table of motion 'm' holds 5 to 6 s, the run goes from 0 to 0.3 s"},
       {"output={interval: 2}", "is longer than the run of 0.3 s"}};
   EXPECT_THAT(doubts_with({}), IsEmpty());
-  for (const auto& [setting, text] : cases) EXPECT_THAT(doubts_with({setting}), ElementsAre(HasSubstr(text))) << setting;
+  for (const auto& [setting, text] : cases)
+    EXPECT_THAT(doubts_with({setting}), ElementsAre(HasSubstr(text))) << setting;
+}
+
+TEST(NumberDoubts, AreSilentAboutImbalanceAndConstantTables) {
+  EXPECT_THAT(
+      doubts_with({"bodies={disc: {type: rigid, mass: 10, inertia: [0.9, 0.45, 0.45], center_of_mass: [0, 1e-5, 0]}}",
+                   "joints={axle: {type: revolute, a: ground, b: disc, axis: [1, 0, 0]}}", "motions={}"}),
+      IsEmpty());
+  EXPECT_THAT(doubts_with({"loads={f: {type: force, at: piston, value: [{table: [[-1, 3], [0, 3]]}, 0, 0]}}"}),
+              IsEmpty());
+}
+
+TEST(NumberDoubts, CountWhatIsAlike) {
+  std::string springs = "springs={";
+  for (int k = 0; k < 9; ++k)
+    springs +=
+        fmt::format("s{}: {{a: {{node: ground, position: [0, 0, 0]}}, b: piston, stiffness: 10, free: 300}}, ", k);
+  const std::vector<std::string> doubts = doubts_with({springs + "}"});
+  ASSERT_EQ(doubts.size(), 3u);
+  EXPECT_THAT(doubts[2], HasSubstr("(and 6 more like this)"));
 }
 
 /// Numbers with a point or an exponent are multiplied by 0.7 to 1.3; others may be counts.

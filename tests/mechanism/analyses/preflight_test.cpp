@@ -203,14 +203,12 @@ TEST(Doubts, AreRaisedByMassesAndInertias) {
   formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
   scene.bodies.push_back(block("heavy", 1e8, {0, 0, 0}));
   scene.bodies.push_back(block("light", 1e-6, {1, 0, 0}));
-  // The radius of gyration of "light" is sqrt(0.1/1e-6) = 316 m, less than a thousand extents of the scene.
   EXPECT_THAT(examined(scene, {}).doubts,
               ElementsAre(HasSubstr("the masses of 'heavy' (1e+08) and 'light' (1e-06) differ")));
   formats::RigidBodySpec& light = std::get<formats::RigidBodySpec>(scene.bodies[1]);
   light.mass = 1e-3;
   light.inertia = Vector3d(1e4, 1e4, 0.0).asDiagonal();
-  EXPECT_THAT(examined(scene, {}).doubts, ElementsAre(HasSubstr("'light' has a radius of gyration"),
-                                                      HasSubstr("'light' has no inertia about one")));
+  EXPECT_THAT(examined(scene, {}).doubts, ElementsAre(HasSubstr("'light' has no inertia about one")));
 }
 
 }  // namespace
