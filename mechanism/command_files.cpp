@@ -1,7 +1,6 @@
 // Stems of given names with the endings of what is made of them.
 #include "mechanism/command_files.hpp"
 
-#include <filesystem>
 #include <variant>
 
 #include "common/error.hpp"
@@ -20,7 +19,7 @@ std::string stem_of_results(std::string path) {
 }  // namespace
 
 std::string default_results(const std::string& scene) {
-  std::string stem = std::filesystem::path(scene).filename().string();
+  std::string stem = scene;
   for (const char* ending : {".yaml", ".yml", ".scene"})
     if (stem.ends_with(ending)) stem.resize(stem.size() - std::string(ending).size());
   return stem + ".results.h5";
@@ -29,8 +28,7 @@ std::string default_results(const std::string& scene) {
 std::string ledger_file(const std::string& results) { return stem_of_results(results) + ".ledger.json"; }
 
 std::string default_page(const std::vector<std::string>& results, const char* ending) {
-  return (results.empty() ? "run" : stem_of_results(std::filesystem::path(results.front()).filename().string())) +
-         ending;
+  return (results.empty() ? "run" : stem_of_results(results.front())) + ending;
 }
 
 std::vector<std::string> inputs(const formats::Scene& scene) {

@@ -33,6 +33,7 @@ A scene in ten lines:
   output: {every: 10}
 
 Units are those that the scene names, by default m, kg, s; angles in radians.
+Without -o an output lies beside the file that it is made of.
 Exit codes: 0 done, 1 error, 2 wrong usage, 3 did not converge, 130 interrupted.)help";
 
 inline constexpr const char* about_run = R"help(Simulates a scene and writes its results.

@@ -32,6 +32,7 @@
 #include "reducer/elements/checks.hpp"
 #include "reducer/follow.hpp"
 #include "reducer/mesh/gmsh_file.hpp"
+#include "reducer/mesh/mesh_file.hpp"
 #include "reducer/recover/recover.hpp"
 #include "reducer/recovery/fields.hpp"
 #include "reducer/reduce.hpp"
@@ -55,7 +56,22 @@ std::vector<formats::Override> overrides(const Arguments& arguments) {
   return result;
 }
 
+/// A CAD file, mesh or deck where a part file belongs.
+[[noreturn]] void ask_for_part(const std::string& file, MeshFileKind kind) {
+  const std::string name = std::filesystem::path(file).filename().string();
+  const bool deck = kind == MeshFileKind::nastran || kind == MeshFileKind::abaqus;
+  throw Error(fmt::format("this is a {}, not a part file", deck                  ? "deck"
+                                                           : is_geometry(kind) ? "geometry"
+                                                                               : "mesh"),
+              file,
+              fmt::format("write {} beside it with `mesh: {{file: {}}}`, {}`boundary` and `modes` (formats/PART.md); "
+                          "`reducer groups` and `reducer view` take the file as it is",
+                          std::filesystem::path(name).replace_extension(".part.yaml").string(), name,
+                          deck ? "" : "`materials`, `solids` or `shells`, "));
+}
+
 formats::Part part_of(const Arguments& arguments) {
+  if (const auto kind = known_mesh_file(arguments.input)) ask_for_part(arguments.input, *kind);
   formats::Part part = formats::read_part(arguments.input, overrides(arguments));
   part.mesh.permission = arguments.permission;
   return part;

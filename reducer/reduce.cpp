@@ -6,7 +6,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
-#include "reducer/elements/checks.hpp"
+#include "reducer/elements/plausibility.hpp"
 #include "reducer/inside/inside.hpp"
 #include "reducer/modal_body/modal_body.hpp"
 #include "reducer/modes/project.hpp"
@@ -68,7 +68,8 @@ Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseLi
   try {
     Reduction result = reduce_checked(mesh, part, begin, recover);
     result.model.warnings.insert(result.model.warnings.begin(), doubts.all.begin(), doubts.all.end());
-    if (const auto doubt = mass_doubt(result.model.rigid.mass, part.units)) result.model.warnings.push_back(*doubt);
+    for (const std::string& warning : mass_warnings(mesh, result.model.rigid, part.units))
+      result.model.warnings.push_back(warning);
     return result;
   } catch (const Error& error) {
     if (doubts.numbers.empty()) throw;

@@ -15,7 +15,8 @@ namespace tisserand::mechanism {
 namespace {
 
 std::string folder_of(const StudyRequest& request) {
-  return request.folder.empty() ? stem(request.file) + ".study" : request.folder;
+  if (!request.folder.empty()) return request.folder;
+  return (std::filesystem::path(request.file).parent_path() / (stem(request.file) + ".study")).string();
 }
 
 }  // namespace

@@ -39,6 +39,9 @@ constexpr std::array endings{
 }
 
 std::string content_of(const std::string& file, const std::string& where) {
+  if (std::filesystem::is_fifo(file) || std::filesystem::is_socket(file) || std::filesystem::is_character_file(file))
+    throw Error(fmt::format("mesh file '{}' is a pipe or a device, and is read twice", file), where,
+                "write what comes out of it into a file");
   if (std::filesystem::is_directory(file)) throw Error(fmt::format("mesh file '{}' is a folder", file), where, "");
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
@@ -115,12 +118,23 @@ void check_brep(const std::string& file, const std::string& text) {
 
 }  // namespace
 
-MeshFileKind mesh_file_kind(const std::string& file, const std::string& where) {
+std::optional<MeshFileKind> known_mesh_file(const std::string& file) {
   std::string ending = std::filesystem::path(file).extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const Ending& known : endings)
     if (ending == known.text) return known.kind;
-  throw Error(fmt::format("mesh file '{}': the ending '{}' is unknown", file, ending), where,
+  return std::nullopt;
+}
+
+bool is_geometry(MeshFileKind kind) {
+  return kind != MeshFileKind::msh && kind != MeshFileKind::nastran && kind != MeshFileKind::abaqus;
+}
+
+MeshFileKind mesh_file_kind(const std::string& file, const std::string& where) {
+  if (const auto kind = known_mesh_file(file)) return *kind;
+  throw Error(fmt::format("mesh file '{}': the ending '{}' is unknown", file,
+                          std::filesystem::path(file).extension().string()),
+              where,
               "known are .geo, .msh, .step, .stp, .iges, .igs, .brep, .bdf, .nas, .dat, .inp");
 }
 

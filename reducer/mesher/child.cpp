@@ -13,22 +13,23 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "common/progress.hpp"
 #include "common/text.hpp"
 #include "reducer/startup.hpp"
 
 namespace tisserand::reducer {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 [[noreturn]] void cannot_start(int number, const std::string& program) {
   throw Error(fmt::format("cannot start the program that runs gmsh: {}", std::strerror(number)), program,
@@ -163,8 +164,7 @@ constexpr double answer_share = 0.125;
 struct Heard {
   std::string answer;
   std::string words;
-  bool too_long = false;  ///< more answer than an honest child can have
-  bool timed_out = false;
+  std::optional<MesherEnding> stopped = std::nullopt;  ///< why the child must end
 };
 
 /// Reads what is there; false at the end.
@@ -177,22 +177,70 @@ bool read_some(Descriptor& from, std::string& to) {
   return count > 0;
 }
 
+/// Where the bytes of phases at the beginning end, and the last of them.
+std::pair<std::size_t, MesherPhase> phase_of(const std::string& answer) {
+  MesherPhase phase = MesherPhase::starting;
+  std::size_t k = 0;
+  for (; k < answer.size() && phase != MesherPhase::answering; ++k) phase = static_cast<MesherPhase>(answer[k]);
+  return {k, phase};
+}
+
+/// Looks at the clock and at the processor time that the child has taken, and shows both to the user.
+class Watch {
+ public:
+  Watch(pid_t child, const GeometryRequest& request)
+      : request_(request), progress_("gmsh, " + std::filesystem::path(request.file).filename().string(), 0.0) {
+    if (::clock_getcpuclockid(child, &clock_) != 0) clock_ = CLOCK_MONOTONIC;
+  }
+
+  /// Why the child must end, if it must.
+  std::optional<MesherEnding> look(MesherPhase phase) {
+    const double now = seconds(CLOCK_MONOTONIC), used = seconds(clock_);
+    if (phase != phase_) phase_ = phase, used_at_phase_ = used;
+    if (used > used_ + least_work) used_ = used, worked_at_ = now;
+    const bool reads = phase == MesherPhase::reading;
+    const double limit = reads ? request_.reading_seconds : request_.seconds, of_phase = used - used_at_phase_;
+    progress_.update(0.0, fmt::format("{}: {:.0f} s of at most {:.4g} s", doing(phase), reads ? of_phase : used, limit));
+    if (reads && of_phase > limit) return MesherEnding::reading_time;
+    if (now - worked_at_ > request_.idle_seconds) return MesherEnding::idle;
+    if (now - start_ > request_.wall_seconds) return MesherEnding::wall_time;
+    return std::nullopt;
+  }
+  void finish() { progress_.finish(); }
+
+ private:
+  static constexpr double least_work = 1e-4;  // [s]
+
+  static double seconds(clockid_t clock) {
+    timespec time{};
+    return ::clock_gettime(clock, &time) == 0 ? static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec)
+                                              : 0.0;
+  }
+
+  const GeometryRequest& request_;
+  Progress progress_;
+  clockid_t clock_ = CLOCK_MONOTONIC;
+  MesherPhase phase_ = MesherPhase::starting;
+  double start_ = seconds(CLOCK_MONOTONIC), worked_at_ = start_, used_ = 0.0, used_at_phase_ = 0.0;
+};
+
 /// Until the child has closed both pipes, or must end.
-Heard listen(Descriptor& answer, Descriptor& words, const GeometryRequest& request) {
+Heard listen(Descriptor& answer, Descriptor& words, pid_t child, const GeometryRequest& request) {
   constexpr std::size_t most_words = 4000;
-  const auto end = Clock::now() + std::chrono::duration<double>(request.wall_seconds);
+  constexpr int look_every = 100;  // [ms]
+  Watch watch(child, request);
   Heard heard;
   while (answer.number() >= 0 || words.number() >= 0) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
-    heard.timed_out = left <= 0;
-    heard.too_long = static_cast<double>(heard.answer.size()) > answer_share * request.bytes;
-    if (heard.timed_out || heard.too_long) break;
+    heard.stopped = watch.look(phase_of(heard.answer).second);
+    if (static_cast<double>(heard.answer.size()) > answer_share * request.bytes) heard.stopped = MesherEnding::memory;
+    if (heard.stopped) return heard;
     std::array<pollfd, 2> files{pollfd{answer.number(), POLLIN, 0}, pollfd{words.number(), POLLIN, 0}};
-    if (::poll(files.data(), files.size(), static_cast<int>(std::min<long>(left, 60'000))) <= 0) continue;
+    if (::poll(files.data(), files.size(), look_every) <= 0) continue;
     if (files[0].revents != 0) read_some(answer, heard.answer);
     if (files[1].revents != 0) read_some(words, heard.words);
     if (heard.words.size() > most_words) heard.words.erase(0, heard.words.size() - most_words);
   }
+  if (phase_of(heard.answer).second == MesherPhase::answering) watch.finish();
   return heard;
 }
 
@@ -207,24 +255,14 @@ std::string last_message(std::string text) {
   return printable_line(text.substr(text.rfind('\n') + 1), 300);  // npos + 1 is 0
 }
 
-/// The bytes of phases at the beginning are cut off.
-MesherPhase take_phases(std::string& answer) {
-  MesherPhase phase = MesherPhase::starting;
-  std::size_t k = 0;
-  for (; k < answer.size() && phase != MesherPhase::answering; ++k) phase = static_cast<MesherPhase>(answer[k]);
-  answer.erase(0, k);
-  return phase;
-}
-
 MesherEnding ending_of(const Heard& heard, int status, const rusage& used, const GeometryRequest& request) {
   const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * time.tv_usec; };
-  if (heard.too_long) return MesherEnding::memory;
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return MesherEnding::answered;
   if (WIFEXITED(status) && WEXITSTATUS(status) == out_of_memory_code) return MesherEnding::memory;
   if (WIFSIGNALED(status)) {
     const bool spent = seconds(used.ru_utime) + seconds(used.ru_stime) >= request.seconds;
     if (WTERMSIG(status) == SIGXCPU || (WTERMSIG(status) == SIGKILL && spent)) return MesherEnding::processor_time;
-    if (heard.timed_out) return MesherEnding::wall_time;
+    if (heard.stopped) return *heard.stopped;
     if (WTERMSIG(status) == SIGSYS) return MesherEnding::forbidden;
   }
   // C code that got no memory ends in ways of its own.
@@ -241,14 +279,16 @@ MesherReport run_mesher(const GeometryRequest& request) {
   const pid_t child = SpawnSettings(parcel.number(), answer.in.number(), words.in.number()).start(program);
   answer.in.close();
   words.in.close();
-  Heard heard = listen(answer.out, words.out, request);
+  Heard heard = listen(answer.out, words.out, child, request);
   ::kill(child, SIGKILL);  // whoever has closed both pipes has ended, or means ill
   int status = 0;
   rusage used{};
   while (::wait4(child, &status, 0, &used) < 0 && errno == EINTR) {
   }
   MesherReport report;
-  report.phase = take_phases(heard.answer);
+  const auto [begin, phase] = phase_of(heard.answer);
+  heard.answer.erase(0, begin);
+  report.phase = phase;
   report.ending = ending_of(heard, status, used, request);
   if (report.ending == MesherEnding::answered && report.phase != MesherPhase::answering)
     report.ending = MesherEnding::left;

@@ -12,7 +12,9 @@ enum class MesherEnding {
   answered,
   memory,          ///< its limit of memory
   processor_time,  ///< its limit of processor time
+  reading_time,    ///< its limit of processor time for reading the file
   wall_time,       ///< its limit by the clock
+  idle,            ///< it waited for something: a pipe in place of a file, say
   forbidden,       ///< a call of the system that only harm needs
   crashed,         ///< by a signal
   left             ///< ended by itself without an answer

@@ -18,9 +18,17 @@ namespace {
 
 constexpr double gigabyte = 1e9;
 
+bool is_cad(MeshFileKind kind) { return is_geometry(kind) && kind != MeshFileKind::geo; }
+
+/// Whether nobody asks for small elements of a CAD file: what takes long then is no fine mesh. `reducer groups` draws
+/// faces with thirty elements per turn.
+bool is_coarse(const GeometryRequest& request) {
+  return is_cad(request.kind) && !(request.size > 0.0) && request.sizes.empty() && request.curvature <= 30;
+}
+
 /// The unit into which OpenCASCADE converts STEP and IGES; files without named units stay in millimetres.
 std::string target_unit(const Units& units) {
-  static const std::map<std::string, std::string> known{{"m", "M"},   {"mm", "MM"}, {"cm", "CM"},
+  static const std::map<std::string, std::string> known{{"m", "M"},   {"mm", "MM"},   {"cm", "CM"},
                                                         {"km", "KM"}, {"in", "INCH"}, {"ft", "FT"}};
   const auto found = known.find(units.length.label);
   return found == known.end() ? "MM" : found->second;
@@ -53,51 +61,60 @@ GeometryRequest geometry_request(const ImportRequest& request) {
   const formats::MeshFile::Permission& given = settings.permission;
   // Ten times and more of what gmsh takes for large .msh and STEP files; fine meshes of small geometries may need more.
   result.bytes = given.memory > 0.0 ? given.memory * gigabyte : 4.0 * gigabyte + 40.0 * size;
-  result.seconds = given.time > 0.0 ? given.time : 600.0 + size / 2e5;
-  result.wall_seconds = 4.0 * result.seconds;  // other work may have most of the processor
+  // CAD files of some MB are read in seconds, and meshed in seconds too where nobody asks for small elements; damaged
+  // ones may loop. A .geo file has sizes of its own, and may mesh while it is read.
+  const double brief = 5.0 + size / 1e5, ample = 600.0 + size / 2e5;
+  result.reading_seconds = given.time > 0.0 ? given.time : is_cad(result.kind) ? brief : ample;
+  result.seconds = given.time > 0.0 ? given.time : is_coarse(result) ? 2.0 * brief : ample;
+  result.wall_seconds = std::max(4.0 * result.seconds, 60.0);  // other work may have most of the processor
+  result.idle_seconds = 20.0;
   return result;
+}
+
+double kilobytes(const std::string& file) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  return error ? 0.0 : static_cast<double>(size) / 1e3;
 }
 
 /// A larger limit, in two digits.
 std::string twice(double value) { return fmt::format("{:.2g}", std::max(2.0 * value, 0.1)); }
 
-std::string doing(MesherPhase phase) {
-  switch (phase) {
-    case MesherPhase::starting:
-      return "starting";
-    case MesherPhase::reading:
-      return "reading the file";
-    case MesherPhase::meshing:
-      return "meshing the geometry";
-    case MesherPhase::answering:
-      return "handing over the mesh";
-  }
-  return "reading the file";  // a byte of its own
-}
-
 [[noreturn]] void explain(const MesherReport& report, const GeometryRequest& request) {
   const std::string& file = request.file;
   const std::string words = report.last_words.empty() ? "" : fmt::format(" (it said: {})", report.last_words);
   const std::string at = doing(report.phase);
-  const std::string time = fmt::format(
-      "choose a larger mesh: size, or allow more if you trust the file: --geometry-time {}", twice(request.seconds));
+  const auto remedy = [&](const std::string& option) {
+    return (is_coarse(request)
+                ? "the file is probably damaged: write it again, or heal it in the CAD program; if it is whole: "
+                : "choose a larger mesh: size, or allow more if you trust the file: ") +
+           option;
+  };
+  const std::string time = remedy("--geometry-time " + twice(request.seconds));
   switch (report.ending) {
     case MesherEnding::memory:
       throw Error(fmt::format("gmsh was stopped while {}: it wanted more than {:.4g} GB of memory", at,
                               request.bytes / gigabyte),
-                  file,
-                  fmt::format("choose a larger mesh: size, or allow more if you trust the file: --geometry-memory {}",
-                              twice(request.bytes / gigabyte)));
+                  file, remedy("--geometry-memory " + twice(request.bytes / gigabyte)));
     case MesherEnding::processor_time:
       throw Error(
           fmt::format("gmsh was stopped while {}: it wanted more than {:.4g} s of processor time", at, request.seconds),
           file, time);
+    case MesherEnding::reading_time:
+      throw Error(fmt::format("gmsh was stopped while reading the file: it wanted more than {:.4g} s of processor time "
+                              "for {:.4g} kB",
+                              request.reading_seconds, kilobytes(file)),
+                  file, time);
+    case MesherEnding::idle:
+      throw Error(fmt::format("gmsh was stopped while {}: it waited for {:.4g} s and computed nothing", at,
+                              request.idle_seconds),
+                  file, "a geometry must only draw: remove what waits, such as a pipe that is included");
     case MesherEnding::wall_time:
       throw Error(fmt::format("gmsh was stopped while {}: it was not done after {:.4g} s", at, request.wall_seconds),
                   file, time);
     case MesherEnding::forbidden:
-      throw Error("gmsh was stopped: the file wants to start a program, or to make, rename or remove files", file,
-                  "a geometry must only draw: remove such commands (SystemCall, CreateDir, ...)");
+      throw Error("gmsh was stopped: the file wants to start a program, to wait, or to make, rename or remove files",
+                  file, "a geometry must only draw: remove such commands (SystemCall, CreateDir, Sleep, ...)");
     case MesherEnding::crashed:
       throw Error(fmt::format("gmsh crashed while {}: {}{}", at, ::strsignal(report.signal), words), file,
                   report.phase == MesherPhase::starting ? "install anew"

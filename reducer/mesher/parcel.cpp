@@ -222,4 +222,18 @@ CellMesh unpack_answer(const std::string& bytes, const std::string& file) {
   return mesh;
 }
 
+std::string doing(MesherPhase phase) {
+  switch (phase) {
+    case MesherPhase::starting:
+      return "starting";
+    case MesherPhase::reading:
+      return "reading the file";
+    case MesherPhase::meshing:
+      return "meshing the geometry";
+    case MesherPhase::answering:
+      return "handing over the mesh";
+  }
+  return "reading the file";  // a byte of its own
+}
+
 }  // namespace tisserand::reducer

@@ -20,6 +20,9 @@ inline constexpr int out_of_memory_code = 77;
 /// What the answer's descriptor tells before the answer: a byte when a phase begins, the last one before the answer.
 enum class MesherPhase : char { starting = 0, reading = 'r', meshing = 'm', answering = 'a' };
 
+/// "reading the file"
+std::string doing(MesherPhase phase);
+
 /// The size wanted on an entity of a geometry.
 struct SizedEntity {
   int dimension = 0;
@@ -44,7 +47,9 @@ struct GeometryRequest {
   bool is_program = false;       ///< gmsh may run commands that the file, or one beside it, holds
   bool is_trusted = false;       ///< may read files anywhere
   double seconds = 0.0;          ///< limit of processor time
-  double wall_seconds = 0.0;     ///< limit by the clock; the caller's matter, not sent
+  double reading_seconds = 1e9;  ///< that of the phase `reading`; the caller's matter, not sent, as the next two
+  double wall_seconds = 0.0;     ///< limit by the clock
+  double idle_seconds = 1e9;     ///< without any processor time
   double bytes = 0.0;            ///< limit of memory
 };
 

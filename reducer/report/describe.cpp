@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <map>
 
@@ -11,6 +12,8 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "reducer/elements/checks.hpp"
+#include "reducer/elements/plausibility.hpp"
+#include "reducer/mesh/mesh_file.hpp"
 #include "reducer/mesh_error/mesh_error.hpp"
 #include "reducer/modes/full_model.hpp"
 #include "reducer/modes/truncation.hpp"
@@ -44,11 +47,16 @@ void describe_truncation(const formats::Superelement& element, const InternalMod
   }
 }
 
-/// What makes the mesh of a kind of element finer, in the words of part.yaml.
-std::string remedy_for(Eigen::Index kind) {
-  if (kind == 0) return "more `elements` per beam";
-  if (kind == 1) return "a smaller `size`";
-  return "a smaller `size`, or `order: 2`";
+/// "give it a smaller `size`": what makes the mesh of a kind of element finer, in the words of part.yaml. A mesh that
+/// another program made is refined there.
+std::string remedy_for(const formats::Part& part, Eigen::Index kind) {
+  if (!part.mesh.file.empty() && !is_geometry(mesh_file_kind(part.mesh.file, part.mesh.where)))
+    return fmt::format("refine {} in the program that made it{}",
+                       std::filesystem::path(part.mesh.file).filename().string(),
+                       kind == 2 ? ", or use elements of second order" : "");
+  if (kind == 0) return "give it more `elements` per beam";
+  if (kind == 1) return "give it a smaller `size`";
+  return "give it a smaller `size`, or `order: 2`";
 }
 
 constexpr double usual_limit = 0.05;
@@ -66,10 +74,10 @@ void warn_of_unknown(const formats::Part& part, const MeshErrors& errors, ModelC
   }
   for (const auto& [doubt, list] : modes)
     c.warnings.push_back(fmt::format("the error of the mesh of the {} {} {} is unknown and may exceed {:.3g} %: {}; "
-                                     "give the mesh {}",
+                                     "{}",
                                      errors.boundary_held ? "fixed" : "free",
                                      list.size() > 1 ? "frequencies" : "frequency", listed(list), 100.0 * limit,
-                                     explain(doubt), remedy_for(doubt == MeshDoubt::free_faces ? 2 : 1)));
+                                     explain(doubt), remedy_for(part, doubt == MeshDoubt::free_faces ? 2 : 1)));
 }
 
 /// One warning, of the worst mode among those that matter.
@@ -89,10 +97,10 @@ void warn_of_mesh(const formats::Part& part, const MeshErrors& errors, ModelCert
   const double share = std::abs(errors.relative[worst]);
   c.warnings.push_back(fmt::format(
       "the mesh is too coarse: it makes the {} frequency {:.4g} some {:.3g} %{} too {}, {:.3g} % are {}, most of it in "
-      "'{}': give it {}",
+      "'{}': {}",
       errors.boundary_held ? "fixed" : "free", frequency(errors.lambda[worst]), 100.0 * share,
       share < 1.0 ? "" : " or more", errors.relative[worst] > 0.0 ? "high" : "low", 100.0 * limit,
-      accuracy ? "asked for" : "usual", errors.place[static_cast<std::size_t>(worst)], remedy_for(kind)));
+      accuracy ? "asked for" : "usual", errors.place[static_cast<std::size_t>(worst)], remedy_for(part, kind)));
 }
 
 void describe_mesh_errors(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c) {

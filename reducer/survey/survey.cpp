@@ -178,9 +178,16 @@ std::vector<SurveyedFace> face_groups(const MeshBuilder& builder, const std::vec
 }
 
 bool is_geometry(const formats::Part& part) {
-  if (part.mesh.file.empty()) return false;
+  return !part.mesh.file.empty() && is_geometry(mesh_file_kind(part.mesh.file, part.mesh.where));
+}
+
+std::string unit_of_lengths(const formats::Part& part) {
+  if (part.units.named()) return part.units.length.label;
+  if (part.mesh.file.empty()) return "units of the part";
   const MeshFileKind kind = mesh_file_kind(part.mesh.file, part.mesh.where);
-  return kind != MeshFileKind::msh && kind != MeshFileKind::nastran && kind != MeshFileKind::abaqus;
+  // what OpenCASCADE converts them to
+  if (kind == MeshFileKind::step || kind == MeshFileKind::iges) return "mm";
+  return "units of the file, which does not name them";
 }
 
 }  // namespace
@@ -222,8 +229,7 @@ Survey survey(const formats::Part& part) {
   result.text = table("entity", entity_rows(builder)) + table("group", group_rows(builder, groups)) +
                 form_table(result.faces, "face", part.units) + form_table(result.groups, "group of faces", part.units);
   if (result.text.empty()) result.text = "no entities, groups or sets\n";
-  const std::string unit = part.units.named() ? part.units.length.label : "units of the file (CAD: mm)";
-  result.text += fmt::format("lengths in {}; {} nodes\n", unit, builder.cells.position.size());
+  result.text += fmt::format("lengths in {}; {} nodes\n", unit_of_lengths(part), builder.cells.position.size());
   result.position = std::move(builder.cells.position);
   result.deck = std::move(builder.mesh);
   return result;

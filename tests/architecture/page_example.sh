@@ -3,8 +3,8 @@
 # heading only what stands in that section (up to the next heading of its level).
 #   ```yaml blocks become files. Their name is the first line, "# name.yaml", or the last `name` of the paragraph before;
 #   ```sh blocks run as they stand, each in a shell of its own that stops at the first error; TISSERAND names <source>;
-#   ```text blocks are lines that the commands before must have printed: equal word by word, numbers within 5e-4 or one
-#   unit of their last digit, integers exactly, values below 1e-9 (round-off) all alike; "..." is any rest of a line.
+#   ```text blocks are lines that the commands before must have printed: equal word by word, numbers within one unit of
+#   their last digit or 1e-6, integers exactly, values below 1e-9 (round-off) all alike; "..." is any rest of a line.
 set -euo pipefail
 export TISSERAND="$1" PATH="$2/bin:$PATH"
 page="$1/$3" heading="${4:-}"
@@ -65,7 +65,7 @@ unmatched() {
       if (!number(want) || !number(got)) return want == got
       if (want !~ /[.eE]/) return want + 0 == got + 0
       if (size(want) < 1e-9) return size(got) < 1e-9
-      allowed = 5e-4 * size(want)
+      allowed = 1e-6 * size(want)
       if (allowed < last_digit(want)) allowed = last_digit(want)
       return size(got - want) <= 1.0001 * allowed
     }

@@ -15,6 +15,7 @@
 #include "common/error.hpp"
 #include "reducer/elements/checks.hpp"
 #include "reducer/elements/element_matrices.hpp"
+#include "reducer/elements/plausibility.hpp"
 #include "reducer/system/system.hpp"
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/spring_nets.hpp"
@@ -30,6 +31,7 @@ using test_support::error_of;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 formats::Part part_of(int modes) {
   formats::Part part;
@@ -276,9 +278,12 @@ TEST(Plausibility, MillimetreMeshesWithMetreMaterialsAreSuspected) {
   mesh.position *= 2e6;
   EXPECT_THAT(reducer::plausibility_warnings(mesh, mm), ElementsAre(HasSubstr("is mm the unit of its nodes?")));
   EXPECT_TRUE(reducer::plausibility_warnings(mesh, Units::consistent()).empty());
-  EXPECT_THAT(reducer::mass_doubt(5.9e7, Units::si()).value_or(""), HasSubstr("is m the unit of its nodes"));
-  EXPECT_FALSE(reducer::mass_doubt(5.9e5, Units::si()));
-  EXPECT_FALSE(reducer::mass_doubt(5.9e7, Units::consistent()));
+  formats::RigidProperties rigid;
+  rigid.mass = 5.9e7;
+  EXPECT_THAT(reducer::mass_warnings(mesh, rigid, Units::si()), ElementsAre(HasSubstr("is m the unit of its nodes")));
+  EXPECT_THAT(reducer::mass_warnings(mesh, rigid, Units::consistent()), IsEmpty());
+  rigid.mass = 5.9e5;
+  EXPECT_THAT(reducer::mass_warnings(mesh, rigid, Units::si()), IsEmpty());
 }
 
 TEST(Plausibility, DoubtsAreNamedWhenTheReductionFails) {

@@ -120,7 +120,7 @@ integrator: {step: 0.01, end: 1.5}
   });
 
   await suite.test("a car with its tyres on their road", async () => {
-    call("mechanism", "run", join(source, "examples/vehicle/car.scene.yaml"), "--set", "integrator.end=0.4");
+    call("mechanism", "run", join(source, "examples/vehicle/car.scene.yaml"), "-o", "car.results.h5", "--set", "integrator.end=0.4");
     const name = "car.drive";
     call("mechanism", "view", `${name}.results.h5`);
     const page = await browser.page();

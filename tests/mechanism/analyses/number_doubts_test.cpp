@@ -6,7 +6,6 @@
 #include <fstream>
 #include <iterator>
 #include <random>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "mechanism/build/build_model.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/varied_numbers.hpp"
 
 namespace tisserand::testing::number_doubts_test {
 namespace {
@@ -96,20 +96,6 @@ TEST(NumberDoubts, CountWhatIsAlike) {
   EXPECT_THAT(doubts[2], HasSubstr("(and 6 more like this)"));
 }
 
-/// Numbers with a point or an exponent are multiplied by 0.7 to 1.3; others may be counts.
-std::string varied(const std::string& text, std::mt19937& random) {
-  static const std::regex number(R"(([^A-Za-z0-9_.])(\d+\.\d*(?:e[-+]?\d+)?|\d+e[-+]?\d+))");
-  std::uniform_real_distribution<double> factor(0.7, 1.3);
-  std::string result;
-  auto rest = text.cbegin();
-  for (std::sregex_iterator match(text.begin(), text.end(), number), end; match != end; ++match) {
-    result.append(rest, (*match)[2].first);
-    result += fmt::format("{:.6g}", factor(random) * std::stod((*match)[2].str()));
-    rest = (*match)[2].second;
-  }
-  return result.append(rest, text.cend());
-}
-
 // Scenes without superelement files, whose variations have open joints, too; what cannot be built is not counted.
 TEST(NumberDoubts, AreSilentAboutExamplesAndTheirVariations) {
   const test_support::TemporaryFolder folder;
@@ -125,7 +111,7 @@ TEST(NumberDoubts, AreSilentAboutExamplesAndTheirVariations) {
     for (const std::string& path : scenes) {
       std::ifstream file(path);
       const std::string text{std::istreambuf_iterator<char>(file), {}};
-      if (round > 0) write_text_file(path, varied(text, random));
+      if (round > 0) write_text_file(path, test_support::varied(text, random));
       try {
         EXPECT_THAT(doubts_of(formats::read_scene(path, {})), IsEmpty()) << path << " round " << round;
         ++told;

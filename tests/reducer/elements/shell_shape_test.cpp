@@ -6,6 +6,7 @@
 
 #include "reducer/elements/checks.hpp"
 #include "reducer/elements/element_matrices.hpp"
+#include "reducer/elements/plausibility.hpp"
 #include "tests/reducer/elements/shell_cases.hpp"
 
 namespace tisserand::reducer::shell_shape_test {

@@ -3,6 +3,7 @@
 #include <linux/filter.h>
 #include <linux/seccomp.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,9 +24,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "reducer/mesh/mesh_file.hpp"
 #include "reducer/mesher/child.hpp"
 #include "reducer/mesher/import.hpp"
 #include "tests/reducer/sources/part_text.hpp"
+#include "tests/support/thrown.hpp"
 
 namespace tisserand::testing::stranger_test {
 namespace {
@@ -34,6 +37,7 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using test_support::error_of;
 using Permission = formats::MeshFile::Permission;
 
 const std::string meshes = std::string(TISSERAND_SOURCE_DIR) + "/meshes/";
@@ -109,7 +113,7 @@ TEST_P(Tricks, DoNothingAndAreTold) {
   EXPECT_EQ(plain.files(), before) << "files were made, changed or removed";
 }
 
-constexpr const char* starts = "wants to start a program, or to make, rename or remove files";
+constexpr const char* starts = "wants to start a program, to wait, or to make, rename or remove files";
 constexpr const char* opens = "a geometry may read files of its own folder only";
 INSTANTIATE_TEST_SUITE_P(
     Geo, Tricks,
@@ -119,6 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
         Trick{"NonBlockingSystemCall", "NonBlockingSystemCall \"touch @/made\";", starts},
         Trick{"OnelabRun", "OnelabRun(\"x\", \"touch @/made\");", starts},
         Trick{"Solver", "Solver.Name0 = \"x\"; Solver.Executable0 = \"touch @/made\"; OnelabRun(\"x\");", starts},
+        Trick{"Sleep", "Sleep(100000);", starts}, Trick{"SleepShort", "Sleep(0.001);", starts},
         Trick{"CreateDir", "CreateDir \"@/made\";", starts}, Trick{"CreateDirHere", "CreateDir \"made\";", starts},
         Trick{"Printf", "Printf(\"x\") > \"@/made\";", opens}, Trick{"PrintfHere", "Printf(\"x\") > \"made\";", opens},
         Trick{"PrintfOver", "Printf(\"x\") > \"@/secret.geo\";", opens},
@@ -195,7 +200,7 @@ TEST(Strangers, TextsReachNoTerminalAsTheyAre) {
 // --- limits --------------------------------------------------------------------------------------------------------
 
 TEST(Limits, OfTimeAreNamed) {
-  const Stranger loop("For i In {1:1000000000000}\nEndFor"), asleep("Sleep 1000;");
+  const Stranger loop("For i In {1:1000000000000}\nEndFor");
   reducer::GeometryRequest request;
   request.file = loop.path("in/strange.geo");
   request.is_program = request.is_trusted = true;
@@ -204,9 +209,39 @@ TEST(Limits, OfTimeAreNamed) {
   request.bytes = 1e9;
   EXPECT_EQ(reducer::run_mesher(request).ending, reducer::MesherEnding::processor_time);
   EXPECT_THAT(loop.read("in/strange.geo", {true, 0.0, 1.0}), HasSubstr("--geometry-time 2"));
-  EXPECT_THAT(asleep.read("in/strange.geo", {true, 0.0, 1.0}),
-              AllOf(HasSubstr("gmsh was stopped while reading the file: it was not done after 4 s"),
-                    HasSubstr("--geometry-time 2")));
+  request.seconds = 500.0;
+  request.reading_seconds = 1.0;
+  EXPECT_EQ(reducer::run_mesher(request).ending, reducer::MesherEnding::reading_time);
+  request.reading_seconds = 500.0;
+  request.wall_seconds = 1.0;
+  EXPECT_EQ(reducer::run_mesher(request).ending, reducer::MesherEnding::wall_time);
+}
+
+// A pipe that nobody writes: whoever opens it waits.
+TEST(Limits, WaitingIsNoWork) {
+  const Stranger waits("Include \"pipe\";");
+  ASSERT_EQ(::mkfifo(waits.path("in/pipe").c_str(), 0600), 0);
+  reducer::GeometryRequest request;
+  request.file = waits.path("in/strange.geo");
+  request.is_program = request.is_trusted = true;
+  request.seconds = request.wall_seconds = 500.0;
+  request.idle_seconds = 1.0;
+  request.bytes = 1e9;
+  EXPECT_EQ(reducer::run_mesher(request).ending, reducer::MesherEnding::idle);
+  fs::rename(waits.path("in/pipe"), waits.path("in/pipe.step"));
+  EXPECT_THAT(error_of([&] { reducer::check_mesh_file(waits.path("in/pipe.step"), "p.yaml"); }),
+              HasSubstr("is a pipe or a device"));
+}
+
+// The trials' square.igs with one number changed: gmsh meshes it without end.
+TEST(Limits, DamagedCadFilesEndInSeconds) {
+  const std::string damaged = TISSERAND_SOURCE_DIR "/tests/verification/references/trials/damaged.igs";
+  formats::MeshFile settings;
+  settings.file = damaged;
+  const std::string text =
+      error_of([&] { reducer::import_with_gmsh({settings, Units::consistent(), 2, {}}); });
+  EXPECT_THAT(text, AllOf(HasSubstr("damaged.igs: gmsh was stopped while meshing the geometry: it w"),
+                          HasSubstr("the file is probably damaged")));
 }
 
 TEST(Limits, OfMemoryAreNamed) {
