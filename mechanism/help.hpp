@@ -95,6 +95,7 @@ inline constexpr const char* about_view =
   mechanism view arm.results.h5 -o arm.html
   mechanism view coarse.results.h5 fine.results.h5 -o both.html
   mechanism view long.results.h5 -o long.html --instants 500 -c energy -c 'nodes/position/arm/*'
+  mechanism view crank.results.h5                 crank.html
   mechanism view crank.results.h5 --stress        von Mises stress of bodies with recovery files, to colour them by
   mechanism view arm.results.h5 --paraview out
 
@@ -109,7 +110,10 @@ inline constexpr const char* about_picture =
   mechanism picture arm.results.h5 --view -50,20 --exaggerate 20 --colour deformation --trace arm/tip -o a.png
   mechanism picture tones.results.h5 --mode 2 --phase 0 --phase 180 --show nodes --hide grid -o tone.png
 
-It shows what the page of `mechanism view` shows. Without --time: the last instant.)help";
+It shows what the page of `mechanism view` shows. Without --time: the last instant. Where all bodies leave their place, the
+camera follows the heaviest (--follow NAME, or none). A picture in which nothing is to be seen is an error.
+
+Chromium's sandbox keeps a page from your files. Root has it not: there `picture` stops unless --no-sandbox is given.)help";
 
 inline constexpr const char* about_compare =
     R"help(Measures channels against a reference history: largest and root-mean-square deviation.

@@ -307,7 +307,14 @@ void add_picture(CLI::App& app, PictureArguments& arguments) {
   command->add_option("--view", request.view,
                       "iso, front, back, left, right, top, bottom, or azimuth,elevation of the camera in degrees");
   command->add_option("--zoom", request.zoom, "1: what is shown fills the picture")->check(CLI::Range(0.01, 1000.0));
-  command->add_option("--exaggerate", request.exaggeration, "factor on deformations")->check(CLI::NonNegativeNumber);
+  command->add_option("--exaggerate", request.exaggeration, "factor on deformations; default: 1, more if nothing moves")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--follow", request.follow, "body that the camera follows; default: the heaviest, if all travel");
+  command->add_option("--stress-unit", request.stress_unit, "Pa, kPa, MPa or GPa; default: of the scene, MPa for mm")
+      ->check(CLI::IsMember(mechanism::picture_stress_units()));
+  command->add_flag_callback(
+      "--no-sandbox", [&] { request.sandbox = mechanism::Sandbox::off; },
+      "run Chromium without its sandbox, which it does not have for root");
   command->add_option("--colour", request.colouring, "body, displacement, deformation or stress")
       ->check(CLI::IsMember(mechanism::picture_colourings()));
   command->add_option("--trace", request.traces, "node whose path is drawn")->allow_extra_args(false);

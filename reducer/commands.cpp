@@ -301,8 +301,16 @@ std::string page(const Arguments& arguments) {
   return part_page(part);
 }
 
+/// bracket.part.html, bracket.recovery.html: pages of a part and of its recovery file lie beside one another.
+std::string page_path(const std::string& input) {
+  for (const std::string known : {".yaml", ".yml", ".h5"})
+    if (input.size() > known.size() && input.ends_with(known))
+      return input.substr(0, input.size() - known.size()) + ".html";
+  return input + ".html";
+}
+
 int view(const Arguments& arguments) {
-  const std::string output = arguments.output.empty() ? beside(arguments.input, ".html") : arguments.output;
+  const std::string output = arguments.output.empty() ? page_path(arguments.input) : arguments.output;
   require_output(output, {".html"}, {arguments.input});
   const std::string text = page(arguments);
   write_text_file(output, text);

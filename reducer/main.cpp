@@ -29,7 +29,7 @@ Examples:
   reducer solve beam.part.yaml --buckling 5      load factors of buckling
   reducer show beam.superelement.h5              the certificate: mass, frequencies, checks
   reducer mesh beam.part.yaml                    writes beam.msh, to look at with gmsh
-  reducer view bracket.part.yaml                 bracket.html: the mesh, in any browser; of a recovery file also its modes
+  reducer view bracket.part.yaml                 bracket.part.html: the mesh, in any browser; of a recovery file also its modes
   reducer groups bracket.step -o faces.png       faces, edges, groups with numbers, sizes and forms, and a picture
   reducer section beam.part.yaml                 constants of its sections
   reducer recover beam.recovery.h5 run.results.h5   displacement and stress of the part in a run, for ParaView
@@ -97,9 +97,10 @@ Whatever the source (drawn, CAD, mesh, deck). Physical groups: properties, sprin
 constexpr const char* about_view =
     R"help(Makes one page that shows a part in three dimensions. Any browser opens it, without a network.
 
-  reducer view bracket.part.yaml                  groups, spiders, boundary nodes, numbers of faces; faulty elements in red
+  reducer view bracket.part.yaml                  bracket.part.html: groups, spiders, boundary nodes, numbers of faces, edges of
+                                                  elements (key D); faulty elements in red
   reducer view bracket.step                       also a mesh, geometry or deck alone
-  reducer view bracket.recovery.h5 -o modes.html  the mesh, moving in each boundary and internal mode
+  reducer view bracket.recovery.h5                bracket.recovery.html: the mesh, moving in each boundary and internal mode
 
 Parts whose elements are refused by `reducer run` are shown all the same.)help";
 

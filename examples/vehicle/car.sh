@@ -8,7 +8,8 @@ make_chassis() {
   shift
   mkdir -p "$out/$folder"
   cp "$example"/*.yaml "$out/$folder"
-  reduce "$part" "$folder/chassis" --set 'modal_body={reference: center, modes: 10}' --set second_order=no "$@"
+  reduce "$part" "$folder/chassis" --set 'modal_body={reference: center, modes: 10}' --set second_order=no \
+    --set recovery=yes "$@"  # pages and pictures show the surface of the chassis
 }
 
 # car <folder/name> <chassis> <hinge> [--set ...]: $out/<folder/name>.{standing,drive}.results.h5 and .log

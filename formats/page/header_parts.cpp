@@ -15,6 +15,8 @@ std::vector<std::uint32_t> flat(const auto& faces) {
   return indices;
 }
 
+std::vector<std::uint32_t> flat(const std::vector<int>& numbers) { return {numbers.begin(), numbers.end()}; }
+
 /// Modes of displacement, and of stress where the vertices have three rows each.
 void add_deformation(const PageShape& shape, const FewModes& few, PageBlocks& blocks, Json& json) {
   const Eigen::Index vertices = shape.surface.size(), rows = few.modes.rows() / few.count();
@@ -54,6 +56,8 @@ Json shape_json(const PageShape& shape, const FewModes& few, PageBlocks& blocks)
   for (int i = 0; i < surface.size(); ++i) vertices.row(i) = surface.vertices[i].transpose();
   json["vertices"] = blocks.add_positions(vertices);
   if (!surface.triangles.empty()) json["triangles"] = blocks.add_indices(flat(surface.triangles), 3);
+  if (shape.elements.size() == surface.triangles.size() && !shape.elements.empty())
+    json["elements"] = blocks.add_indices(flat(shape.elements), 1);
   if (!surface.lines.empty()) json["lines"] = blocks.add_indices(flat(surface.lines), 2);
   if (few.count() > 0) add_deformation(shape, few, blocks, json);
   if (shape.all_vertices > surface.size())
@@ -69,7 +73,13 @@ Json units_json(const Units& units) {
           {"force", force},
           {"moment", moment},
           {"stress", unit_label(units, -1, 1, -2)},
-          {"energy", energy_label(units)}};
+          {"energy", energy_label(units)},
+          {"mass", unit_label(units, 0, 1, 0)}};
+}
+
+Json pascal_json(const Units& units) {
+  if (!units.named()) return nullptr;
+  return units.mass.factor / (units.length.factor * units.time.factor * units.time.factor);
 }
 
 }  // namespace tisserand::formats

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "common/units.hpp"
 #include "formats/page/deformation.hpp"
@@ -19,6 +20,7 @@ struct PageShape {
   /// displacement
   /// ([xx yy zz], [xy yz zx] per vertex); 0: there are none.
   double stress_scale = 0.0;
+  std::vector<int> elements{};  ///< element of each triangle; empty: not known
 };
 
 Json shape_json(const PageShape& shape, const FewModes& few, PageBlocks& blocks);
@@ -26,7 +28,10 @@ Json shape_json(const PageShape& shape, const FewModes& few, PageBlocks& blocks)
 /// Diagonal of the box about it.
 double size_of(const Surface& surface);
 
-/// Labels of length, time, angle, force, moment, stress, energy.
+/// Labels of length, time, angle, force, moment, stress, energy, mass.
 Json units_json(const Units& units);
+
+/// Pascal in a unit of stress; null: the units have no names.
+Json pascal_json(const Units& units);
 
 }  // namespace tisserand::formats

@@ -324,16 +324,24 @@ std::vector<std::string> modes_lines(const Model& model, const ModesReport& repo
   const bool both = report.axes.norm() > 0.0 || report.spin.norm() > 0.0;
   const std::string other =
       !both ? "" : fmt::format(" {:>18}", (report.axes.norm() > 0.0 ? "in axes at rest" : "in turning axes") + unit);
+  // Real eigenvalues are no vibrations: their frequency |λ| / 2π with damping 1 says little.
+  const auto is_real = [](const Mode& mode) { return std::abs(mode.damping_ratio()) >= 1.0 - 1e-9; };
+  const bool has_poles = std::ranges::any_of(report.modes, is_real);
+  const std::string poles =
+      has_poles ? fmt::format(" {:>12}", "pole" + (label.empty() ? "" : label == "s^-1" ? " 1/s" : " " + label)) : "";
   std::vector<std::string> lines{
-      fmt::format("{:>4} {:>14}{} {:>12}  {}", "no.", "frequency" + unit, other, "damping", "moves most")};
+      fmt::format("{:>4} {:>14}{} {:>12}{}  {}", "no.", "frequency" + unit, other, "damping", poles, "moves most")};
   int number = 0;
   for (const Mode& mode : report.modes) {
     const std::string seen = !both ? ""
                              : std::isnan(mode.seen_from_other_axes)
                                  ? fmt::format(" {:>18}", "-")
                                  : fmt::format(" {:>18.6g}", mode.seen_from_other_axes);
-    lines.push_back(fmt::format("{:>4} {:>14.6g}{} {:>12.4g}  {}{}", ++number, mode.frequency(), seen,
-                                std::abs(mode.damping_ratio()) < 1e-9 ? 0.0 : mode.damping_ratio(),
+    const std::string pole = !has_poles      ? ""
+                             : is_real(mode) ? fmt::format(" {:>12.4g}", mode.eigenvalue.real())
+                                             : fmt::format(" {:>12}", "");
+    lines.push_back(fmt::format("{:>4} {:>14.6g}{} {:>12.4g}{}  {}{}", ++number, mode.frequency(), seen,
+                                std::abs(mode.damping_ratio()) < 1e-9 ? 0.0 : mode.damping_ratio(), pole,
                                 moves_most(model, mode.shape), mode.unstable ? "  UNSTABLE" : ""));
   }
   return lines;

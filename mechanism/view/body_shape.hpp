@@ -17,6 +17,7 @@ struct BodyShape {
   formats::Surface surface;          ///< undeformed; of a marker: empty
   formats::Deformation deformation;  ///< without columns: none
   Eigen::MatrixXd stress;            ///< 6 V x m: [xx yy zz xy yz zx] per amplitude; empty: not known or not asked for
+  std::vector<int> elements;         ///< of each triangle; empty: not known
   bool points = false;               ///< the vertices are drawn too
   int all_vertices = 0;              ///< before thinning
   std::vector<int> stations;         ///< nodes whose motion the amplitudes are, in the order of their columns

@@ -22,8 +22,8 @@ constexpr int smallest_side = 32, largest_side = 8192;
 
 /// What users call it, and the setting of the page.
 const std::map<std::string, std::string> settings_of_things{
-    {"arrows", "arrows"}, {"axes", "worldAxes"}, {"body-axes", "bodyAxes"}, {"edges", "edges"},
-    {"grid", "grid"},     {"joints", "joints"},  {"nodes", "nodes"},        {"springs", "springs"}};
+    {"arrows", "arrows"},     {"axes", "worldAxes"}, {"body-axes", "bodyAxes"}, {"edges", "edges"},    {"elements", "elements"},
+    {"grid", "grid"}, {"joints", "joints"},  {"nodes", "nodes"},        {"springs", "springs"}};
 
 /// "-30,20" -> azimuth and elevation [rad]; a name stays one.
 Json view_of(const std::string& text) {
@@ -61,8 +61,21 @@ void require_nodes(const std::vector<std::string>& names, const formats::Results
                   "nodes are, for example: " + listed(nearest_names(name, known)));
 }
 
+/// Name of the body that the camera follows, "": it stands.
+std::string followed_of(const std::string& name, const formats::ResultsReader& run) {
+  if (name == "none") return "";
+  std::vector<std::string> known;
+  for (const formats::SimulatedBody& body : run.layout().simulated.bodies) known.push_back(body.name);
+  if (std::ranges::find(known, name) == known.end())
+    throw Error(fmt::format("has no body '{}' that a camera could follow", printable_line(name, 100)), run.path(),
+                "give --follow none, or a body, for example: " + listed(nearest_names(name, known)));
+  return name;
+}
+
 Json settings_of(const PictureRequest& request) {
-  Json settings{{"colouring", request.colouring}, {"exaggeration", request.exaggeration}, {"arrows", false}};
+  Json settings{{"colouring", request.colouring}, {"arrows", false}};
+  if (request.exaggeration) settings["exaggeration"] = *request.exaggeration;
+  if (!request.stress_unit.empty()) settings["stressUnit"] = request.stress_unit;
   for (const std::string& thing : request.shown) settings[settings_of_things.at(thing)] = true;
   for (const std::string& thing : request.hidden) settings[settings_of_things.at(thing)] = false;
   return settings;
@@ -82,6 +95,7 @@ Json still_of(const PictureRequest& request, const formats::ResultsReader& run) 
       throw Error(fmt::format("a picture of {} x {} pixels", request.size[0], request.size[1]), "picture",
                   fmt::format("give --size with {} to {} pixels a side", smallest_side, largest_side));
   require_nodes(request.traces, run);
+  if (request.follow) still["follow"] = followed_of(*request.follow, run);
   if (request.mode == 0) {
     still["times"] = times_of(request, run);
     return still;
@@ -126,6 +140,11 @@ const std::vector<std::string>& picture_colourings() {
   return colourings;
 }
 
+const std::vector<std::string>& picture_stress_units() {
+  static const std::vector<std::string> units{"Pa", "kPa", "MPa", "GPa"};
+  return units;
+}
+
 const std::vector<std::string>& picture_things() {
   static const std::vector<std::string> things = [] {
     std::vector<std::string> names;
@@ -144,7 +163,10 @@ std::string picture(const PictureRequest& request) {
   ViewRequest shown = request.page;
   shown.shapes.stress = shown.shapes.stress || request.colouring == "stress";
   const PageFile page(request.output, page_of(shown));
-  const std::string png = base64_decoded(asked_of_page(page.path(), "tisserand.still(" + still.dump() + ")"));
+  const std::string png = base64_decoded(asked_of_page(page.path(), "tisserand.still(" + still.dump() + ")", request.sandbox));
+  if (png.empty())
+    throw Error("nothing is to be seen in the picture: no body is in view", request.output,
+                "see --view, --zoom, --exaggerate, --follow and --hide; `mechanism view` shows where the bodies are");
   TISSERAND_ENSURE(png.starts_with("\x89PNG"), "the page gave {} bytes that are no PNG", png.size());
   write_text_file(request.output, png);
   return fmt::format("picture: {} ({} x {} pixels, {:.0f} kB)\n", request.output, request.size[0], request.size[1],

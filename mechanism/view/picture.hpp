@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "mechanism/view/browser.hpp"
 #include "mechanism/view/view.hpp"
 
 namespace tisserand::mechanism {
@@ -20,20 +22,24 @@ struct PictureRequest {
   std::array<int, 2> size{1200, 700};  ///< pixels, width and height
   std::string view = "iso";            ///< a name of picture_views(), or "azimuth,elevation" of the camera in degrees
   double zoom = 1.0;                   ///< 1: what is shown fills the picture
-  double exaggeration = 1.0;           ///< of deformations
+  std::optional<double> exaggeration;  ///< of deformations; none: 1, or a round factor where motion is invisible
+  std::optional<std::string> follow;   ///< body that the camera follows, "none"; none: one, where all leave their place
+  std::string stress_unit;             ///< one of picture_stress_units(); empty: of the scene, MPa where lengths are mm
   std::string colouring = "body";      ///< one of picture_colourings()
   std::vector<std::string> traces;     ///< nodes whose paths are drawn
   std::vector<std::string> shown, hidden;  ///< of picture_things()
   Captions captions = Captions::written;
+  Sandbox sandbox = Sandbox::on;
 };
 
 const std::vector<std::string>& picture_views();
 const std::vector<std::string>& picture_colourings();
+const std::vector<std::string>& picture_stress_units();
 /// What can be shown or hidden: edges, grid, axes, ...
 const std::vector<std::string>& picture_things();
 
 /// Writes it: whole or not at all. Same page, same browser: same bytes. Returns one line about it. Throws Error: no
-/// such time, mode or node, no browser (asked_of_page()).
+/// such time, mode, node or body, nothing to be seen, no browser (asked_of_page()).
 std::string picture(const PictureRequest& request);
 
 }  // namespace tisserand::mechanism

@@ -200,6 +200,7 @@ std::optional<BodyShape> recovered_shape(ViewedRun& run, const ViewedBody& body,
     carriers.push_back(skin.carriers[v]);
     shape.surface.vertices.push_back(length * found->axes.cwiseProduct(skin.surface.vertices[v]) - body.origin);
   }
+  if (few.triangles.size() == skin.triangle_element.size()) shape.elements = skin.triangle_element;
   shape.surface.triangles = std::move(few.triangles);
   shape.surface.lines = std::move(few.lines);
   if (found->axes.prod() < 0.0)

@@ -8,6 +8,8 @@
 #include "common/text.hpp"
 #include "formats/page/header_parts.hpp"
 #include "mechanism/histories/series.hpp"
+#include "mechanism/view/largest_stress.hpp"
+#include "mechanism/view/motion_extent.hpp"
 #include "mechanism/view/page_channels.hpp"
 #include "mechanism/view/recovered_shape.hpp"
 #include "mechanism/view/run_modes.hpp"
@@ -59,6 +61,7 @@ class Places {
     if (track.has_rotation()) place["rotation"] = blocks_.add_rotations(track.rotation);
     if (owner >= 0) place["body"] = owner;
     if (owner >= 0) place["rest"] = list_of(place_at_rest(run_, run_.bodies[owner], node));
+    if (!position.isZero(0.0)) place["arm"] = list_of(orientation.conjugate() * position);
     return place;
   }
   Json at(int node) { return at(node, Vector3d::Zero(), Quaterniond::Identity()); }
@@ -79,31 +82,6 @@ class Places {
   PageBlocks& blocks_;
 };
 
-/// Of nodes and frames over all instants.
-Eigen::AlignedBox3d box_of(const ViewedRun& run) {
-  Eigen::AlignedBox3d box;
-  const auto extend = [&](const PageRows& position) {
-    if (position.rows() == 0) return;
-    box.extend(Vector3d(position.colwise().minCoeff().transpose()));
-    box.extend(Vector3d(position.colwise().maxCoeff().transpose()));
-  };
-  for (const Track& node : run.nodes) extend(node.position);
-  for (const ViewedBody& body : run.bodies) extend(body.frame.position);
-  return box;
-}
-
-/// Of the undeformed shape at some of the instants.
-void extend_by(const Surface& surface, const Track& frame, Eigen::AlignedBox3d& box) {
-  constexpr std::size_t most_instants = 50;
-  Eigen::AlignedBox3d local;
-  for (const Vector3d& vertex : surface.vertices) local.extend(vertex);
-  if (local.isEmpty()) return;
-  for (const std::size_t t : even_rows(static_cast<std::size_t>(frame.position.rows()), most_instants))
-    for (int k = 0; k < 8; ++k)
-      box.extend(Vector3d(frame.position.row(t).transpose() +
-                          frame.turn(t) * local.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k))));
-}
-
 /// Puts the stress under the displacement of the modes, in a scale in which the largest of both count the same; 0:
 /// there is none.
 double stack_stress(BodyShape& shape) {
@@ -121,12 +99,13 @@ double stack_stress(BodyShape& shape) {
 
 /// Bodies and their shapes; bodies of one rigid shape share it.
 void add_bodies(ViewedRun& run, const ShapeOptions& options, ModesOfBodies& modes, PageBlocks& blocks, Json& json) {
-  Eigen::AlignedBox3d box = box_of(run);
+  MotionExtent extent(run);
   json["bodies"] = json["shapes"] = Json::array();
   for (std::size_t i = 0; i < run.bodies.size(); ++i) {
     const ViewedBody& body = run.bodies[i];
     BodyShape shape = shape_of_body(run, body, options);
-    extend_by(shape.surface, body.frame, box);
+    extent.add(shape.surface, body.frame);
+    const Json stressed = largest_stress(run, body, shape);
     modes.take(run, static_cast<int>(i), shape);
     const double stress_scale = stack_stress(shape);
     const FewModes few = few_modes(shape.deformation, relative_error, formats::size_of(shape.surface));
@@ -142,12 +121,17 @@ void add_bodies(ViewedRun& run, const ShapeOptions& options, ModesOfBodies& mode
       one["amplitudes"] = blocks.add_floats(PageRows(few.amplitudes.topRows(run.times.size()).cast<double>()),
                                             {run.times.size(), few.count()});
     json["shapes"].push_back(formats::shape_json(
-        {shape.surface, shape.source, shape.points, shape.all_vertices, stress_scale}, few, blocks));
+        {shape.surface, shape.source, shape.points, shape.all_vertices, stress_scale, shape.elements}, few, blocks));
+    if (Json& stress = json["shapes"].back()["stress"]; !stress.is_null()) stress["largest"] = stressed;
     json["bodies"].push_back(std::move(one));
     if (shape.surface.size() > 5000) blocks.next();
   }
+  Eigen::AlignedBox3d ground;
   for (const Scenery& one : scenery_of(run)) {
-    extend_by(one.surface, one.frame, box);
+    if (one.kind == "road")
+      for (const Vector3d& vertex : one.surface.vertices) ground.extend(one.frame.position.row(0).transpose() + one.frame.turn(0) * vertex);
+    else
+      extent.add(one.surface, one.frame);
     json["bodies"].push_back({{"name", one.name},
                               {"kind", one.kind},
                               {"colour", one.colour},
@@ -158,7 +142,12 @@ void add_bodies(ViewedRun& run, const ShapeOptions& options, ModesOfBodies& mode
                               {"mass", nullptr}});
     json["shapes"].push_back(formats::shape_json({one.surface, "scene", false, one.surface.size()}, {}, blocks));
   }
-  json["box"] = {list_of(box.min()), list_of(box.max())};
+  const Eigen::AlignedBox3d &moving = extent.box(), all = moving.merged(ground);
+  json["box"] = {list_of(all.min()), list_of(all.max())};
+  const int follow = extent.followed();
+  json["moving"] = {{"box", {list_of(moving.min()), list_of(moving.max())}},
+                    {"size", extent.size()},
+                    {"follow", follow < 0 ? Json() : Json(follow)}};
   blocks.next();
 }
 
@@ -295,6 +284,7 @@ Json run_header(ViewedRun& run, const RunOptions& options, PageBlocks& blocks) {
             {"gravity", list_of(gravity)},
             {"times", blocks.add_times(run.times)},
             {"thinned", nullptr}};
+  if (const Json pascal = formats::pascal_json(run.layout().units); !pascal.is_null()) json["pascal"] = pascal;
   if (run.rows.size() < reader.rows()) json["thinned"] = {{"rows", reader.rows()}, {"kept", run.rows.size()}};
   require_used_recovery(run, options.shapes);
   ModesOfBodies modes(reader);

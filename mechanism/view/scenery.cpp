@@ -29,10 +29,12 @@ Track wheel_of(const ViewedRun& run, const SimulatedLink& tyre) {
   return carried(run.nodes[wheel.node], wheel.position, wheel.orientation);
 }
 
-/// A ring about y: outer face, inner face and both sides.
+/// A ring about y: outer face, inner face and both sides. Its sides touch the circle from outside, so that a wheel of the
+/// same radius is inside.
 Surface ring(double radius) {
   Surface surface;
-  const double r[] = {radius, radius, rim * radius, rim * radius},
+  const double outer = radius / std::cos(std::numbers::pi / spokes);
+  const double r[] = {outer, outer, rim * radius, rim * radius},
                y[] = {-half_width * radius, half_width * radius, half_width * radius, -half_width * radius};
   for (int i = 0; i < spokes; ++i)
     for (int k = 0; k < 4; ++k) {

@@ -224,6 +224,8 @@ class Reader {
   void read_entity(int dimension, int tag) {
     Entity entity{dimension, tag, "", mesh_.cells[dimension].size(), 0};
     gmsh::model::getEntityName(dimension, tag, entity.label);
+    // "Shapes/Open CASCADE STEP translator 7.6 2": nobody's name, but that of the program that wrote the file.
+    if (entity.label.find("Open CASCADE STEP translator") != std::string::npos) entity.label.clear();
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> ids, nodes;
     gmsh::model::mesh::getElements(types, ids, nodes, dimension, tag);

@@ -6,16 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "reducer/survey/raster.hpp"
+#include "reducer/survey/projection.hpp"
 
 namespace tisserand::reducer {
-
-/// The place of a surface in a picture that is farthest from what is not the surface.
-struct SeenPlace {
-  Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< pixels to the right and down
-  double radius = 0.0;                              ///< pixels to the nearest that is not the surface; 0: not seen
-};
-std::vector<SeenPlace> seen_places(const Raster& raster, std::size_t surfaces);
 
 struct PictureLabel {
   std::string text;
@@ -34,7 +27,7 @@ bool fits_inside(const SeenPlace& seen, const std::string& text);
 /// free, better on the background. What finds no place is left out.
 class LabelPlacer {
  public:
-  explicit LabelPlacer(const Raster& raster) : raster_(raster) {}
+  explicit LabelPlacer(const Projection& projection) : projection_(projection) {}
 
   void write_inside(const std::string& text, const SeenPlace& seen);
   bool write_beside(const std::string& text, const SeenPlace& seen);
@@ -42,9 +35,8 @@ class LabelPlacer {
 
  private:
   bool is_free(const Eigen::Vector2d& at, const Eigen::Vector2d& size) const;
-  bool is_background(const Eigen::Vector2d& at) const;
 
-  const Raster& raster_;
+  const Projection& projection_;
   std::vector<PictureLabel> labels_;
 };
 

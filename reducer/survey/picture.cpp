@@ -17,7 +17,7 @@
 #include "reducer/survey/labels.hpp"
 #include "reducer/survey/page.hpp"
 #include "reducer/survey/pieces.hpp"
-#include "reducer/survey/raster.hpp"
+#include "reducer/survey/projection.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -30,7 +30,7 @@ constexpr std::size_t longest_label = 24;
 
 struct Panel {
   PictureView view;
-  Raster raster;
+  Projection projection;
   std::vector<SeenPlace> seen;
   std::vector<PictureLabel> labels;
 };
@@ -40,7 +40,7 @@ std::string label_of(const FacePiece& piece) { return printable_line(piece.label
 /// On the face where it fits, in each panel; else beside it where it is seen best. Returns the labels of faces that are
 /// not seen, or too crowded to be named.
 std::vector<std::string> place_labels(const std::vector<FacePiece>& pieces, std::array<Panel, 2>& panels) {
-  std::array<LabelPlacer, 2> placers{LabelPlacer(panels[0].raster), LabelPlacer(panels[1].raster)};
+  std::array<LabelPlacer, 2> placers{LabelPlacer(panels[0].projection), LabelPlacer(panels[1].projection)};
   std::vector<std::size_t> left;
   for (std::size_t f = 0; f < pieces.size(); ++f) {
     if (pieces[f].label.empty()) continue;
@@ -65,10 +65,9 @@ std::vector<std::string> place_labels(const std::vector<FacePiece>& pieces, std:
 
 Panel panel_from(const Vector3d& eye, const std::vector<ColouredSurface>& surfaces,
                  const std::vector<Vector3d>& position, const std::vector<Vector3d>& seen) {
-  Panel panel;
-  panel.view = view_from(eye, seen, panel_width, panel_height);
-  panel.raster = rasterise(surfaces, position, panel.view, panel_width, panel_height);
-  panel.seen = seen_places(panel.raster, surfaces.size());
+  const PictureView view = view_from(eye, seen, panel_width, panel_height);
+  Panel panel{view, Projection(surfaces, position, view, panel_width, panel_height), {}, {}};
+  panel.seen = panel.projection.seen_places();
   return panel;
 }
 
@@ -109,15 +108,18 @@ std::string labels_script(const Panel& panel, double left) {
   return script;
 }
 
-/// Both rasters side by side on white.
-std::string canvas(const std::array<Panel, 2>& panels) {
-  constexpr std::size_t row = 3 * 2 * panel_width;
-  std::string bytes(row * (head + panel_height + foot), '\xff');
-  for (std::size_t p = 0; p < 2; ++p)
-    for (std::size_t y = 0; y < panel_height; ++y)
-      std::copy_n(panels[p].raster.colour.begin() + static_cast<std::ptrdiff_t>(3 * y * panel_width), 3 * panel_width,
-                  bytes.begin() + static_cast<std::ptrdiff_t>((head + y) * row + p * 3 * panel_width));
-  return bytes;
+/// Polygons of a panel as data of gnuplot: corners and colour, in the order in which they are painted.
+std::string polygons_data(const Panel& panel, double left) {
+  std::string data;
+  for (const PaintedPolygon& polygon : panel.projection.polygons()) {
+    const auto byte = [](double part) { return static_cast<unsigned>(std::lround(255.0 * std::clamp(part, 0.0, 1.0))); };
+    const unsigned colour =
+        (byte(polygon.colour[0]) << 16U) | (byte(polygon.colour[1]) << 8U) | byte(polygon.colour[2]);
+    for (const Vector2d& corner : polygon.corners)
+      data += fmt::format("{:.2f} {:.2f} {}\n", corner.x() + left, corner.y() + head, colour);
+    data += '\n';
+  }
+  return data;
 }
 
 std::string faces_script(const std::array<Panel, 2>& panels, const std::array<std::string, 4>& texts,
@@ -140,11 +142,8 @@ std::string faces_script(const std::array<Panel, 2>& panels, const std::array<st
     const double left = static_cast<double>(p) * panel_width;
     script += axes_script(panels[p], left) + labels_script(panels[p], left);
   }
-  return script +
-         fmt::format(
-             "plot '-' binary array=({},{}) dx=1 dy=1 origin=(0.5,0.5) format='%uchar' using 1:2:3 with rgbimage\n",
-             width, height) +
-         canvas(panels) + "\nunset output\n";
+  script += "$faces << END\n" + polygons_data(panels[0], 0.0) + polygons_data(panels[1], panel_width) + "END\n";
+  return script + "plot $faces using 1:2:3 with filledcurves closed fillstyle solid noborder fillcolor rgb variable\nunset output\n";
 }
 
 /// Nodes of the pieces: other nodes of the file are not looked at.

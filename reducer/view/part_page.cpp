@@ -38,6 +38,7 @@ struct Piece {
   std::vector<formats::SkinCarrier> carriers;
   int all_vertices = 0;
   MatrixXd shapes;  ///< 3 V x n per unit of each coordinate; empty without modes
+  std::vector<int> elements{};  ///< of each triangle; empty: not known
 };
 
 /// A vertex of the skin in a piece, once.
@@ -79,6 +80,7 @@ std::vector<Piece> groups_of(const ViewedPart& part) {
     const auto& [a, b, c] = skin.surface.triangles[t];
     const std::array<int, 3> triangle{pieces.vertex(of, a), pieces.vertex(of, b), pieces.vertex(of, c)};
     pieces.all()[of].surface.triangles.push_back(triangle);
+    pieces.all()[of].elements.push_back(skin.triangle_element[t]);
   }
   for (std::size_t l = 0; l < skin.surface.lines.size(); ++l) {
     const std::size_t of = piece[skin.line_element[l]];
@@ -131,6 +133,7 @@ void thin(int most, Piece& piece) {
     carriers.push_back(piece.carriers[v]);
   }
   piece.surface = std::move(kept);
+  piece.elements.clear();
   piece.carriers = std::move(carriers);
 }
 
@@ -198,7 +201,8 @@ void add_piece(const Piece& piece, const Eigen::VectorXd& largest, PageBlocks& b
             {"mass", nullptr}};
   if (!piece.colour.empty()) body["colour"] = piece.colour;
   if (count > 0) body["amplitudes"] = blocks.add_floats(PageRows::Zero(1, count), {1, count});
-  json["shapes"].push_back(formats::shape_json({piece.surface, "recovery", false, piece.all_vertices}, few, blocks));
+  json["shapes"].push_back(formats::shape_json(
+      {piece.surface, "recovery", false, piece.all_vertices, 0.0, piece.elements}, few, blocks));
   for (std::size_t k = 0; count > 0 && k < json["modes"].size(); ++k) {
     Json amplitudes = Json::array();
     for (Index j = 0; j < count; ++j) amplitudes.push_back(few.amplitudes(static_cast<Index>(k), j));

@@ -376,13 +376,14 @@ TEST_F(Outputs, PicturesSayWhatTheyCannotShow) {
   expect_error(fault({"--trace", "rod/ende"}), {"no node 'rod/ende'", "rod/end"});
   expect_error(fault({"--mode", "3"}), {"holds 0 modes", "analysis: modes"});
   expect_error(mechanism({"picture", "arm.results.h5", "-o", "arm.jpg"}), {"arm.jpg", ".png"});
-  const Outcome alone =
-      call({"/usr/bin/env", "PATH=/nowhere", program("mechanism"), "picture", "arm.results.h5"}, where);
+  const Outcome alone = call(
+      {"/usr/bin/env", "PATH=/nowhere", program("mechanism"), "picture", "arm.results.h5", "--no-sandbox"}, where);
   expect_error(alone, {"no Chromium", "apt-get install chromium"});
   write_text(file("chromium"), "#!/bin/sh\necho no display >&2\nexit 1\n");
   std::filesystem::permissions(file("chromium"), std::filesystem::perms::owner_all);
   expect_error(
-      call({"/usr/bin/env", "PATH=" + folder.path().string(), program("mechanism"), "picture", "arm.results.h5"},
+      call({"/usr/bin/env", "PATH=" + folder.path().string(), program("mechanism"), "picture", "arm.results.h5",
+            "--no-sandbox"},
            where),
       {"did not answer", "no display"});
   EXPECT_FALSE(std::filesystem::exists(file("arm.png")));
@@ -394,8 +395,9 @@ TEST_F(Outputs, PicturesAreTheSameEachTime) {
   if (!is_program("chromium")) GTEST_SKIP() << "not tested: there is no chromium here (apt-get install chromium)";
   make_results();
   for (const char* name : {"a.png", "b.png"}) {
-    const Outcome outcome =
-        mechanism({"picture", "arm.results.h5", "--time", "0.02", "--time", "0.1", "--size", "300", "200", "-o", name});
+    std::vector<std::string> words{"picture", "arm.results.h5", "--time", "0.02", "--time", "0.1", "--size", "300", "200", "-o", name};
+    if (::geteuid() == 0) words.push_back("--no-sandbox");
+    const Outcome outcome = mechanism(words);
     ASSERT_EQ(outcome.code, 0) << outcome.error;
   }
   const std::string bytes = read_text(file("a.png"));

@@ -20,8 +20,9 @@ import { Report } from "./ui/report";
 import { Toolbar } from "./ui/toolbar";
 import { Transport } from "./ui/transport";
 import { GHOST_COLOURS } from "./view/colours";
-import { instantsOf, largestValue } from "./view/range";
-import { COLOURINGS, INITIAL } from "./view/settings";
+import { instantsOf, largestValue, storedStress, visibleFactor } from "./view/range";
+import type { Largest } from "./view/range";
+import { COLOURINGS, INITIAL, STRESS_UNITS } from "./view/settings";
 import type { Colouring, Settings } from "./view/settings";
 import { Viewport } from "./view/viewport";
 import type { Picked } from "./view/viewport";
@@ -50,7 +51,9 @@ export class App {
   private readonly triad = new Triad();
   private readonly scale = h("span", { class: "grid-step" });
   private readonly recorder = new Recorder();
-  private readonly ranges = new Map<string, number>();
+  private readonly ranges = new Map<string, Largest>();
+  /** Whether a body deforms. */
+  readonly deforms: boolean;
   private readonly message = h("p", { class: "stage-message", role: "status", hidden: true });
   private moved = true;
   private before = 0;
@@ -60,6 +63,11 @@ export class App {
     this.runs = page.runs;
     if (this.runs.every((run) => run.entry.kind === "part")) this.settings.nodes = true;
     if (this.runs.some((run) => run.entry.kind === "part")) this.settings.nodes = this.settings.names = true;
+    this.deforms = this.runs.some((run) => run.shapes.some((shape) => shape.modes));
+    const moving = this.runs[0]!.entry.moving;
+    if (moving?.follow !== null && moving?.follow !== undefined) this.settings.follow = this.runs[0]!.bodies[moving.follow]?.name ?? "";
+    this.settings.exaggeration = visibleFactor(this.runs);
+    if (this.runs[0]!.unit("length") === "mm" && this.runs[0]!.entry.pascal) this.settings.stressUnit = "MPa";
     this.player = new Player(this.runs);
     this.curves = new Curves(this.runs, this.player);
     this.report = new Report(this.runs);
@@ -68,11 +76,12 @@ export class App {
     const canvas = h("canvas", { class: "picture", tabindex: 0, role: "img", "aria-label": "Picture of the mechanism. Press ? for the keys." });
     const model = modelList(this.runs, (picked) => this.choose(picked));
     const hasModes = this.runs.some((run) => run.entry.modes && run.entry.modes.length > 0);
+    const isPart = this.runs.every((run) => run.entry.kind === "part"), hasCurves = !isPart || this.runs.some((run) => run.entry.channels.length > 0);
     this.tabs = new Tabs([
-      { key: "curves", title: "Curves", content: this.curves.element, opened: () => this.curves.rebuild() },
+      ...(hasCurves ? [{ key: "curves", title: "Curves", content: this.curves.element, opened: () => this.curves.rebuild() }] : []),
       ...(hasModes ? [{ key: "modes", title: "Modes", content: this.modes.element }] : []),
-      { key: "report", title: "Report", content: this.report.element, opened: () => this.report.draw() },
-      { key: "model", title: "Model", content: model },
+      { key: "report", title: isPart ? "Mesh" : "Report", content: this.report.element, opened: () => this.report.draw() },
+      { key: "model", title: isPart ? "Groups" : "Model", content: model },
     ]);
     this.inspector = new Inspector({
       trace: (picked) => this.trace(picked),
@@ -93,13 +102,20 @@ export class App {
         this.viewport?.camera.fit();
         this.viewport?.touch();
       },
+      follow: (body) => {
+        this.viewport?.follow(body);
+        this.recolour();
+      },
       changed: () => this.recolour(),
       picture: () => void this.savePicture(),
       video: () => this.record(),
     }, {
       stress: this.runs.some((run) => run.shapes.some((shape) => shape.stress)),
-      modes: this.runs.some((run) => run.shapes.some((shape) => shape.modes)),
+      modes: this.deforms,
       arrows: this.runs.some((run) => run.arrows.length > 0),
+      elements: this.runs.some((run) => run.shapes.some((shape) => shape.elements.length > 0)),
+      pascal: this.runs.some((run) => run.entry.pascal),
+      bodies: isPart || this.runs.every((run) => run.times.length < 2) ? [] : this.runs[0]!.bodies.filter((body) => body.kind !== "road").slice(0, 200).map((body) => body.name),
     });
     this.stage = h("div", { class: "stage" }, this.toolbar.element,
       h("div", { class: "canvas-box" }, canvas, this.labels.element, this.legend.element, h("div", { class: "corner" }, this.triad.element, this.scale), this.inspector.element, this.message));
@@ -107,6 +123,7 @@ export class App {
     main.append(this.stage, splitter(0.6, (share) => main.style.setProperty("--share", `${100 * share}%`)), this.tabs.element);
     const commands = commandsOf(this);
     this.help = helpDialog(commands, page.header.program);
+    this.transport.element.hidden = !hasModes && this.player.end === this.player.begin;
     root.replaceChildren(this.head(), main, this.transport.element);
     document.title = page.header.title;
     this.viewport = this.openViewport(canvas);
@@ -200,22 +217,25 @@ export class App {
     this.recolour();
   }
 
+  /** The body that the page follows by default, or the chosen one, else the first; or none. */
+  toggleFollow(): void {
+    const run = this.runs[0]!, usual = run.bodies[run.entry.moving?.follow ?? 0]?.name ?? "", chosen = this.inspector.picked;
+    this.viewport?.follow(this.settings.follow !== "" ? "" : chosen && chosen.run === run ? run.bodies[chosen.body]!.name : usual);
+    this.toolbar.follow();
+    this.recolour();
+  }
+
   /** After a change of settings: range and legend of the coloured quantity, grid, picture. */
   recolour(): void {
     const { settings, viewport } = this;
     if (!viewport) return;
     if (settings.arrows) void this.readArrows();
     if (settings.colouring === "body") this.legend.hide();
-    else {
-      const run = this.runs.find((r) => r.visible)!;
-      const largest = Math.max(...this.runs.filter((r) => r.visible).map((r) => this.largest(r)));
-      const title = settings.colouring === "stress" ? `${run.shapes.find((s) => s.stress)?.stress?.quantity ?? ""} stress`.trim() : settings.colouring;
-      const note = { displacement: this.player.mode ? "from the mean position" : "from the first instant", deformation: "within the body, not exaggerated", stress: "", body: "" }[settings.colouring];
-      this.legend.show(title, run.unit(settings.colouring === "stress" ? "stress" : "length"), [0, largest], settings.map, note);
-    }
+    else this.showLegend();
     viewport.colour(this.legend.element.hidden ? [0, 1] : this.legend.range);
     viewport.regrid();
-    this.scale.textContent = settings.grid ? `grid ${number(viewport.gridStep)} ${this.runs[0]!.unit("length")}` : "";
+    this.scale.textContent = [settings.grid ? `grid ${number(viewport.gridStep)} ${this.runs[0]!.unit("length")}` : "",
+      this.deforms && settings.exaggeration !== 1 ? `deformation × ${number(settings.exaggeration)}` : ""].filter(Boolean).join(", ");
     this.moved = true;
   }
 
@@ -225,14 +245,33 @@ export class App {
     this.viewport.touch();
   }
 
-  private largest(run: Run): number {
+  /** The scale of the coloured quantity, with its largest value; a mode has no size, so that its scale is relative. */
+  private showLegend(): void {
+    const { settings } = this, isStress = settings.colouring === "stress", isMode = this.player.mode !== null;
+    const visible = this.runs.filter((r) => r.visible), run = visible[0]!;
+    const largest = visible.map((r) => ({ run: r, ...this.largest(r) })).reduce((a, b) => (b.value > a.value ? b : a));
+    const chosen = isStress && run.entry.pascal ? STRESS_UNITS[settings.stressUnit] : undefined;
+    const factor = isMode ? 1 / (largest.value || 1) : chosen ? run.entry.pascal! / chosen : 1;
+    const unit = isMode ? "" : chosen ? settings.stressUnit : run.unit(isStress ? "stress" : "length");
+    const title = isStress ? `${run.shapes.find((s) => s.stress)?.stress?.quantity ?? ""} stress`.trim() : settings.colouring;
+    const notes = [];
+    if (largest.time !== null)
+      notes.push(`largest ${number(factor * largest.value)}${unit ? ` ${unit}` : ""} at (${largest.place.map((x) => number(Math.abs(x) < 1e-9 * run.size ? 0 : x)).join(", ")})${isStress ? " of the part" : ""}, '${largest.body}', t = ${number(largest.time)} ${run.unit("time")}`.trim());
+    if (isMode) notes.push("relative to the largest: a mode has no size");
+    else notes.push({ displacement: "from the first instant", deformation: "within the body, not exaggerated", body: "",
+      stress: "Means at nodes of what is drawn. `reducer recover` has the worst element: it may be larger." }[settings.colouring]);
+    this.legend.show(title, unit, [0, largest.value || 1], factor, settings.map, notes);
+  }
+
+  private largest(run: Run): Largest {
     const mode = this.player.mode?.run === run.index ? this.player.mode : null;
     const key = `${run.index} ${COLOURINGS.indexOf(this.settings.colouring)} ${mode ? `${mode.index} ${this.modes.share}` : ""}`;
     let value = this.ranges.get(key);
     if (value === undefined) {
       const amplitude = mode ? this.modes.amplitude(run, mode.index) : 0;
       const states = mode ? Array.from({ length: 16 }, (_, i) => () => run.seekMode(mode.index, amplitude, (i * Math.PI) / 8)) : instantsOf(run);
-      value = largestValue(run, this.settings.colouring, states) || 1;
+      const stored = this.settings.colouring === "stress" && !mode ? storedStress(run) : null;
+      value = stored ?? largestValue(run, this.settings.colouring, states, mode === null);
       this.ranges.set(key, value);
     }
     this.place();
@@ -296,7 +335,7 @@ export class App {
 
   caption(): Caption {
     const { legend, settings } = this;
-    return { title: this.page.header.title, time: this.transport.text, legend: legend.element.hidden ? null : { title: legend.title, range: legend.range, map: settings.map } };
+    return { title: this.page.header.title, time: this.transport.text, legend: legend.element.hidden ? null : { title: legend.title, range: legend.shown, map: settings.map, notes: legend.notes } };
   }
   savePicture(): Promise<Blob | null> {
     if (!this.viewport) return Promise.resolve(null);

@@ -36,8 +36,8 @@ export function selfTestOf(app: App, openedAfter: number): SelfTest {
         playing: app.player.playing, loop: app.player.loop, speed: app.player.speed, mode: app.player.mode, phase: app.player.phase,
         tab: app.tabs.current, chosen: app.inspector.name, help: app.help.open, recording: app.recording, settings: { ...app.settings },
         panels: app.curves.panels.map((panel) => ({ paths: [...panel.paths], presentation: panel.presentation, columns: panel.table?.columns.map((c) => c.label) ?? [] })),
-        legend: app.legend.element.hidden ? null : { title: app.legend.title, range: app.legend.range },
-        camera: app.viewport ? { azimuth: app.viewport.camera.azimuth, elevation: app.viewport.camera.elevation, distance: app.viewport.camera.distance } : null,
+        legend: app.legend.element.hidden ? null : { title: app.legend.title, range: app.legend.shown, notes: app.legend.notes },
+        camera: app.viewport ? { azimuth: app.viewport.camera.azimuth, elevation: app.viewport.camera.elevation, distance: app.viewport.camera.distance, follows: app.settings.follow } : null,
       };
     },
     seek(time: number) {

@@ -9,10 +9,13 @@ export const CHROMIUM = ["chromium", "chromium-browser", "google-chrome"]
   .flatMap((name) => (process.env.PATH ?? "").split(":").map((folder) => join(folder, name))).find((path) => existsSync(path));
 
 const FLAGS = [
-  "--headless", "--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
+  "--headless", "--disable-gpu", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
   "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-default-apps", "--disable-extensions", "--mute-audio",
   "--hide-scrollbars", "--disable-dev-shm-usage", "--disable-features=Translate,MediaRouter,OptimizationHints", "--force-color-profile=srgb", "--remote-debugging-pipe",
 ];
+
+// Root has no sandbox of Chromium; the pages here are those of the tests.
+if (process.getuid?.() === 0) FLAGS.push("--no-sandbox");
 
 export class Browser {
   static async start({ width = 1280, height = 720, flags = [] } = {}) {

@@ -151,11 +151,36 @@ export function modesOfBeam(blocks, name) {
   return run;
 }
 
+/** The swing on a frame that goes along x at 200 m/s. */
+function travel(blocks, name) {
+  const run = swingingBeam(blocks, name), rows = 201, end = 5, times = instants(rows, end);
+  const along = (rest) => blocks.floats([rows, 3], [...times].flatMap((t) => [rest[0] + 200 * t, rest[1], rest[2]]));
+  for (const body of run.bodies) body.position = along(body.name === "anchor" ? [-1, 0, -0.5] : [0, 0, 0]);
+  run.nodes[0].place.position = blocks.floats([rows, 3], [...times].flatMap((t) => SWING.tip(t, 0.8).map((x, c) => x + (c === 0 ? 200 * t : 0))));
+  run.nodes[1].place.position = along([0, 0, 0]);
+  run.springs = [];
+  run.box = [[-2.1, -0.3, -2.1], [1002.1, 0.3, 0.2]];
+  run.moving = { box: run.box, size: 4.6, follow: 1 };
+  return run;
+}
+
+/** The beam at rest, bent by micrometres. */
+function tiny(blocks, name) {
+  const run = swingingBeam(blocks, name, { amplitude: 0 }), rows = 201, times = instants(rows, 5);
+  run.bodies[0].amplitudes = blocks.floats([rows, 2], [...times].flatMap((t) => [2e-6 * Math.sin(9 * t), 0]));
+  run.nodes[0].place.position = blocks.floats([rows, 3], [...times].flatMap((t) => [2e-6 * Math.sin(9 * t), 0, -2]));
+  run.shapes[0].largest = 2e-6;
+  run.references = [];
+  return run;
+}
+
 const MARKUP = "<img src=x onerror=\"document.title='broken in'\"></script><script>document.title='broken in'</script>&amp;\u2028'\"";
 
 export const SCENES = {
   beam: (blocks) => header("Swinging beam", [swingingBeam(blocks, "swing")]),
   two: (blocks) => header("Two swings", [swingingBeam(blocks, "wide"), swingingBeam(blocks, "narrow", { amplitude: 0.6, rows: 151 })]),
+  travel: (blocks) => header("A swing on the way", [travel(blocks, "travel")]),
+  tiny: (blocks) => header("A beam that bends a little", [tiny(blocks, "tiny")]),
   modes: (blocks) => header("Modes of a beam", [modesOfBeam(blocks, "about rest")]),
   crowd: (blocks) => header("A thousand bodies", [crowd(blocks, "crowd")]),
   fine: (blocks) => header("Twenty thousand vertices", [crowd(blocks, "fine", { bodies: 40, rows: 500, rings: 24, around: 20, modes: 8 })]),

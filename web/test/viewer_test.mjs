@@ -213,7 +213,7 @@ test("the viewer", async (suite) => {
     const rest = await page.evaluate("tisserand.nodePosition(0, 'beam/tip', 0)"), moved = await page.evaluate("tisserand.nodeDrawn(0, 'beam/root')");
     near(moved, [0, 0, 0], 1e-3, "the hinge stays");
     // The first mode is the first bending shape alone, 1 at the tip, shown with 8 % of the diagonal of the box.
-    const tip = await page.evaluate("tisserand.nodeDrawn(0, 'beam/tip')"), diagonal = Math.hypot(4.2, 0.6, 2.3);
+    const tip = await page.evaluate("tisserand.nodeDrawn(0, 'beam/tip')"), diagonal = Math.hypot(4.2, 0.6, 2.3);  // without `moving` its size is that of the box
     near([Math.hypot(...tip.map((x, i) => x - rest[i]))], [Math.abs(0.08 * diagonal * Math.cos((await state(page)).phase))], 1e-3, "motion of the tip");
     await page.evaluate("document.querySelectorAll('.modes tbody button')[1].click()");
     await page.until("tisserand.state.mode.index === 1 && tisserand.state.phase > 0.1");
@@ -273,6 +273,75 @@ test("the viewer", async (suite) => {
     await tab.close();
   });
 
+  await suite.test("keeps half of a narrow window for the picture, and cuts nothing off", async () => {
+    for (const [width, height] of [[390, 844], [820, 1180], [1600, 900]]) {
+      const page = await open("beam", { width, height });
+      await page.until("tisserand.curve(0, 0) !== null");
+      await page.key("c");
+      const box = await page.evaluate("(({ width, height }) => ({ width, height }))(document.querySelector('canvas.picture').getBoundingClientRect())");
+      assert.ok(box.height >= 0.5 * height, `the picture is ${box.height} of ${height} pixels high`);
+      assert.equal(await page.evaluate("document.documentElement.scrollWidth"), width);
+      await page.evaluate("(document.querySelector('.menu').open = true)");
+      const cut = await page.evaluate(`[...document.querySelectorAll('button, select, input, output, .unit, canvas, .legend, .tabs, .menu-body')]
+        .map((e) => [e, e.getBoundingClientRect()]).filter(([, r]) => r.width > 0 && (r.left < -0.5 || r.right > ${width} + 0.5)).map(([e, r]) => \`\${e.outerHTML.slice(0, 100)} from \${r.left} to \${r.right}\`)`);
+      assert.deepEqual(cut, [], `cut off at ${width} pixels`);
+      const bar = await page.evaluate("(({ bottom }) => bottom)(document.querySelector('.transport').getBoundingClientRect())");
+      assert.ok(bar <= height + 0.5, `the bar of time ends at ${bar} of ${height}`);
+      await quiet(page);
+    }
+  });
+
+  await suite.test("follows a body that leaves its place", async () => {
+    // The whole swing goes 1 km along x in 5 s.
+    const page = await open("travel"), start = (await state(page)).camera;
+    assert.equal(start.follows, "frame");
+    const before = await page.evaluate("tisserand.nodePixel(0, 'frame/left')");
+    await page.evaluate("tisserand.seek(4)");
+    const after = await page.evaluate("tisserand.nodePixel(0, 'frame/left')");
+    near([after.x, after.y], [before.x, before.y], 1, "it stays where it is in the picture: 16 bits of a kilometre");
+    assert.ok(start.distance < 40, `the first view is of the bodies: ${start.distance} m away`);
+    await page.key("o");
+    assert.equal((await state(page)).camera.follows, "");
+    await page.evaluate("tisserand.seek(0)");
+    assert.equal((await page.evaluate("tisserand.nodePixel(0, 'frame/left')")).inside, false, "now the camera stands");
+    await quiet(page);
+  });
+
+  await suite.test("leaves what has no stress grey, and says where the largest is", async () => {
+    const page = await open("beam");
+    for (let i = 0; i < 3; ++i) await page.key("c");
+    const { legend } = await state(page);
+    assert.match(legend.notes.join(" "), /^largest [0-9.e]+ Pa at \(.*\) of the part, 'beam', t = [0-9.]+ s .*recover/);
+    await page.evaluate("tisserand.seek(0.4)");
+    await page.until("tisserand.quality === 2");
+    const box = await corner(page), [left, root] = await page.evaluate("['frame/left', 'beam/root'].map((node) => tisserand.nodePixel(0, node))");
+    const picture = decodePng(await page.screenshot()), colour = picture.at(box.left + 0.6 * left.x + 0.4 * root.x, box.top + 0.6 * left.y + 0.4 * root.y);
+    assert.ok(Math.max(...colour) - Math.min(...colour) < 25, `the frame is grey: ${colour}`);
+    await page.evaluate("(() => { const s = document.querySelector('select[aria-label=\"Unit of stress\"]'); s.value = 'MPa'; s.dispatchEvent(new Event('change')); })()");
+    const now = (await state(page)).legend;
+    assert.equal(now.title, "von Mises stress [MPa]");
+    near([now.range[1]], [1e-6 * legend.range[1]], 1e-9 * legend.range[1], "MPa");
+    await quiet(page);
+  });
+
+  await suite.test("makes deformation visible where nothing else moves", async () => {
+    // The beam hangs still and bends by up to 2e-6 m.
+    const page = await open("tiny");
+    const { settings, panels } = await state(page);
+    assert.ok(settings.exaggeration >= 1e3, String(settings.exaggeration));
+    assert.match(settings.exaggeration.toExponential(), /^[125]e/);
+    assert.match(await page.evaluate("document.querySelector('.grid-step').textContent"), /deformation × /);
+    assert.deepEqual(panels[0].paths, ["nodes/position/beam/tip/x"], "only what moves");
+    await quiet(page);
+  });
+
+  await suite.test("has the poles of modes that do not vibrate", async () => {
+    const page = await open("modes", { change: (header) => Object.assign(header.runs[0].modes[1], { frequency: 0.162472, damping: 1 }) });
+    assert.match(await page.evaluate("document.querySelector('.modes').textContent"), /pole \[1\/s\]/);
+    assert.match(await page.evaluate("document.querySelector('.modes').textContent"), /-1\.021/);
+    await quiet(page);
+  });
+
   await suite.test("works without WebGL but for the picture", async () => {
     const page = await open("beam", { before: "const own = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = function (kind, ...rest) { return /webgl/.test(kind) ? null : own.call(this, kind, ...rest); };" });
     assert.match(await page.evaluate("document.querySelector('.stage-message').innerText"), /no 3-D picture/);
@@ -299,6 +368,10 @@ test("the viewer", async (suite) => {
         const [low, high] = [luminance(colours[a]), luminance(colours[b])].sort((x, y) => x - y);
         assert.ok((high + 0.05) / (low + 0.05) >= 4.5, `${theme}, ${a} on ${b}: ${((high + 0.05) / (low + 0.05)).toFixed(2)} (WCAG AA asks 4.5)`);
       }
+      await page.until("document.querySelector('.curve-legend .mark') !== null");
+      const line = await page.evaluate("getComputedStyle(document.querySelector('.curve-legend .mark')).color.match(/\\d+/g).slice(0, 3).map((c) => Number(c).toString(16).padStart(2, '0')).join('')");
+      const [dim, bright] = [luminance(`#${line}`), luminance(colours.paper)].sort((x, y) => x - y);
+      assert.ok((bright + 0.05) / (dim + 0.05) >= 4.5, `${theme}, first curve #${line}`);
       assert.equal(colours.paper, { light: "#ffffff", dark: "#15181c" }[theme], "the page follows the system");
     }
     await quiet(page);

@@ -72,7 +72,7 @@ export const header = (title, runs) => ({ format: "tisserand-page", version: 1, 
 export const emptyRun = (name) => ({
   name, file: `${name}.results.h5`, kind: "dynamics", completed: true, reason: "",
   units: { length: "m", time: "s", angle: "rad", force: "N", moment: "N m", stress: "Pa", energy: "J", mass: "kg" },
-  up: [0, 0, 1], gravity: [0, 0, -9.81], thinned: null, box: [[-1, -1, -1], [1, 1, 1]],
+  pascal: 1, up: [0, 0, 1], gravity: [0, 0, -9.81], thinned: null, box: [[-1, -1, -1], [1, 1, 1]],
   bodies: [], shapes: [], nodes: [], joints: [], springs: [], arrows: [], channels: [], channels_left_out: null, references: [], modes: null,
   report: { notes: [], doubts: [], lines: [], phases: [], energy: {}, effects: [] }, scene: null,
 });

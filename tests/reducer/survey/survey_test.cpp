@@ -220,27 +220,53 @@ TEST(FacesPicture, SaysWhatCannotBeDrawn) {
               AllOf(HasSubstr("frame.part.yaml"), HasSubstr("no faces")));
 }
 
-// A square of 20 pixels in the middle of a picture of 60: the number fits; in one of 4 pixels it is led outside.
+/// A square of one cell about (45, 45), at a height over the picture.
+reducer::ColouredSurface square(double side, double z, std::vector<Vector3d>& position) {
+  reducer::Cell cell;
+  cell.shape = reducer::CellShape::quadrilateral4;
+  for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}) {
+    cell.nodes[position.size() % 4] = static_cast<int>(position.size());
+    position.emplace_back(45.0 + side * x, 45.0 + side * y, z);
+  }
+  return {{cell}, {0.5, 0.5, 0.5}};
+}
+
+// A square of 30 pixels in the middle of a picture of 90: the number fits; in one of 4 pixels it is led outside. What lies
+// behind another one is not seen, and is painted first.
 TEST(Labels, AreOnTheirFaceOrBesideIt) {
   for (const int side : {30, 4}) {
-    reducer::Raster raster;
-    raster.width = raster.height = 90;
-    raster.surface.assign(90 * 90, -1);
-    for (int y = 45 - side / 2; y < 45 + side / 2; ++y)
-      for (int x = 45 - side / 2; x < 45 + side / 2; ++x) raster.surface[static_cast<std::size_t>(90 * y + x)] = 0;
-    const reducer::SeenPlace seen = reducer::seen_places(raster, 2)[0];
-    EXPECT_NEAR(seen.radius, 0.5 * side, 1.0);
-    EXPECT_LT((seen.place - Eigen::Vector2d(45, 45)).norm(), 1.5);
+    std::vector<Vector3d> position;
+    const reducer::ColouredSurface front = square(side, 10.0, position), behind = square(side, -10.0, position);
+    const reducer::Projection projection({front, behind}, position, {}, 90, 90);
+    const reducer::SeenPlace seen = projection.seen_places()[0];
+    EXPECT_NEAR(seen.radius, 0.5 * side, 1e-9);
+    EXPECT_LT((seen.place - Eigen::Vector2d(45, 45)).norm(), 1e-9);
+    EXPECT_EQ(projection.seen_places()[1].radius, 0.0) << "it is hidden";
+    EXPECT_TRUE(projection.covers({45, 45}));
+    EXPECT_FALSE(projection.covers({5, 5}));
     EXPECT_EQ(reducer::fits_inside(seen, "7"), side == 30);
-    reducer::LabelPlacer placer(raster);
+    reducer::LabelPlacer placer(projection);
     ASSERT_TRUE(placer.write_beside("7", seen));
     ASSERT_TRUE(placer.write_beside("8", seen));
     EXPECT_GT((placer.labels()[0].at - placer.labels()[1].at).norm(), 8.0) << "they lie over one another";
   }
-  reducer::Raster raster;
-  raster.width = raster.height = 4;
-  raster.surface.assign(16, -1);
-  EXPECT_EQ(reducer::seen_places(raster, 1)[0].radius, 0.0);
+}
+
+// A square of 30 pixels before one of 60: of that the corners are seen.
+TEST(Projection, PaintsFromBackToFront) {
+  std::vector<Vector3d> position;
+  reducer::ColouredSurface front = square(30, 10.0, position), behind = square(60, -10.0, position);
+  front.colour = {0.4, 0, 0};
+  behind.colour = {0, 0.4, 0};
+  const auto polygons = reducer::Projection({front, behind}, position, {}, 90, 90).polygons();
+  std::size_t last_green = 0, first_red = polygons.size();
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    if (polygons[i].colour[0] > polygons[i].colour[1]) first_red = std::min(first_red, i);
+    if (polygons[i].colour[1] > polygons[i].colour[0]) last_green = i;
+  }
+  EXPECT_GT(last_green, 0u);
+  EXPECT_LT(last_green, first_red);
+  EXPECT_LT(first_red, polygons.size());
 }
 
 }  // namespace

@@ -94,16 +94,24 @@ export class Curves implements PanelHost {
   }
 }
 
-/** What is shown at first: channels with a reference, else the node that travels farthest. */
+/** Share of the largest range of the same node below which a component is not shown at first. */
+const STILL = 0.05;
+
+/** What is shown at first: channels with a reference, else those of the user, else how the node that travels farthest moves. */
 function initialChannels(runs: Run[]): string[] {
   const channels = runs[0]!.entry.channels, known = new Set(channels.map((channel) => channel.path));
   const referred = runs.flatMap((run) => run.entry.references.map((reference) => reference.channel)).filter((path) => known.has(path));
   if (referred.length > 0) return [...new Set(referred)].slice(0, 3);
+  const own = channels.filter((channel) => channel.group === "channels");
+  if (own.length > 0) return own.filter((channel) => channel.unit === own[0]!.unit).slice(0, 3).map((channel) => channel.path);
   const far = `nodes/position/${farthestNode(runs[0]!)}/`;
   const first = channels.find((channel) => channel.path.startsWith(far)) ?? channels.find((channel) => channel.path.startsWith("nodes/position")) ?? channels[0];
   if (!first) return [];
   const stem = first.path.slice(0, first.path.lastIndexOf("/") + 1);
-  return channels.filter((channel) => channel.path.startsWith(stem) && channel.unit === first.unit).slice(0, 3).map((channel) => channel.path);
+  const same = channels.filter((channel) => channel.path.startsWith(stem) && channel.unit === first.unit).slice(0, 3).map((channel) => channel.path);
+  if (!first.path.startsWith(far)) return same;
+  const ranges = rangesOf(runs[0]!, farthestNode(runs[0]!)), largest = Math.max(...ranges);
+  return same.filter((path) => !(ranges["xyz".indexOf(path.slice(stem.length))]! < STILL * largest));
 }
 
 /** Name of the node whose track has the largest extent, over a sample of instants. */
@@ -111,9 +119,16 @@ function farthestNode(run: Run): string {
   const instants = Array.from({ length: 24 }, (_, i) => run.times[Math.floor((i * (run.times.length - 1)) / 23)]!);
   let name = "", largest = -1;
   for (const node of run.nodes.slice(0, 3000)) {
-    const track = instants.map((t) => run.placeAt(node.place, t).position);
-    const extent = Math.hypot(...[0, 1, 2].map((c) => Math.max(...track.map((p) => p[c]!)) - Math.min(...track.map((p) => p[c]!))));
+    const extent = Math.hypot(...rangesOf(run, node.name, instants));
     if (extent > largest) largest = extent, name = node.name;
   }
   return name;
+}
+
+/** Ranges of x, y, z of a node over instants. */
+function rangesOf(run: Run, name: string, instants = Array.from(run.times)): number[] {
+  const node = run.nodes.find((one) => one.name === name);
+  if (!node) return [0, 0, 0];
+  const track = instants.map((t) => run.placeAt(node.place, t).position);
+  return [0, 1, 2].map((c) => track.reduce((most, p) => Math.max(most, p[c]!), -Infinity) - track.reduce((least, p) => Math.min(least, p[c]!), Infinity));
 }

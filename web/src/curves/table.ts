@@ -1,6 +1,6 @@
 // What a panel of curves shows, as columns over one abscissa: values, differences of runs, or spectra.
 import uPlot from "uplot";
-import { LINE_COLOURS } from "../view/colours";
+import { LINE_COLOURS, lineColour } from "../view/colours";
 import type { Run } from "../data/run";
 import { spectrumOf, valueAt } from "./fourier";
 
@@ -51,13 +51,13 @@ async function references(runs: Run[], paths: string[], unit: string): Promise<C
     for (const reference of run.entry.references)
       if (paths.includes(reference.channel))
         columns.push({
-          label: reference.name, unit, colour: LINE_COLOURS[6]!, rank: -1,
+          label: reference.name, unit, colour: lineColour(6), rank: -1,
           x: await run.array(reference.x, `reference '${reference.name}'`), y: await run.array(reference.y, `reference '${reference.name}'`),
         });
   return columns;
 }
 
-const colourOf = (paths: string[], path: string): string => LINE_COLOURS[paths.indexOf(path) % (LINE_COLOURS.length - 1)]!;
+const colourOf = (paths: string[], path: string): string => lineColour(paths.indexOf(path) % (LINE_COLOURS.length - 1));
 const named = (curve: Curve, many: boolean): string => (many ? `${curve.path} [${curve.run.name}]` : curve.path);
 
 function differences(curves: Curve[], paths: string[]): Column[] {

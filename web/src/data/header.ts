@@ -20,6 +20,8 @@ export interface PlaceEntry {
   rotation?: [number, number, number, number] | ArrayEntry;
   position?: ArrayEntry;
   rest?: Vector3 | null;
+  /** From the node at `rest` to the place, in axes of the place: a rigid arm, which keeps its length. */
+  arm?: Vector3;
 }
 
 export interface BodyEntry {
@@ -37,12 +39,16 @@ export interface BodyEntry {
 export interface StressEntry {
   quantity: string;
   modes: ArrayEntry;
+  /** The largest at any vertex and instant: its value, place in axes of the part, and instant. */
+  largest?: { value: number; place: Vector3; time: number } | null;
 }
 
 export interface ShapeEntry {
   vertices: ArrayEntry;
   triangles: ArrayEntry | null;
   lines: ArrayEntry | null;
+  /** Element of each triangle. */
+  elements?: ArrayEntry | null;
   points?: boolean;
   modes: ArrayEntry | null;
   stress?: StressEntry | null;
@@ -127,6 +133,10 @@ export interface RunEntry {
   times: ArrayEntry;
   thinned?: { rows: number; kept: number } | null;
   box: [Vector3, Vector3];
+  /** What moves: box over all instants, largest diagonal at one of them, and the body that a camera follows. */
+  moving?: { box: [Vector3, Vector3]; size: number; follow: number | null };
+  /** Pascal in a unit of stress; absent: unnamed units. */
+  pascal?: number;
   bodies: BodyEntry[];
   shapes: ShapeEntry[];
   nodes: NodeEntry[];

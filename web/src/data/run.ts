@@ -2,7 +2,7 @@
 import type { Values } from "./arrays";
 import type { Blocks } from "./blocks";
 import { require } from "./failure";
-import type { ArrayEntry, BodyEntry, NodeEntry, PlaceEntry, RunEntry, ShapeEntry, Vector3 } from "./header";
+import type { ArrayEntry, BodyEntry, NodeEntry, PlaceEntry, RunEntry, ShapeEntry, StressEntry, Vector3 } from "./header";
 import { add, conjugate, exponential, normalise, product, rotate, slerp, subtract } from "./rotation";
 import type { Quaternion, Vec } from "./rotation";
 
@@ -14,12 +14,14 @@ export interface Body extends Omit<BodyEntry, "position" | "rotation" | "amplitu
   first: number;
 }
 
-export interface Shape extends Omit<ShapeEntry, "vertices" | "triangles" | "lines" | "modes" | "stress"> {
+export interface Shape extends Omit<ShapeEntry, "vertices" | "triangles" | "lines" | "elements" | "modes" | "stress"> {
   vertices: Float64Array;
   triangles: ArrayLike<number>;
   lines: ArrayLike<number>;
+  /** Element of each triangle; empty: not known. */
+  elements: ArrayLike<number>;
   modes: Values | null;
-  stress: { quantity: string; modes: Values } | null;
+  stress: (Omit<StressEntry, "modes"> & { modes: Values }) | null;
 }
 
 export interface Place {
@@ -73,9 +75,14 @@ export class Run {
   unit(quantity: string): string {
     return this.entry.units[quantity] ?? "";
   }
+  /** Box of what moves, over all instants. */
+  get box(): [Vector3, Vector3] {
+    return this.entry.moving?.box ?? this.entry.box;
+  }
+  /** Size of what moves at one instant: by it joints and arrows are drawn. */
   get size(): number {
-    const [low, high] = this.entry.box;
-    return Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) || 1;
+    const [low, high] = this.box;
+    return this.entry.moving?.size || Math.hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) || 1;
   }
 
   /** Reads what a picture needs; channels stay packed until they are shown. */
@@ -121,14 +128,18 @@ export class Run {
     const modes = entry.modes ? await this.blocks.read(entry.modes, `${where}, modes`) : null;
     require(!modes || modes.columns === vertices.length, `${where}: its modes are not of its ${count} vertices.`);
     const stress = entry.stress
-      ? { quantity: entry.stress.quantity, modes: await this.blocks.read(entry.stress.modes, `${where}, stress`) }
+      ? { ...entry.stress, modes: await this.blocks.read(entry.stress.modes, `${where}, stress`) }
       : null;
     require(!stress || stress.modes.columns === 2 * vertices.length, `${where}: its stresses are not of its ${count} vertices.`);
+    const triangles = await indices(entry.triangles, "triangles");
+    const elements = entry.elements ? (await this.blocks.read(entry.elements, `${where}, elements`)).stored : new Uint32Array();
+    require(elements.length === 0 || 3 * elements.length === triangles.length, `${where}: its elements are not of its triangles.`);
     return {
       ...entry,
       vertices,
-      triangles: await indices(entry.triangles, "triangles"),
+      triangles,
       lines: await indices(entry.lines, "lines"),
+      elements,
       modes,
       stress,
     };
@@ -290,9 +301,11 @@ export class Run {
     const rest: Vector3 | null | undefined = place.entry.rest;
     if (place.body === null || (!this.mode && (this.exaggeration === 1 || !rest))) return true_;
     const before = this.placeAt({ entry: { body: place.body }, position: null, rotation: null, body: place.body }, t);
-    let local = rotate(conjugate(before.rotation), subtract(true_.position, before.position));
+    const back = conjugate(before.rotation), arm = rotate(product(back, true_.rotation), place.entry.arm ?? [0, 0, 0]);
+    let local = subtract(rotate(back, subtract(true_.position, before.position)), arm);
     if (rest) local = local.map((value, i) => rest[i]! + this.exaggeration * (value - rest[i]!)) as Vec;
     if (this.mode && rest) local = add(local, this.modeDeformation(place, rest));
+    local = add(local, arm);
     const now = this.pose(place.body);
     return {
       position: add(now.position, rotate(now.rotation, local)),

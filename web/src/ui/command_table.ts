@@ -49,10 +49,11 @@ export function commandsOf(app: App): Command[] {
     { keys: ["+", "="], name: "Nearer", group: "View", run: camera(() => app.viewport?.camera.zoom(0.85)) },
     { keys: ["-"], name: "Farther", group: "View", run: camera(() => app.viewport?.camera.zoom(1 / 0.85)) },
     toggle("p", "parallel", "Parallel picture"),
+    { keys: ["o"], name: "Camera follows or stands", group: "View", run: () => app.toggleFollow() },
     { keys: ["c"], name: "Next colouring", group: "Show", run: () => app.cycleColouring() },
     { keys: ["y"], name: "More deformation", group: "Show", run: deform(1.25) },
     { keys: ["x"], name: "Less deformation", group: "Show", run: deform(0.8) },
-    toggle("e", "edges", "Edges"), toggle("g", "grid", "Grid"), toggle("a", "worldAxes", "World axes"), toggle("b", "bodyAxes", "Body axes"),
+    toggle("e", "edges", "Edges"), toggle("d", "elements", "Edges of elements"), toggle("g", "grid", "Grid"), toggle("a", "worldAxes", "World axes"), toggle("b", "bodyAxes", "Body axes"),
     toggle("n", "nodes", "Nodes"), toggle("m", "names", "Names of nodes"), toggle("j", "joints", "Joints"), toggle("s", "springs", "Springs"), toggle("v", "arrows", "Forces and moments"),
     { keys: ["/"], name: "Search channels", group: "Page", run: () => {
       app.tabs.open("curves");

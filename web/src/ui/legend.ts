@@ -9,15 +9,22 @@ export class Legend {
   readonly element = h("figure", { class: "legend", hidden: true });
   title = "";
   range: [number, number] = [0, 1];
+  /** The range as the scale writes it. */
+  shown: [number, number] = [0, 1];
 
-  show(title: string, unit: string, range: [number, number], map: MapName, note: string): void {
+  /** Lines of text below the scale. */
+  notes: string[] = [];
+  /** `range` of the colours, and the factor that takes it to the unit. */
+  show(title: string, unit: string, range: [number, number], factor: number, map: MapName, notes: string[]): void {
     this.title = unit ? `${title} [${unit}]` : title;
     this.range = range;
+    this.shown = [factor * range[0], factor * range[1]];
+    this.notes = notes;
     const bar = h("div", { class: "legend-bar" });
     bar.style.background = mapGradient(map);
-    const ticks = [1, 0.75, 0.5, 0.25, 0].map((s) => h("span", {}, number(range[0] + s * (range[1] - range[0]), 3)));
+    const ticks = [1, 0.75, 0.5, 0.25, 0].map((s) => h("span", {}, number(this.shown[0] + s * (this.shown[1] - this.shown[0]), 3)));
     this.element.replaceChildren(h("figcaption", {}, this.title), h("div", { class: "legend-scale" }, bar, h("div", { class: "legend-ticks" }, ...ticks)),
-      h("div", { class: "remark" }, note));
+      ...notes.map((note) => h("div", { class: "remark" }, note)));
     this.element.hidden = false;
   }
   hide(): void {

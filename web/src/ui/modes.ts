@@ -8,6 +8,11 @@ import type { Run } from "../data/run";
 /** Damping ratios below are rounding of the eigenvalues. */
 const ROUNDING = 1e-8;
 
+/** Real eigenvalue of a mode that does not vibrate: -damping times 2 pi frequency; null: it vibrates. */
+export function poleOf({ frequency, damping }: ModeEntry): number | null {
+  return frequency !== null && damping !== null && frequency > 0 && Math.abs(damping) >= 1 - ROUNDING ? -damping * 2 * Math.PI * frequency : null;
+}
+
 export class Modes {
   readonly element = h("div", { class: "pad modes" });
   /** Largest displacement shown, as a share of the size of the picture. */
@@ -35,6 +40,7 @@ export class Modes {
     const columns: { title: string; text: (mode: ModeEntry, index: number) => string }[] = [{ title: "mode", text: (mode, index) => mode.name ?? String(index + 1) }];
     if (modes.some((mode) => mode.frequency !== null)) columns.push({ title: "frequency [Hz]", text: (mode) => number(mode.frequency, 5) });
     if (modes.some((mode) => mode.damping !== null)) columns.push({ title: "damping [%]", text: damping });
+    if (modes.some((mode) => poleOf(mode) !== null)) columns.push({ title: `pole [1/${run.unit("time") || "time"}]`, text: (mode) => (poleOf(mode) === null ? "" : number(poleOf(mode), 4)) });
     const rows = modes.map((mode, index) => {
       const choose = button("Show", `Move in mode ${index + 1}`, () => this.player.choose({ run: run.index, index }), { class: "link" });
       const row = h("tr", {}, ...columns.map(({ text }) => h("td", { class: "figure" }, text(mode, index))), h("td", {}, choose));

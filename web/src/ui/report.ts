@@ -3,7 +3,7 @@ import uPlot from "uplot";
 import { h, select, styled } from "./dom";
 import { number } from "./numbers";
 import type { Run } from "../data/run";
-import { LINE_COLOURS } from "../view/colours";
+import { LINE_COLOURS, lineColour } from "../view/colours";
 
 export class Report {
   readonly element = h("div", { class: "pad report" });
@@ -27,7 +27,7 @@ export class Report {
       entry.completed === false ? list("warning", "Interrupted", [entry.reason || "The run did not reach its end."]) : null,
       list("warning", "Doubts", report.doubts ?? []), list("note", "Notes", report.notes ?? []),
       entry.thinned ? h("p", { class: "note" }, `Shown are ${entry.thinned.kept} of ${entry.thinned.rows} stored instants.`) : null,
-      table("What was simulated", report.lines ?? []), table("Effects", report.effects ?? []),
+      table(entry.kind === "part" ? "What the mesh holds" : "What was simulated", report.lines ?? []), table("Effects", report.effects ?? []),
       this.plot(run, "Energy", Object.entries(report.energy ?? {}), run.unit("energy"), false),
       report.steps === null || report.steps === undefined ? null : this.plot(run, "Step size", [["step", report.steps]], run.unit("time"), true),
       phases(report.phases ?? []),
@@ -40,7 +40,7 @@ export class Report {
     const canvas = h("div", { class: "curve-canvas" }), section = h("section", {}, h("h3", {}, title), canvas,
       h("ul", { class: "curve-legend" }, ...channels.map(([name], i) => {
         const mark = h("span", { class: "mark rank0" });
-        mark.style.color = LINE_COLOURS[i % LINE_COLOURS.length]!;
+        mark.style.color = lineColour(i % LINE_COLOURS.length);
         return h("li", {}, mark, h("span", { class: "name" }, name));
       })));
     void Promise.all(channels.map(([, index]) => run.channel(index))).then((values) => {
@@ -51,7 +51,7 @@ export class Report {
         scales: { x: { time: false }, y: logarithmic ? { distr: 3 } : {} },
         axes: [{ ...axis, label: `time [${run.unit("time")}]`, labelSize: 16, labelFont: axis.font, size: 28 },
           { ...axis, label: unit ? `[${unit}]` : "", labelSize: 16, labelFont: axis.font, size: 58, values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t, 4))) }],
-        series: [{}, ...channels.map((_, i): uPlot.Series => ({ stroke: LINE_COLOURS[i % LINE_COLOURS.length]!, width: 1.5, points: { show: false } }))],
+        series: [{}, ...channels.map((_, i): uPlot.Series => ({ stroke: lineColour(i % LINE_COLOURS.length), width: 1.5, points: { show: false } }))],
       }, [Array.from(run.times), ...finite] as uPlot.AlignedData, canvas));
     }).catch((error: unknown) => canvas.append(h("p", { class: "warning" }, String((error as Error).message))));
     return section;

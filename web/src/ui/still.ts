@@ -21,6 +21,8 @@ export interface Still {
   zoom: number;
   /** Names of nodes whose paths are drawn. */
   traces?: string[];
+  /** Body that the camera follows through the states, "": none; absent: the page chooses. */
+  follow?: string;
   /** Title and times are written on the picture. */
   captions: boolean;
   settings: Partial<Settings>;
@@ -34,7 +36,7 @@ function throughStates(app: App, request: Still, shown: (caption: string) => voi
     for (const time of request.times) {
       player.seek(time);
       app.render(true);
-      shown(`t = ${number(time, 4)} ${app.runs[0]!.unit("time")}`.trim());
+      shown(`t = ${number(time, 4)} ${app.runs[0]!.unit("time")}`.trim() + (app.settings.exaggeration === 1 || !app.deforms ? "" : `, deformation × ${number(app.settings.exaggeration)}`));
     }
   else
     for (const phase of request.phases ?? [0]) {
@@ -45,7 +47,7 @@ function throughStates(app: App, request: Still, shown: (caption: string) => voi
     }
 }
 
-/** The PNG in base64. Throws where the browser cannot draw, or where the run has no such mode or node. */
+/** The PNG in base64; of a state in which nothing is to be seen "". Throws where the browser cannot draw, or where the run has no such mode or node. */
 export async function still(app: App, request: Still): Promise<string> {
   const { viewport, player } = app;
   if (!viewport) throw new Error("this browser draws no 3-D picture");
@@ -60,22 +62,24 @@ export async function still(app: App, request: Still): Promise<string> {
       if (node >= 0) view.traced.add(node);
       view.retrace();
     }
+  if (request.follow !== undefined) viewport.follow(request.follow);
   await app.readArrows();
   app.recolour();
   viewport.quality = 2;
   const low: Vec = [Infinity, Infinity, Infinity], high: Vec = [-Infinity, -Infinity, -Infinity];
   throughStates(app, request, () => viewport.extend(low, high));
   viewport.camera.standard(request.view);
-  if (low.every(Number.isFinite)) viewport.camera.fit(low.map((x, i) => (x + high[i]!) / 2) as Vec, low.map((x, i) => (high[i]! - x) / 2) as Vec);
+  if (low.every(Number.isFinite)) viewport.camera.fit({ centre: low.map((x, i) => (x + high[i]!) / 2) as Vec, half: low.map((x, i) => (high[i]! - x) / 2) as Vec });
   viewport.camera.zoom(1 / request.zoom);
   const canvas = document.createElement("canvas"), { title, legend } = app.caption();
   canvas.width = request.width;
   canvas.height = request.height;
   const context = canvas.getContext("2d")!, width = request.width / states;
-  let drawn = 0;
+  let drawn = 0, empty = false;
   throughStates(app, request, (time) => {
+    empty ||= viewport.isEmpty;
     const text = request.captions ? { title: states === 1 ? title : "", time } : { title: "", time: "" };
     compose(context, viewport.canvas, { ...text, legend: drawn === 0 ? legend : null }, width * drawn++, width);
   });
-  return canvas.toDataURL("image/png").split(",")[1]!;
+  return empty ? "" : canvas.toDataURL("image/png").split(",")[1]!;
 }

@@ -1,19 +1,21 @@
 // The bar above the picture: view, colour, deformation, what is shown, capture.
 import { button, checkbox, h, select } from "./dom";
 import type { Standard } from "../view/camera";
+import { STRESS_UNITS } from "../view/settings";
 import type { Colouring, Settings, Switch } from "../view/settings";
 import type { MapName } from "../view/colours";
 
 export interface ToolbarActions {
   view(view: Standard): void;
   fit(): void;
+  follow(body: string): void;
   changed(): void;
   picture(): void;
   video(): void;
 }
 
 const SWITCHES: [Switch, string, string][] = [
-  ["edges", "Edges of surfaces", "E"], ["grid", "Ground grid", "G"], ["worldAxes", "World axes", "A"], ["bodyAxes", "Body axes", "B"],
+  ["edges", "Edges of surfaces", "E"], ["elements", "Edges of elements", "D"], ["grid", "Ground grid", "G"], ["worldAxes", "World axes", "A"], ["bodyAxes", "Body axes", "B"],
   ["nodes", "Nodes", "N"], ["names", "Names of nodes", "M"], ["joints", "Joints", "J"], ["springs", "Springs", "S"], ["arrows", "Forces and moments", "V"],
 ];
 
@@ -23,7 +25,7 @@ export class Toolbar {
   private readonly controls: Partial<Record<keyof Settings, HTMLInputElement | HTMLSelectElement>> = {};
   private readonly projection: HTMLButtonElement;
 
-  constructor(private readonly settings: Settings, private readonly actions: ToolbarActions, has: { stress: boolean; modes: boolean; arrows: boolean }) {
+  constructor(private readonly settings: Settings, private readonly actions: ToolbarActions, has: { stress: boolean; modes: boolean; arrows: boolean; elements: boolean; pascal: boolean; bodies: string[] }) {
     const views = (["iso", "front", "back", "left", "right", "top", "bottom"] as Standard[])
       .map((view): [string, string] => [view, view === "iso" ? "Oblique" : view[0]!.toUpperCase() + view.slice(1)]);
     const view = select("Standard view", [["", "View"], ...views], "", (value) => {
@@ -36,14 +38,18 @@ export class Toolbar {
     this.projection = button("Parallel", "Parallel or perspective picture (P)", () => this.set("parallel", !settings.parallel), { "aria-pressed": "false" });
     this.video = button("Video", "Record a video of the picture (R); again to stop", actions.video, { "aria-pressed": "false" });
     const show = h("details", { class: "menu" }, h("summary", { title: "What is shown" }, "Show"), h("div", { class: "menu-body" },
-      ...SWITCHES.map(([key, text, letter]) => this.check(key, text, letter)),
+      ...SWITCHES.filter(([key]) => key !== "elements" || has.elements).map(([key, text, letter]) => this.check(key, text, letter)),
       has.arrows ? this.factor("arrowScale", "Arrows", 0.1, 10) : null,
       this.factor("glyphScale", "Joint glyphs", 0.2, 5),
+      has.stress && has.pascal ? h("label", { class: "field" }, h("span", {}, "Stress in"), (this.controls.stressUnit =
+        select("Unit of stress", [["", "unit of the scene"], ...Object.keys(STRESS_UNITS).map((unit): [string, string] => [unit, unit])], settings.stressUnit, (value) => this.set("stressUnit", value)))) : null,
       h("label", { class: "field" }, h("span", {}, "Colour map"),
         (this.controls.map = select("Colour map", [["viridis", "Viridis"], ["cividis", "Cividis"]], settings.map, (value) => this.set("map", value as MapName))))));
     this.controls.colouring = colour;
+    if (has.bodies.length > 0)
+      this.controls.follow = select("Body that the camera follows", [["", "Camera stands"], ...has.bodies.map((name): [string, string] => [name, `Follows ${name}`])], settings.follow, (value) => actions.follow(value));
     this.element = h("div", { class: "toolbar", role: "toolbar", "aria-label": "Picture" },
-      view, button("Fit", "Show everything (F)", actions.fit), this.projection, colour,
+      view, button("Fit", "Show everything (F)", actions.fit), this.projection, this.controls.follow ?? null, colour,
       has.modes ? this.deformation() : null, show, h("span", { class: "grow" }),
       button("Picture", "Save the picture as PNG (K)", actions.picture), this.video);
     document.addEventListener("pointerdown", (event) => {

@@ -15,7 +15,12 @@ export interface Item {
   rgb: readonly number[];
   /** Whether the colour of a quantity may replace its own. */
   mapped: boolean;
+  /** Ground, which the camera need not show whole. */
+  ground?: boolean;
 }
+
+/** The value of what has none: it is drawn grey. */
+export const NO_VALUE = -1e30;
 
 interface Part extends Item {
   facets: Facets;
@@ -31,6 +36,8 @@ export class Batch {
   readonly group = new Group();
   readonly surface: Mesh;
   readonly edges: LineSegments;
+  /** Sides of elements. */
+  readonly sides: LineSegments;
   readonly points: Points;
   readonly lines: Segments;
   readonly vertices: number;
@@ -43,7 +50,7 @@ export class Batch {
 
   constructor(items: Item[], materials: Materials) {
     const known = new Map<Shape, { facets: Facets; deformer: Deformer }>();
-    const triangles: number[] = [], edges: number[] = [], points: number[] = [];
+    const triangles: number[] = [], edges: number[] = [], sides: number[] = [], points: number[] = [];
     this.lines = new Segments(materials.segment, 256);
     let count = 0, segments = 0, largest = 0;
     for (const item of items) {
@@ -56,6 +63,7 @@ export class Batch {
       const bare = item.shape.points || item.shape.lines.length > 0 ? all : 0;
       for (const i of made.facets.triangles) triangles.push(count + i);
       for (const i of made.facets.edges) edges.push(count + i);
+      for (const i of made.facets.sides) sides.push(count + i);
       if (item.shape.points) for (let v = 0; v < all; ++v) points.push(count + surface + v);
       for (let i = 0; i + 1 < item.shape.lines.length; i += 2) this.lines.add([0, 0, 0], [0, 0, 0], item.rgb);
       this.parts.push({ ...item, ...made, first: count, bare, segment: segments });
@@ -76,11 +84,13 @@ export class Batch {
     };
     this.surface = new Mesh(geometry(triangles), materials.surface);
     this.edges = new LineSegments(geometry(edges), materials.edge);
+    this.sides = new LineSegments(geometry(sides), materials.edge);
     this.points = new Points(geometry(points), materials.point);
-    for (const object of [this.surface, this.edges, this.points]) object.frustumCulled = false;
+    for (const object of [this.surface, this.edges, this.sides, this.points]) object.frustumCulled = false;
     this.surface.visible = triangles.length > 0;
+    this.sides.visible = false;
     this.points.visible = points.length > 0;
-    this.group.add(this.surface, this.edges, this.lines.mesh, this.points);
+    this.group.add(this.surface, this.edges, this.sides, this.lines.mesh, this.points);
   }
 
   private attributes(): Record<string, BufferAttribute> {
@@ -118,6 +128,10 @@ export class Batch {
 
   private colour(part: Part, what: Colouring, amplitudes: Float64Array | null, first: number, r: Float64Array, at: Vec): void {
     const { deformer, facets } = part, surface = facets.source.length, p = this.scratchPoint;
+    if ((what === "stress" && !part.shape.stress) || (what === "deformation" && !part.shape.modes)) {
+      this.value.fill(NO_VALUE, part.first, part.first + surface + part.bare);
+      return;
+    }
     if (what !== "displacement") deformer.values(what, amplitudes ?? this.zeros(deformer.count), first, this.scratch);
     for (let k = 0; k < surface + part.bare; ++k) {
       const v = k < surface ? facets.source[k]! : k - surface, drawn = part.first + k;
@@ -146,12 +160,13 @@ export class Batch {
     this.start = this.position.slice();
   }
 
-  /** Widens the box from `low` to `high` by what is drawn. */
+  /** Widens the box from `low` to `high` by what is drawn, but for the ground. */
   extend(low: Vec, high: Vec): void {
-    for (let i = 0; i < this.position.length; ++i) {
-      low[i % 3] = Math.min(low[i % 3]!, this.position[i]!);
-      high[i % 3] = Math.max(high[i % 3]!, this.position[i]!);
-    }
+    for (const part of this.parts)
+      for (let i = 3 * part.first; !part.ground && i < 3 * (part.first + part.facets.source.length + part.bare); ++i) {
+        low[i % 3] = Math.min(low[i % 3]!, this.position[i]!);
+        high[i % 3] = Math.max(high[i % 3]!, this.position[i]!);
+      }
   }
 
   flush(coloured: boolean): void {

@@ -20,7 +20,10 @@ export class OrbitCamera {
   readonly perspective = new PerspectiveCamera((OPENING * 180) / Math.PI);
   readonly orthographic = new OrthographicCamera();
   parallel = false;
+  /** What the camera looks at, relative to what carries it. */
   target: Vec = [0, 0, 0];
+  /** Place of the body that it follows; the origin where it stands. */
+  carrier: Vec = [0, 0, 0];
   distance = 1;
   azimuth = STANDARD.iso[0];
   elevation = STANDARD.iso[1];
@@ -29,8 +32,8 @@ export class OrbitCamera {
 
   private readonly size: number;
 
-  /** `half`: half the sides of the box of the motion, about the origin of the picture. */
-  constructor(up: Vec, private readonly half: Vec) {
+  /** `half`: half the sides of the box of everything, about the origin of the picture; `shown`: what fits, relative to the carrier. */
+  constructor(up: Vec, half: Vec, private readonly shown: () => { centre: Vec; half: Vec }) {
     this.size = 2 * length(half) || 1;
     const z = unit(up);
     // x of the world stays x of the picture where it can: front is seen along +y.
@@ -42,8 +45,8 @@ export class OrbitCamera {
     return this.parallel ? this.orthographic : this.perspective;
   }
 
-  /** Shows a box about `centre`, that of the motion by default, seen from the present direction. */
-  fit(centre: Vec = [0, 0, 0], half: Vec = this.half): void {
+  /** Shows a box about a centre, seen from the present direction. */
+  fit({ centre, half } = this.shown()): void {
     const { right, above, back } = this.directions(), tangent = Math.tan(OPENING / 2);
     const along = (p: Vec, axis: Vec): number => p[0] * axis[0] + p[1] * axis[1] + p[2] * axis[2];
     this.target = centre;
@@ -90,7 +93,7 @@ export class OrbitCamera {
     const isFirst = this.aspect === 0;
     this.aspect = width / Math.max(1, height);
     if (isFirst) this.fit();
-    const { above, back } = this.directions();
+    const { above, back } = this.directions(), target = [0, 1, 2].map((i) => this.target[i]! + this.carrier[i]!) as Vec;
     const half = this.distance * Math.tan(OPENING / 2);
     const near = Math.max(this.distance - 4 * this.size, this.distance / 200);
     this.perspective.aspect = this.aspect;
@@ -102,8 +105,8 @@ export class OrbitCamera {
       camera.near = camera === this.perspective ? near : -10 * this.size;
       camera.far = this.distance + 10 * this.size;
       camera.up.set(...above);
-      camera.position.set(...([0, 1, 2].map((i) => this.target[i]! + this.distance * back[i]!) as Vec));
-      camera.lookAt(new Vector3(...this.target));
+      camera.position.set(...([0, 1, 2].map((i) => target[i]! + this.distance * back[i]!) as Vec));
+      camera.lookAt(new Vector3(...target));
       camera.updateProjectionMatrix();
       camera.updateMatrixWorld();
     }

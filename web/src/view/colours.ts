@@ -9,6 +9,11 @@ export const MAPS = {
 export type MapName = keyof typeof MAPS;
 
 export const LINE_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c8c8c"];
+/** Colour i of lines on paper: blue is lighter on a dark one, where it would have a contrast of 3.5. */
+export function lineColour(i: number): string {
+  const colour = LINE_COLOURS[i]!;
+  return colour === "#0072b2" && matchMedia("(prefers-color-scheme: dark)").matches ? "#4ea3e6" : colour;
+}
 export const BODY_COLOURS = ["#77aadd", "#ee8866", "#44bb99", "#eedd88", "#99ddff", "#ffaabb", "#bbcc33", "#c8c8c8"];
 export const GHOST_COLOURS = ["#4477aa", "#d55e00", "#009e73", "#cc79a7"];
 

@@ -11,6 +11,8 @@ export interface Facets {
   triangles: Uint32Array;
   /** Pairs of drawn vertices: creases and borders. */
   edges: Uint32Array;
+  /** The same: sides of elements that are neither. */
+  sides: Uint32Array;
 }
 
 function facetNormals(vertices: Float64Array, triangles: ArrayLike<number>): Float64Array {
@@ -54,21 +56,26 @@ export function facetsOf(shape: Shape): Facets {
     const n = Math.hypot(normals[i]!, normals[i + 1]!, normals[i + 2]!) || 1;
     for (let c = 0; c < 3; ++c) unit[i + c] = normals[i + c]! / n;
   }
-  return { source: Uint32Array.from(source), normals: unit, triangles: drawn, edges: edgesOf(triangles, drawn, facet) };
+  return { source: Uint32Array.from(source), normals: unit, triangles: drawn, ...edgesOf(shape, drawn, facet) };
 }
 
-/** Sides of triangles that only one has, or where two meet at more than the crease angle. */
-function edgesOf(triangles: ArrayLike<number>, drawn: Uint32Array, facet: Float64Array): Uint32Array {
-  const sides = new Map<number, { a: number; b: number; f: number; crease: boolean }>();
+/** Edges: sides of triangles that only one has, or where two meet at more than the crease angle. Sides: where two elements meet. */
+function edgesOf({ triangles, elements }: Shape, drawn: Uint32Array, facet: Float64Array): { edges: Uint32Array; sides: Uint32Array } {
+  const sides = new Map<number, { a: number; b: number; f: number; crease: boolean; meets: boolean }>();
   for (let i = 0; i < triangles.length; ++i) {
     const f = i - (i % 3), next = f + ((i + 1) % 3);
     const v = triangles[i]!, w = triangles[next]!;
     const key = Math.min(v, w) * 4194304 + Math.max(v, w);
     const known = sides.get(key);
-    if (!known) sides.set(key, { a: drawn[i]!, b: drawn[next]!, f, crease: true });
-    else known.crease = Math.abs(cosine(facet, known.f, facet, f)) < CREASE;
+    if (!known) sides.set(key, { a: drawn[i]!, b: drawn[next]!, f, crease: true, meets: false });
+    else {
+      known.crease = Math.abs(cosine(facet, known.f, facet, f)) < CREASE;
+      known.meets = elements.length > 0 && elements[known.f / 3] !== elements[f / 3];
+    }
   }
-  const edges: number[] = [];
-  for (const side of sides.values()) if (side.crease) edges.push(side.a, side.b);
-  return Uint32Array.from(edges);
+  const edges: number[] = [], between: number[] = [];
+  for (const side of sides.values())
+    if (side.crease) edges.push(side.a, side.b);
+    else if (side.meets) between.push(side.a, side.b);
+  return { edges: Uint32Array.from(edges), sides: Uint32Array.from(between) };
 }

@@ -45,7 +45,7 @@ class Builder {
   }
   shape(): Shape {
     return {
-      vertices: Float64Array.from(this.vertices), triangles: Uint32Array.from(this.triangles),
+      vertices: Float64Array.from(this.vertices), triangles: Uint32Array.from(this.triangles), elements: new Uint32Array(),
       lines: Uint32Array.from(this.lines), modes: null, stress: null, points: false,
     };
   }

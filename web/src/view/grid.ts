@@ -10,9 +10,11 @@ export function roundStep(x: number): number {
   return power * (rest < 1.5 ? 1 : rest < 3.5 ? 2 : rest < 7.5 ? 5 : 10);
 }
 
-/** Draws the grid of the plane across `up` a little below the box; returns its spacing. */
-export function drawGrid(lines: Segments, box: [Vec, Vec], origin: Vec, up: Vec, ink: readonly number[]): number {
-  const size = Math.hypot(...subtract(box[1], box[0])) || 1, step = roundStep(size / 10);
+const MOST_LINES = 300;
+
+/** Draws the grid of the plane across `up` a little below the box, for what has `size`; returns its spacing. */
+export function drawGrid(lines: Segments, box: [Vec, Vec], origin: Vec, up: Vec, ink: readonly number[], size: number): number {
+  const step = roundStep(Math.max(size / 10, Math.hypot(...subtract(box[1], box[0])) / MOST_LINES));
   const axis = [0, 1, 2].reduce((best, i) => (Math.abs(up[i]!) > Math.abs(up[best]!) ? i : best), 2);
   const [u, v] = [0, 1, 2].filter((i) => i !== axis) as [number, number];
   const below = 0.03 * size, level = up[axis]! > 0 ? box[0][axis]! - below : box[1][axis]! + below;

@@ -33,6 +33,16 @@ function linksOf(run: Run): Link[] {
   return [...links].map(([body, places]) => ({ body, places }));
 }
 
+/** Size of the shapes of joints: by what moves, and not larger than the space between two joints. */
+function spacingOf(run: Run): number {
+  const places = run.joints.map((joint) => run.drawn(joint.place).position), most = 0.03 * run.size;
+  const nearest = places.slice(0, 500).flatMap((a) => {
+    const apart = places.map((b) => Math.hypot(...subtract(a, b))).filter((d) => d > 1e-6 * run.size);
+    return apart.length > 0 ? [Math.min(...apart)] : [];
+  }).sort((a, b) => a - b);
+  return nearest.length === 0 ? most : Math.max(0.25 * most, Math.min(most, 0.35 * nearest[nearest.length >> 1]!));
+}
+
 export class RunView {
   readonly group = new Group();
   readonly bodies: Batch;
@@ -56,6 +66,7 @@ export class RunView {
   private largestForce = 0;
   private largestMoment = 0;
   private arrowValues: Float64Array[][] = [];
+  private readonly spacing: number;
 
   constructor(readonly run: Run, private readonly origin: Vec, shared: Uniforms) {
     this.materials = materialsOf(shared, true);
@@ -67,11 +78,12 @@ export class RunView {
       const isDrawn = shape !== null && shape.source !== "marker" && shape.vertices.length > 0;
       const isBall = isDrawn && shape.source === "inertia";
       (isBall ? this.balls : isDrawn ? this.drawn : this.markers).push(b);
-      if (isDrawn) (isBall ? balls : items).push({ owner: b, shape, rgb: rgb(body.colour ?? BODY_COLOURS[b % BODY_COLOURS.length]!), mapped: true });
+      if (isDrawn) (isBall ? balls : items).push({ owner: b, shape, rgb: rgb(body.colour ?? BODY_COLOURS[b % BODY_COLOURS.length]!), mapped: body.kind !== "road", ground: body.kind === "road" });
     }
     this.bodies = new Batch(items, this.materials);
     this.inertia = new Batch(balls, this.glass);
     this.inertia.edges.visible = false;
+    this.spacing = spacingOf(run);
     const glyphs = (made: [Item["shape"], readonly number[]][]): Batch =>
       new Batch(made.map(([shape, colour]) => ({ owner: 0, shape, rgb: colour, mapped: false })), this.plain);
     this.glyphs = {
@@ -142,18 +154,19 @@ export class RunView {
     this.run.exaggeration = settings.exaggeration;
     for (const materials of [this.materials, this.glass]) materials.surface.uniforms["chosen"]!.value = this.chosen;
     this.bodies.edges.visible = settings.edges;
+    this.bodies.sides.visible = settings.elements;
     this.placeBodies(settings.colouring, settings.exaggeration);
     this.placeGlyphs(settings, pixel);
     this.placeLines(settings, pixel);
     this.placeDots(settings);
   }
 
-  /** Widens a box by the bodies as they are drawn, joints, springs, bodies without a size, and the paths of traced nodes. */
-  extend(low: Vec, high: Vec): void {
+  /** Widens a box by the bodies as they are drawn, joints, springs, bodies without a size, and if asked by the paths of traced nodes. */
+  extend(low: Vec, high: Vec, paths: boolean): void {
     for (const batch of [this.bodies, this.inertia]) batch.extend(low, high);
     const points = [...this.markers.map((b) => this.run.pose(b)), ...this.run.joints.map((joint) => this.run.drawn(joint.place)),
       ...this.run.springs.flatMap((spring) => spring.ends.map((end) => this.run.drawn(end)))];
-    for (const n of this.traced) for (const t of this.run.times) points.push(this.run.placeAt(this.run.nodes[n]!.place, t));
+    for (const n of paths ? this.traced : []) for (const t of this.run.times) points.push(this.run.placeAt(this.run.nodes[n]!.place, t));
     for (const { position } of points)
       for (const [i, x] of subtract(position, this.origin).entries()) {
         low[i] = Math.min(low[i]!, x);
@@ -180,7 +193,7 @@ export class RunView {
   }
 
   private placeGlyphs(settings: Settings, pixel: number): void {
-    const size = settings.glyphScale * Math.min(0.03 * this.run.size, 11 * pixel), { joints, markers, arrows } = this.glyphs;
+    const size = settings.glyphScale * Math.min(this.spacing, 11 * pixel), { joints, markers, arrows } = this.glyphs;
     joints.group.visible = settings.joints;
     arrows.group.visible = settings.arrows && this.arrowValues.length > 0;
     if (settings.joints) for (const [i, joint] of this.run.joints.entries()) this.glyph(joints, i, this.run.drawn(joint.place), size);

@@ -11,6 +11,7 @@ export interface Settings {
   arrowScale: number;
   glyphScale: number;
   edges: boolean;
+  elements: boolean;
   grid: boolean;
   worldAxes: boolean;
   bodyAxes: boolean;
@@ -20,7 +21,14 @@ export interface Settings {
   springs: boolean;
   arrows: boolean;
   parallel: boolean;
+  /** Name of the body that the camera follows; empty: it stands. */
+  follow: string;
+  /** Unit in which stress is shown: Pa, kPa, MPa, GPa; empty: that of the run. */
+  stressUnit: string;
 }
+
+/** Pascal in each. */
+export const STRESS_UNITS: Record<string, number> = { Pa: 1, kPa: 1e3, MPa: 1e6, GPa: 1e9 };
 
 export const INITIAL: Settings = {
   colouring: "body",
@@ -29,6 +37,7 @@ export const INITIAL: Settings = {
   arrowScale: 1,
   glyphScale: 1,
   edges: true,
+  elements: false,
   grid: true,
   worldAxes: false,
   bodyAxes: false,
@@ -38,6 +47,8 @@ export const INITIAL: Settings = {
   springs: true,
   arrows: true,
   parallel: false,
+  follow: "",
+  stressUnit: "",
 };
 
 export type Switch = { [K in keyof Settings]: Settings[K] extends boolean ? K : never }[keyof Settings];

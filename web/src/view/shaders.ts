@@ -30,7 +30,8 @@ uniform sampler2D map;
 uniform int colouring;
 uniform vec4 tint;
 vec3 painted(vec4 own, float share) {
-  vec3 base = colouring > 0 && own.a > 0.5 ? texture(map, vec2(clamp(share, 0.0, 1.0) * 0.996 + 0.002, 0.5)).rgb : own.rgb;
+  vec3 value = share < -1e3 ? vec3(0.72, 0.74, 0.77) : texture(map, vec2(clamp(share, 0.0, 1.0) * 0.996 + 0.002, 0.5)).rgb;
+  vec3 base = colouring > 0 && own.a > 0.5 ? value : own.rgb;
   return mix(base, tint.rgb, tint.a);
 }`;
 

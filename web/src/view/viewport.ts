@@ -14,6 +14,8 @@ import { COLOURINGS } from "./settings";
 import type { Settings } from "./settings";
 
 const PICK_DISTANCE = 10;
+/** Pixels drawn that are nothing to see. */
+const SPECK = 25;
 
 export interface Picked {
   run: Run;
@@ -37,14 +39,16 @@ export class Viewport {
   private readonly scene = new Scene();
   private readonly shared: Uniforms = sharedUniforms();
   private readonly ground: Segments;
+  /** Of what moves, over all instants. */
   private readonly box: [Vec, Vec];
   private dirty = true;
   private touched = 0;
   private ratio = 1;
 
   constructor(readonly canvas: HTMLCanvasElement, readonly runs: Run[], readonly settings: Settings) {
-    this.box = unionOf(runs);
+    this.box = unionOf(runs, (run) => run.box);
     this.origin = [0, 1, 2].map((i) => (this.box[0][i]! + this.box[1][i]!) / 2) as Vec;
+    const all = unionOf(runs, (run) => run.entry.box);
     this.software = isSoftware();
     // Opaque, so that the browser need not blend the picture with the page.
     const context = canvas.getContext("webgl2", { alpha: false, antialias: !this.software, powerPreference: "high-performance" });
@@ -53,7 +57,8 @@ export class Viewport {
     this.renderer.debug.onShaderError = (gl, program, vertex, fragment) => {
       this.fault = [gl.getProgramInfoLog(program), gl.getShaderInfoLog(vertex), gl.getShaderInfoLog(fragment)].filter(Boolean).join(" ");
     };
-    this.camera = new OrbitCamera(runs[0]!.entry.up, subtract(this.box[1], this.origin));
+    const reach = [0, 1, 2].map((i) => Math.max(all[1][i]! - this.origin[i]!, this.origin[i]! - all[0][i]!)) as Vec;
+    this.camera = new OrbitCamera(runs[0]!.entry.up, reach, () => this.shown());
     this.views = runs.map((run) => new RunView(run, this.origin, this.shared));
     const ground = materialsOf(this.shared, false).segment;
     ground.transparent = true;
@@ -94,9 +99,62 @@ export class Viewport {
   get extent(): { width: number; height: number } {
     return this.fixed ?? { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
   }
-  /** Widens a box by all that is drawn of bodies now, relative to the origin of the picture. */
+  /** Widens a box by all that is drawn of bodies now, relative to what carries the camera. */
   extend(low: Vec, high: Vec): void {
-    for (const view of this.views) if (view.run.visible) view.extend(low, high);
+    const at = this.carried(), from: Vec = [Infinity, Infinity, Infinity], to: Vec = [-Infinity, -Infinity, -Infinity];
+    for (const view of this.views) if (view.run.visible) view.extend(from, to, this.settings.follow === "");
+    for (let i = 0; i < 3; ++i) {
+      low[i] = Math.min(low[i]!, from[i]! - at[i]!);
+      high[i] = Math.max(high[i]!, to[i]! - at[i]!);
+    }
+  }
+
+  /** What a fit shows: all of the motion, or the bodies about the one that the camera follows. */
+  private shown(): { centre: Vec; half: Vec } {
+    const low: Vec = [Infinity, Infinity, Infinity], high: Vec = [-Infinity, -Infinity, -Infinity];
+    if (this.settings.follow !== "") {
+      for (const view of this.views) view.update(this.settings, this.pixel);
+      this.extend(low, high);
+    }
+    if (low.every(Number.isFinite)) return halves(low, high);
+    return halves(subtract(this.box[0], this.origin), subtract(this.box[1], this.origin));
+  }
+
+  /** Place of the body that is followed, relative to the origin of the picture. */
+  private carried(): Vec {
+    const run = this.runs.find((r) => r.visible && r.bodies.some((body) => body.name === this.settings.follow));
+    if (!run || this.settings.follow === "") return [0, 0, 0];
+    return subtract(run.pose(run.bodies.findIndex((body) => body.name === this.settings.follow)).position, this.origin);
+  }
+
+  /** Follows a body from now on, or stands ("": where it is). */
+  follow(name: string): void {
+    const { camera } = this, seen = [0, 1, 2].map((i) => camera.target[i]! + camera.carrier[i]!) as Vec;
+    this.settings.follow = name;
+    camera.carrier = this.carried();
+    camera.target = subtract(seen, camera.carrier);
+    this.touch();
+  }
+
+  /** Whether bodies, joints, springs or arrows are seen in what was drawn last: more pixels than a speck differ from the ground. */
+  get isEmpty(): boolean {
+    const ground = this.ground.mesh.visible, { width, height } = this.canvas, copy = document.createElement("canvas");
+    this.ground.mesh.visible = false;
+    this.renderer.render(this.scene, this.camera.active);
+    copy.width = width;
+    copy.height = height;
+    const context = copy.getContext("2d")!;
+    context.drawImage(this.canvas, 0, 0);
+    this.ground.mesh.visible = ground;
+    this.renderer.render(this.scene, this.camera.active);
+    const { data } = context.getImageData(0, 0, width, height);
+    let drawn = 0;
+    for (let i = 4; i < data.length; i += 4)
+      if (Math.abs(data[i]! - data[0]!) + Math.abs(data[i + 1]! - data[1]!) + Math.abs(data[i + 2]! - data[2]!) > 12) ++drawn;
+    // The first pixel may be of a body that fills the picture: then nothing differs, but it is not the ground.
+    const clear = this.renderer.getClearColor(new Color()).getHex(), first = (data[0]! << 16) | (data[1]! << 8) | data[2]!;
+    const away = [16, 8, 0].some((shift) => Math.abs(((clear >> shift) & 255) - ((first >> shift) & 255)) > 4);
+    return drawn < SPECK && !away;
   }
 
   /** The first run shown is solid, the others are ghosts. */
@@ -116,8 +174,8 @@ export class Viewport {
 
   regrid(): void {
     this.ground.clear();
-    if (this.settings.grid) this.gridStep = drawGrid(this.ground, this.box, this.origin, this.runs[0]!.entry.up, this.ink);
-    if (this.settings.worldAxes) drawWorldAxes(this.ground, this.origin, 0.2 * Math.hypot(...subtract(this.box[1], this.box[0])));
+    if (this.settings.grid) this.gridStep = drawGrid(this.ground, this.box, this.origin, this.runs[0]!.entry.up, this.ink, Math.max(...this.runs.map((run) => run.size)));
+    if (this.settings.worldAxes) drawWorldAxes(this.ground, this.origin, 0.2 * this.runs[0]!.size);
     this.ground.flush();
     this.touch();
   }
@@ -149,6 +207,7 @@ export class Viewport {
     }
     this.dirty = false;
     this.camera.parallel = this.settings.parallel;
+    this.camera.carrier = this.carried();
     this.camera.update(width, height);
     this.shared["parallel"]!.value = this.settings.parallel;
     (this.shared["viewport"]!.value as Vector2).set(width, height);
@@ -218,12 +277,16 @@ function isSoftware(): boolean {
   return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }
 
-function unionOf(runs: Run[]): [Vec, Vec] {
+function halves(low: Vec, high: Vec): { centre: Vec; half: Vec } {
+  return { centre: low.map((x, i) => (x + high[i]!) / 2) as Vec, half: low.map((x, i) => (high[i]! - x) / 2) as Vec };
+}
+
+function unionOf(runs: Run[], boxOf: (run: Run) => readonly [readonly number[], readonly number[]]): [Vec, Vec] {
   const low: Vec = [Infinity, Infinity, Infinity], high: Vec = [-Infinity, -Infinity, -Infinity];
   for (const run of runs)
     for (let i = 0; i < 3; ++i) {
-      low[i] = Math.min(low[i]!, run.entry.box[0][i]!);
-      high[i] = Math.max(high[i]!, run.entry.box[1][i]!);
+      low[i] = Math.min(low[i]!, boxOf(run)[0][i]!);
+      high[i] = Math.max(high[i]!, boxOf(run)[1][i]!);
     }
   return [low, high];
 }

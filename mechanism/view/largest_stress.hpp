@@ -1,0 +1,14 @@
+// The largest stress of a body over a run, as pages tell it beside their scale of colours.
+#pragma once
+
+#include "formats/page/page_blocks.hpp"
+#include "mechanism/view/body_shape.hpp"
+#include "mechanism/view/viewed_run.hpp"
+
+namespace tisserand::mechanism {
+
+/// {"value", "place", "time"}: the largest equivalent stress (von Mises) of any vertex at any instant of the page, and
+/// the vertex of the undeformed body in its part frame. null: the shape has no stress.
+formats::Json largest_stress(const ViewedRun& run, const ViewedBody& body, const BodyShape& shape);
+
+}  // namespace tisserand::mechanism
