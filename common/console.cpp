@@ -4,10 +4,14 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <new>
+#include <sstream>
+#include <string_view>
 
 #include "common/error.hpp"
 #include "common/output_path.hpp"
@@ -49,6 +53,38 @@ std::string unknown_command(const std::string& word, const std::vector<std::stri
   const auto near = nearest(word, commands);
   return fmt::format("there is no command '{}'; {}", word.substr(0, 80),
                      near ? fmt::format("did you mean '{}'?", *near) : "the commands are " + join(commands, ", "));
+}
+
+std::string with_nearest_options(const std::string& message, const std::vector<std::string>& options) {
+  std::string text = message;
+  std::istringstream words(message);
+  for (std::string word; words >> word;) {
+    word = word.substr(0, word.find('='));
+    if (!word.starts_with("--") || std::ranges::find(options, word) != options.end()) continue;
+    if (const auto near = nearest(word, options)) text += fmt::format("; did you mean {}?", *near);
+  }
+  return text;
+}
+
+void complain_of_exception(const char* program) noexcept {
+  const auto put = [](std::string_view text) {
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+  };
+  try {
+    try {
+      throw;
+    } catch (const Error& error) {
+      complain(program, error.what());
+    } catch (const std::bad_alloc&) {
+      put(program);
+      put(": out of memory; close other programs, raise the limit (`ulimit -v`), or make the model smaller\n");
+    } catch (const std::exception& error) {
+      complain(program, fmt::format("internal error: {}", error.what()));
+    }
+  } catch (...) {  // no memory for the message
+    put(program);
+    put(": out of memory\n");
+  }
 }
 
 }  // namespace tisserand

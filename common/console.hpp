@@ -22,5 +22,11 @@ void complain(const std::string& program, const std::string& text);
 
 /// The message for `word` in the place of a command, with the nearest one or the list of all.
 std::string unknown_command(const std::string& word, const std::vector<std::string>& commands);
+/// A message about options ("... not expected: --setx"), and what each that is none of `options` may have meant.
+std::string with_nearest_options(const std::string& message, const std::vector<std::string>& options);
+
+/// In the last catch clause of a program: the text of the exception as complain() prints it; short memory is named
+/// without taking any. Removes files that are not complete.
+void complain_of_exception(const char* program) noexcept;
 
 }  // namespace tisserand

@@ -11,6 +11,9 @@ Error::Error(std::string what, std::string where, std::string remedy)
   if (!where_.empty()) text_ += where_ + ": ";
   text_ += message_;
   if (!remedy_.empty()) text_ += "; " + remedy_;
+  // what() ends at a byte 0.
+  for (std::size_t at = text_.find('\0'); at != std::string::npos; at = text_.find('\0', at))
+    text_.replace(at, 1, "\\x00");
 }
 
 Error merge_errors(const std::vector<Error>& errors) {

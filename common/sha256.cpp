@@ -2,6 +2,10 @@
 // registers all algorithms and reads a file of settings, 2 ms of each run.
 #include "common/sha256.hpp"
 
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
 #define OPENSSL_SUPPRESS_DEPRECATED  // OpenSSL 3 recommends EVP for all digests
 #include <openssl/sha.h>
 
@@ -34,6 +38,18 @@ std::string Sha256::hex() {
 std::string sha256_hex(const std::string& bytes) {
   Sha256 sha;
   sha.add(bytes.data(), bytes.size());
+  return sha.hex();
+}
+
+std::string sha256_of_file(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return {};
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return {};
+  Sha256 sha;
+  std::vector<char> block(std::size_t{1} << 16);
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0)
+    sha.add(block.data(), static_cast<std::size_t>(file.gcount()));
   return sha.hex();
 }
 

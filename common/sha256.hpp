@@ -27,4 +27,7 @@ class Sha256 {
 /// SHA-256 of a text, 64 lower-case hexadecimal digits.
 std::string sha256_hex(const std::string& bytes);
 
+/// The same of a file; empty if it is no file that can be read.
+std::string sha256_of_file(const std::string& path);
+
 }  // namespace tisserand

@@ -53,7 +53,8 @@ and before it those that it starts from.
 A run that goes on from a checkpoint is bit-equal to one that was never interrupted (same machine and program); from an
 instant of a results file it is accurate to the tolerance. With --append one file holds the rows of both, the joining
 instant once; the results that are gone on from stay as they are until the new ones, whole, take their place. Without it
-they are never overwritten.
+they are never overwritten. Values of the scene that have changed since (a mass, gravity) are listed, and refused without
+--changed; the end, steps, tolerances and outputs may change.
 
 While it runs the results grow in <output>.part, readable at any time. Ctrl-C, a step that does not converge and a full disk
 close the file with what was reached and the reason; `channels`, `export` and `plot` accept it. Names of files in the scene

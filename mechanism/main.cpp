@@ -67,6 +67,7 @@ struct RunArguments {
   std::string restart;
   std::optional<double> at;
   mechanism::Joining joining = mechanism::Joining::apart;
+  mechanism::ChangedValues changed = mechanism::ChangedValues::refused;
   std::vector<std::string> settings;
 };
 
@@ -150,7 +151,9 @@ int run(const RunArguments& arguments) {
     std::optional<mechanism::State> begin;
     if (!one.from.empty()) begin = ends.at(one.from);
     mechanism::RunEnd end =
-        run_one(arguments, {one.scene, files, begin, one.results, arguments.restart, arguments.at, arguments.joining},
+        run_one(arguments,
+                {one.scene, files, begin, one.results, arguments.restart, arguments.at, arguments.joining,
+                 arguments.changed},
                 one.name, told);
     if (const int code = exit_code(end.report); code != 0) return code;
     if (mechanism::wants_ledger(one)) tell_ledger(one, std::move(begin), !arguments.restart.empty());
@@ -334,16 +337,19 @@ void add_picture(CLI::App& app, PictureArguments& arguments) {
 
 /// Prints what is wrong with the words of the command line.
 int tell_usage(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
-  std::vector<std::string> commands;
+  std::vector<std::string> commands, options;
   const CLI::App* command = nullptr;
   for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; })) {
     commands.push_back(one->get_name());
     if (argc > 1 && one->get_name() == argv[1]) command = one;
   }
+  for (const CLI::Option* one : (command == nullptr ? app : *command).get_options())
+    for (const std::string& name : one->get_lnames()) options.push_back("--" + name);
   const bool is_word = argc > 1 && argv[1][0] != '-';
   complain("mechanism",
            fmt::format("{}\n`mechanism {}--help` explains.",
-                       is_word && command == nullptr ? unknown_command(argv[1], commands) : std::string(error.what()),
+                       is_word && command == nullptr ? unknown_command(argv[1], commands)
+                                                     : with_nearest_options(error.what(), options),
                        command == nullptr ? "" : command->get_name() + " "));
   return exit_usage;
 }
@@ -374,6 +380,9 @@ int command_line(int argc, char** argv) {
   run_command->add_flag_callback(
       "--append", [&] { run_arguments.joining = mechanism::Joining::appended; },
       "with --restart: begin with the rows until then; without -o in place of the results that are gone on from");
+  run_command->add_flag_callback(
+      "--changed", [&] { run_arguments.changed = mechanism::ChangedValues::accepted; },
+      "with --restart: go on although values of the scene have changed since");
   run_command->callback([&] { code = run(run_arguments); });
 
   RunArguments check_arguments;
@@ -489,12 +498,8 @@ int main(int argc, char** argv) {
   tisserand::take_write_failures_as_errors();
   try {
     return command_line(argc, argv);
-  } catch (const tisserand::Error& error) {
-    tisserand::complain("mechanism", error.what());
-  } catch (const std::bad_alloc&) {
-    tisserand::complain("mechanism", "out of memory");
-  } catch (const std::exception& error) {
-    tisserand::complain("mechanism", fmt::format("internal error: {}", error.what()));
+  } catch (...) {
+    tisserand::complain_of_exception("mechanism");
   }
   return exit_error;
 }

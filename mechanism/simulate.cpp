@@ -21,7 +21,7 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
   if (request.restart.empty())
     start(run);
   else
-    resume(run, request.restart, request.at, request.joining);
+    resume(run, request.restart, request.at, request.joining, request.changed);
   const double begin_output = run.seconds();
   const formats::ResultsLayout layout = begin_rows(run, request.files);
   formats::ResultsRow row;

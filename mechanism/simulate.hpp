@@ -22,6 +22,7 @@ struct RunRequest {
   std::string restart;               ///< checkpoint or results file to go on from; empty: none
   std::optional<double> at;          ///< instant in a results file; absent: the last one
   Joining joining = Joining::apart;  ///< with `restart`: whether the rows until then are taken over
+  ChangedValues changed = ChangedValues::refused;  ///< with `restart`
   RunListener* listener = nullptr;
 };
 

@@ -252,20 +252,18 @@ void add_permission(CLI::App* command, tisserand::formats::MeshFile::Permission&
       ->check(CLI::PositiveNumber);
 }
 
-/// On the error stream, of several processes by the first one only.
-void tell(const std::string& text) {
-  if (!tisserand::reducer::is_follower()) tisserand::complain("reducer", text);
-}
-
 /// Prints what is wrong with the words of the command line.
-int tell_usage(const CLI::ParseError& error, const std::string& asked) {
+int tell_usage(const CLI::App& app, const CLI::ParseError& error, const std::string& asked) {
   const std::vector<std::string> commands{"run",    "solve",   "show",    "mesh",   "view",
                                           "groups", "section", "recover", "import", "export"};
   const bool known = std::find(commands.begin(), commands.end(), asked) != commands.end();
   const bool is_word = !asked.empty() && asked[0] != '-';
+  std::vector<std::string> options;
+  for (const CLI::Option* one : (known ? *app.get_subcommand(asked) : app).get_options())
+    for (const std::string& name : one->get_lnames()) options.push_back("--" + name);
   tisserand::complain("reducer", fmt::format("{}\n`reducer {}--help` explains.",
                                              is_word && !known ? tisserand::unknown_command(asked, commands)
-                                                               : std::string(error.what()),
+                                                               : tisserand::with_nearest_options(error.what(), options),
                                              known ? asked + " " : ""));
   return 2;
 }
@@ -318,7 +316,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (tisserand::reducer::is_follower()) return 0;
-    return error.get_exit_code() == 0 ? app.exit(error) : tell_usage(error, asked);
+    return error.get_exit_code() == 0 ? app.exit(error) : tell_usage(app, error, asked);
   }
   arguments.command = run_command->parsed()    ? Command::run
                       : show_command->parsed() ? Command::show
@@ -332,10 +330,8 @@ int main(int argc, char** argv) {
   if (export_command->parsed()) arguments.command = Command::export_matrices;
   try {
     return tisserand::reducer::perform(arguments, argv);
-  } catch (const tisserand::Error& error) {
-    tell(error.what());
-  } catch (const std::exception& error) {
-    tell(error.what());
+  } catch (...) {
+    if (!tisserand::reducer::is_follower()) tisserand::complain_of_exception("reducer");
   }
   return 1;
 }

@@ -16,12 +16,13 @@ namespace {
 constexpr const char* format_name = "tisserand-checkpoint";
 constexpr std::uint64_t max_numbers = std::uint64_t{1} << 32;
 
-/// Of the numbers, so that damage is seen.
+/// Of the numbers and the values of the scene, so that damage is seen.
 std::string content_id(const Checkpoint& c) {
   Sha256 sha;
   sha.add(&c.time, sizeof c.time);
   sha.add(c.state.data(), c.state.size() * sizeof(double));
   sha.add(c.schedule.data(), c.schedule.size() * sizeof(double));
+  sha.add(c.values.data(), c.values.size());
   return sha.hex();
 }
 
@@ -72,11 +73,12 @@ Checkpoint read_unchecked(const std::string& path) {
   }
   c.state = read_numbers(file, "/state");
   c.schedule = read_numbers(file, "/schedule");
+  if (file.has("/values")) c.values = file.read_text("/values");  // since 1.2
   const bool finite = std::isfinite(c.time) &&
                       std::ranges::all_of(c.state, [](double x) { return std::isfinite(x); }) &&
                       std::ranges::all_of(c.schedule, [](double x) { return std::isfinite(x); });
   if (!finite || file.text_attribute("/", "content_id") != content_id(c))
-    throw Error("is damaged: its numbers are not those that were written", path, "take an older checkpoint");
+    throw Error("is damaged: its contents are not those that were written", path, "take an older checkpoint");
   return c;
 }
 
@@ -88,7 +90,7 @@ void write_checkpoint(const std::string& path, const Checkpoint& c) {
     hdf5::write_text_attribute(file.id(), "/", name, value, path);
   };
   text("format", format_name);
-  text("version", "1.1");
+  text("version", "1.2");
   text("scene", c.scene);
   text("producer", c.producer);
   text("fingerprint", c.fingerprint);
@@ -100,6 +102,7 @@ void write_checkpoint(const std::string& path, const Checkpoint& c) {
   hdf5::write_number_attribute(file.id(), "/", "time", c.time, path);
   hdf5::write_dataset(file.id(), "/state", {c.state.size()}, c.state.data(), path);
   hdf5::write_dataset(file.id(), "/schedule", {c.schedule.size()}, c.schedule.data(), path);
+  if (!c.values.empty()) hdf5::write_text(file.id(), "/values", c.values, path);
   write_text_file(path, hdf5::file_image(std::move(file), path));
 }
 

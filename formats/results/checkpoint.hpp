@@ -18,6 +18,7 @@ struct Checkpoint {
   std::size_t rows = 0;          ///< of these results until then
   std::vector<double> state;     ///< the state block
   std::vector<double> schedule;  ///< where steps and output stand
+  std::string values;            ///< of the scene (formats::scene_values); empty before version 1.2
 };
 
 /// The file appears whole or not at all, also where it replaces an older one. Throws Error (disk full, ...).

@@ -1,5 +1,6 @@
 // From *.results.h5, whole, partial or still being written, to channels over time.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -57,7 +58,12 @@ std::vector<std::string> owned_names(const hdf5::InputFile& file, const std::str
   return list;
 }
 
+/// A factor of 0 stands for a unit without a name.
 Unit read_unit(const hdf5::InputFile& file, const std::string& name) {
+  const double factor = file.number_attribute("/", name);
+  if (!std::isfinite(factor) || factor < 0.0)
+    throw Error(fmt::format("is {}, expected a factor to SI, or 0", factor),
+                fmt::format("{}: attribute '{}'", file.path(), name), "write or copy the file again");
   return {file.number_attribute("/", name), file.text_attribute("/", name + "_label")};
 }
 
@@ -202,6 +208,7 @@ struct ResultsReader::Impl {
   const Place& find(const std::string& channel) const;
   bool is_of_modes(std::size_t block) const { return block >= blocks_of_time; }
   void add_aliases();
+  void check_times() const;
 };
 
 ResultsReader::Impl::Impl(const std::string& path) : file(existing_results(path), hdf5::Completeness::any) {
@@ -218,6 +225,7 @@ ResultsReader::Impl::Impl(const std::string& path) : file(existing_results(path)
   if (blocks.empty() || blocks.front().dataset != "/time")
     throw Error("is missing", file.path() + ": /time", "compare the file with formats/RESULTS.md");
   blocks_of_time = blocks.size();
+  check_times();
   modes = max_rows;
   for (Block& block : mode_blocks(layout)) {
     if (!file.has(block.dataset)) continue;
@@ -235,6 +243,18 @@ ResultsReader::Impl::Impl(const std::string& path) : file(existing_results(path)
     }
   }
   if (modes == 0) add_aliases();
+}
+
+/// Instants ascend; two at a jump are equal. Rows of a file that was never closed may not all be there.
+void ResultsReader::Impl::check_times() const {
+  if (rows == 0 || !file.closed_properly()) return;
+  std::vector<double> time(rows);
+  file.read_column("/time", 0, rows, time.data());
+  for (std::size_t i = 0; i < time.size(); ++i)
+    if (!std::isfinite(time[i]) || (i > 0 && time[i] < time[i - 1]))
+      throw Error(i == 0 ? fmt::format("begins with {}", time[0])
+                         : fmt::format("holds {:.9g} after {:.9g}; instants must ascend", time[i], time[i - 1]),
+                  file.path() + ": /time", "write or copy the file again");
 }
 
 /// "nodes/position/rod/end/x" beside "nodes/position/rod/10/x".

@@ -178,8 +178,8 @@ class HeaderLines {
     else if (section_ == "kd_definition")
       read_definition(text);
     else if (section_.empty())
-      fail(fmt::format("'{}' stands outside of all sections", printable_line(text, 40)),
-           "begin comments by *, sections by $");
+      fail("the line stands outside of all sections",
+           "begin comments by *, sections by $; is the file of another format?");
   }
 
   double number(std::string_view text, std::string_view keyword) const {

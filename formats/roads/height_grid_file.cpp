@@ -52,7 +52,7 @@ class GridLines {
     double value = 0.0;
     if (!read_finite(cells[column], value))
       throw Error(
-          fmt::format("'{}' in column {} is not a finite number", printable_line(cells[column], 40), column + 1),
+          fmt::format("{} in column {} is not a finite number", quoted_cell(cells[column], rows_ > 0), column + 1),
           where_, remedy);
     return value;
   }

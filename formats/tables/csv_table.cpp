@@ -43,7 +43,7 @@ TimeTable read_csv_table(const std::string& path) {
         values.clear();
         break;
       }
-      throw Error(fmt::format("'{}' is not a finite number", cells[i].text.substr(0, 40)),
+      throw Error(fmt::format("{} is not a finite number", quoted_cell(cells[i].text, !table.time.empty())),
                   fmt::format("{}:{}:{}", path, number, cells[i].column + 1), "give two numbers per line: time, value");
     }
     if (values.empty()) continue;

@@ -18,17 +18,22 @@ namespace {
 constexpr std::size_t most_points = 10'000'000;
 constexpr const char* csv_or_hdf5 = "give a csv or HDF5 file";
 
-/// Index of a column by its number or name.
+/// Index of a column by its number or name. `is_header`: tells whether the line names columns, which it then lists.
+template <class IsHeader>
 std::size_t find_column(const std::vector<std::string_view>& header, const std::string& wanted,
-                        const std::string& where) {
+                        const std::string& where, const IsHeader& is_header) {
   std::size_t number = 0;
   const auto [stop, status] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
   if (status == std::errc{} && stop == wanted.data() + wanted.size() && number >= 1 && number <= header.size())
     return number - 1;
   for (std::size_t i = 0; i < header.size(); ++i)
     if (header[i] == wanted) return i;
+  if (!is_header())
+    throw Error(fmt::format("there is no column '{}'", wanted), where,
+                fmt::format("give a table; this line has {}, and no numbers follow it",
+                            header.size() == 1 ? "1 cell" : fmt::format("{} cells", header.size())));
   std::vector<std::string> names;
-  for (const std::string_view name : header) names.emplace_back(name.substr(0, 40));
+  for (const std::string_view name : header) names.emplace_back(printable_line(name, 40));
   const std::optional<std::string> near = nearest(wanted, names);
   throw Error(
       fmt::format("there is no column '{}'", wanted), where,
@@ -36,13 +41,14 @@ std::size_t find_column(const std::vector<std::string_view>& header, const std::
            : fmt::format("take one of its {} columns, by name or by number from 1: {}", names.size(), listed(names)));
 }
 
-double read_cell(const std::vector<std::string_view>& cells, std::size_t column, const std::string& where) {
+double read_cell(const std::vector<std::string_view>& cells, std::size_t column, const std::string& where,
+                 bool in_table) {
   double value = 0.0;
   if (column >= cells.size())
     throw Error(fmt::format("has {} cells, column {} is missing", cells.size(), column + 1), where, "");
   if (!read_finite(cells[column], value))
-    throw Error(fmt::format("'{}' in column {} is not a finite number", cells[column].substr(0, 40), column + 1), where,
-                "");
+    throw Error(fmt::format("{} in column {} is not a finite number", quoted_cell(cells[column], in_table), column + 1),
+                where, "");
   return value;
 }
 
@@ -60,13 +66,19 @@ TimeTable read_text_table(const InputPlace& place) {
     const std::vector<std::string_view> cells = split_cells(line, separator);
     if (!started) {
       started = true;
-      time = find_column(cells, place.time, where);
-      value = find_column(cells, place.value, where);
+      const auto is_header = [&] {
+        std::string next;
+        while (std::getline(stream, next) && trimmed(next).empty()) continue;
+        return is_row_of_numbers(line, separator, cells.size()) || is_row_of_numbers(next, separator, cells.size());
+      };
+      time = find_column(cells, place.time, where, is_header);
+      value = find_column(cells, place.value, where, is_header);
       double first = 0.0;
       if (!read_finite(cells[time], first) && !read_finite(cells[value], first)) continue;  // a line of names
     }
-    table.time.push_back(read_cell(cells, time, where));
-    table.value.push_back(read_cell(cells, value, where));
+    const bool in_table = !table.time.empty();
+    table.time.push_back(read_cell(cells, time, where, in_table));
+    table.value.push_back(read_cell(cells, value, where, in_table));
     if (table.time.size() > most_points)
       throw Error(fmt::format("has more than {} points", most_points), place.file, "thin it out");
   }

@@ -9,12 +9,25 @@
 #include <filesystem>
 
 #include "common/error.hpp"
+#include "common/text.hpp"
 
 namespace tisserand::formats {
 
 namespace {
 
 constexpr std::string_view blanks = " \t\r";
+
+/// By its mark, or by a byte 0 in one of the first two characters. Leaves the stream at its beginning.
+bool is_utf16(std::ifstream& stream) {
+  char bytes[4] = {};
+  stream.read(bytes, sizeof bytes);
+  const std::string_view head(bytes, static_cast<std::size_t>(stream.gcount()));
+  stream.clear();
+  stream.seekg(0);
+  if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff")) return true;
+  return head.size() == 4 && ((head[0] != 0 && head[1] == 0 && head[2] != 0 && head[3] == 0) ||
+                              (head[0] == 0 && head[1] != 0 && head[2] == 0 && head[3] != 0));
+}
 
 }  // namespace
 
@@ -25,6 +38,7 @@ std::ifstream open_table(const std::string& path, const std::string& remedy) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream)
     throw Error(fmt::format("cannot open the table: {}", std::strerror(errno)), path, "check path and permission");
+  if (is_utf16(stream)) throw Error("looks like UTF-16", path, "save it as UTF-8");
   return stream;
 }
 
@@ -55,6 +69,22 @@ bool read_finite(std::string_view text, double& value) {
   if (text.starts_with('+')) text.remove_prefix(1);
   const auto [stop, status] = std::from_chars(text.data(), text.data() + text.size(), value);
   return !text.empty() && stop == text.data() + text.size() && status == std::errc{} && std::isfinite(value);
+}
+
+std::string quoted_cell(std::string_view cell, bool in_table) {
+  constexpr std::size_t longest_number = 24;
+  const std::string_view after_sign = cell.substr(cell.starts_with('+') || cell.starts_with('-') ? 1 : 0);
+  const bool is_word = after_sign == "nan" || after_sign == "NaN" || after_sign == "inf" || after_sign == "Inf";
+  const bool is_number = cell.size() <= longest_number && cell.find_first_not_of("0123456789+-.,eEdD") == cell.npos;
+  if (in_table || is_word || is_number) return fmt::format("'{}'", printable_line(cell, 40));
+  return fmt::format("a text of {} characters", cell.size());
+}
+
+bool is_row_of_numbers(std::string_view line, char separator, std::size_t count) {
+  const std::vector<std::string_view> cells = split_cells(line, separator);
+  double value = 0.0;
+  const auto numbers = std::ranges::count_if(cells, [&](std::string_view cell) { return read_finite(cell, value); });
+  return cells.size() == count && read_finite(cells.front(), value) && 2 * static_cast<std::size_t>(numbers) >= count;
 }
 
 }  // namespace tisserand::formats

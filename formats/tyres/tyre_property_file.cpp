@@ -71,6 +71,12 @@ std::optional<double> number_of(const std::string& text) {
   return read_finite(text, value) ? std::optional(value) : std::nullopt;
 }
 
+/// Whether a line before names the format or a unit.
+bool is_tyre_file(const PropertyLines& file) {
+  return file.entries.contains("PROPERTY_FILE_FORMAT") || file.entries.contains("FITTYP") ||
+         std::ranges::any_of(file.entries, [](const auto& entry) { return entry.first.starts_with("UNITS."); });
+}
+
 void read_line(std::string_view text, int number, std::string& section, PropertyLines& file) {
   const std::string where = fmt::format("{}:{}", file.path, number);
   if (text.front() == '[') {
@@ -87,8 +93,8 @@ void read_line(std::string_view text, int number, std::string& section, Property
   if (!file.tables.empty() && file.tables.back() == section) return;  // its rows
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) {
-    throw Error(fmt::format("'{}' is no `KEY = value`", printable_line(text, 60)), where,
-                "give a tyre property file (.tir)");
+    const std::string quoted = is_tyre_file(file) ? fmt::format("'{}'", printable_line(text, 60)) : "the line";
+    throw Error(fmt::format("{} is no `KEY = value`", quoted), where, "give a tyre property file (.tir)");
   }
   const std::string key = (section == "UNITS" ? "UNITS." : "") + capitals(trimmed(text.substr(0, equals)));
   std::string_view value = trimmed(text.substr(equals + 1));

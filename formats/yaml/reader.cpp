@@ -188,13 +188,27 @@ std::optional<std::size_t> read_word(const Context& context, const YamlNode& nod
 MapReader::MapReader(Context context, const YamlNode& node, std::string_view noun, std::string prefix)
     : context_(std::move(context)), node_(node), keys_(context_.reader.keys(noun)) {
   if (node.kind != YamlKind::map) {
-    context_.fail(node.place, fmt::format("must be a map of keys and values, not {}", describe(node)),
+    const bool is_file = &node == &context_.reader.root();  // perhaps of another kind: not quoted
+    const std::string found = is_file && node.kind == YamlKind::scalar ? "a text" : describe(node);
+    context_.fail(node.place, fmt::format("must be a map of keys and values, not {}", found),
                   fmt::format("keys are {}", join(key_words(keys_), ", ")));
     return;
   }
+  const auto is_quotable = [&](const YamlNode& unknown) {
+    const bool is_file = noun == "scene" || noun == "assembly" || noun == "part" || noun == "study";
+    const bool is_option = context_.reader.where(unknown.key_place).starts_with("--set");
+    return !is_file || is_option || std::ranges::any_of(node.children, [&](const YamlNode& child) {
+      return child.key_place.source == unknown.key_place.source && has_key(keys_, child.key);
+    });
+  };
   std::map<std::string_view, YamlPlace> seen;
   for (const YamlNode& child : node.children) {
     const auto [first, is_new] = seen.try_emplace(child.key, child.key_place);
+    if (!has_key(keys_, child.key) && !is_quotable(child)) {
+      context_.fail(child.key_place, "the file has an unknown key here, and no known one",
+                    fmt::format("keys are {}; is it another kind of file?", join(key_words(keys_), ", ")));
+      return;
+    }
     if (!has_key(keys_, child.key))
       context_.fail(child.key_place, fmt::format("unknown key '{}'", child.key),
                     suggestion(child.key, key_words(keys_)));

@@ -110,8 +110,12 @@ void take_properties(const formats::TyreSpec& spec, Tyre& tyre, Construction& c)
   tyre.stiffness = by_pressure * slope;
   tyre.progressive = by_pressure * p.QFZ2 * p.FNOMIN / (p.UNLOADED_RADIUS * p.UNLOADED_RADIUS);
   if (!spec.properties->unused.empty()) {
-    const std::string note =
-        fmt::format("{}: keys without effect here: {}", spec.properties->version, join(spec.properties->unused, ", "));
+    constexpr std::size_t most = 6;
+    std::vector<std::string> names = spec.properties->unused;
+    const std::size_t more = names.size() > most ? names.size() - most : 0;
+    names.resize(names.size() - more);
+    const std::string note = fmt::format("{}: keys without effect here: {}{}", spec.properties->version,
+                                         join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
     if (std::ranges::find(c.notes, note) == c.notes.end()) c.notes.push_back(note);  // tyres of one file
   }
   tyre.law = std::move(law);

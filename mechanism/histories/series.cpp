@@ -14,6 +14,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "formats/tables/text_cells.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -48,7 +49,9 @@ ColumnName split_unit(const std::string& cell) {
   return {trimmed(cell.substr(0, bracket)), cell.substr(bracket + 1, cell.size() - bracket - 2)};
 }
 
-std::size_t find_column(const std::vector<std::string>& header, const std::string& wanted, const std::string& file) {
+/// `next`: the line after the header.
+std::size_t find_column(const std::vector<std::string>& header, const std::string& wanted, const std::string& file,
+                        const std::string& next) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < header.size(); ++i) {
     names.push_back(split_unit(header[i]).name);
@@ -58,18 +61,22 @@ std::size_t find_column(const std::vector<std::string>& header, const std::strin
   const auto [rest, code] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
   if (code == std::errc() && rest == wanted.data() + wanted.size() && number >= 1 && number <= header.size())
     return number - 1;
+  if (!formats::is_row_of_numbers(next, ',', header.size()))
+    throw Error(fmt::format("no column '{}' among {}", wanted, header.size()), file + ":1",
+                "give a CSV file: names of columns, then lines of numbers");
   throw Error(fmt::format("no column '{}' among {}", wanted, header.size()), file + ":1",
               fmt::format("take a number from 1, or a name: the nearest are {}", listed(nearest_names(wanted, names))));
 }
 
-double number(const std::string& cell, const std::string& file, std::size_t line, std::size_t column) {
+double number(const std::string& cell, const std::string& file, std::size_t line, std::size_t column, bool in_table) {
   if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
   double value = 0.0;
   const char* begin = cell.data() + (cell.front() == '+' ? 1 : 0);
   const char* end = cell.data() + cell.size();
   const auto [rest, code] = std::from_chars(begin, end, value);
   if (code != std::errc() || rest != end)
-    throw Error(fmt::format("'{}' in column {} is not a number", cell, column + 1), fmt::format("{}:{}", file, line),
+    throw Error(fmt::format("{} in column {} is not a number", formats::quoted_cell(cell, in_table), column + 1),
+                fmt::format("{}:{}", file, line),
                 "write numbers such as 1.5e-3 separated by commas, or leave the cell empty");
   return value;
 }
@@ -162,8 +169,13 @@ Series read_reference(const ReferenceColumn& column) {
   std::string line;
   if (!std::getline(stream, line)) throw Error("is empty", column.file, "the first line must name the columns");
   const std::vector<std::string> header = cells(line);
-  const std::size_t x = find_column(header, column.x, column.file);
-  const std::size_t y = find_column(header, column.y, column.file);
+  const std::istream::pos_type begin = stream.tellg();
+  std::string next;
+  std::getline(stream, next);
+  const std::size_t x = find_column(header, column.x, column.file, next);
+  const std::size_t y = find_column(header, column.y, column.file, next);
+  stream.clear();
+  stream.seekg(begin);
 
   Series series;
   series.kind = SeriesKind::reference;
@@ -178,8 +190,9 @@ Series read_reference(const ReferenceColumn& column) {
     if (row.size() != header.size())
       throw Error(fmt::format("{} cells where the header names {}", row.size(), header.size()),
                   fmt::format("{}:{}", column.file, number_of_line), "every row needs one cell per column");
-    const double at = number(row[x], column.file, number_of_line, x);
-    const double value = number(row[y], column.file, number_of_line, y);
+    const bool in_table = !series.x.empty();
+    const double at = number(row[x], column.file, number_of_line, x, in_table);
+    const double value = number(row[y], column.file, number_of_line, y, in_table);
     if (std::isnan(at) || std::isnan(value)) continue;
     series.x.push_back(at);
     series.y.push_back(value);

@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "formats/results/results.hpp"
 #include "formats/yaml/emit.hpp"
+#include "mechanism/run/simulated_scene.hpp"
 #include "mechanism/run/stored_state.hpp"
 #include "mechanism/simulate.hpp"
 
@@ -124,10 +125,11 @@ void require_windows(const formats::Scene& scene, const ReferenceRun& run) {
 }
 
 /// The first line in which the scene of the results is another one.
-std::string other_scene(const formats::Scene& scene, const formats::ResultsReader& results) {
+std::string other_scene(const formats::Scene& scene, const BodyFiles& files, const formats::ResultsReader& results) {
   const std::string& stored = results.layout().simulated.text;
   if (!scene.tree || stored.empty()) return {};
-  std::istringstream there(stored), here(formats::block_text(*scene.tree));
+  const bool has_contents = stored.find("\n# ") != std::string::npos;  // not those of former versions
+  std::istringstream there(stored), here(has_contents ? scene_text(scene, files) : formats::block_text(*scene.tree));
   std::string a, b;
   while (true) {
     const bool more_there = bool(std::getline(there, a)), more_here = bool(std::getline(here, b));
@@ -166,7 +168,7 @@ ReferenceRun windows_of_results(const formats::Scene& scene, const std::string& 
   const BuiltModel built = build_model(scene, stage.files);
   Workspace workspace(built.model);
   ReferenceRun run;
-  run.doubt = other_scene(scene, results);
+  run.doubt = other_scene(scene, stage.files, results);
   for (int i = 0; i < stage.choice.windows; ++i) {
     const auto [start, end] = window_times(scene.integrator, stage.choice, i);
     const auto found = std::ranges::lower_bound(time, start - 1e-9 * run_time(scene));

@@ -11,6 +11,8 @@
 
 #include "common/error.hpp"
 #include "common/sha256.hpp"
+#include "formats/scene/expand/values.hpp"
+#include "formats/scene/fields.hpp"
 #include "mechanism/run/stored_state.hpp"
 #include "mechanism/step/step_control.hpp"
 
@@ -68,12 +70,37 @@ void begin_with(Run& run, const formats::ResultsBeginning& beginning) {
   run.report.notes.push_back(fmt::format("begins with the {} instants of {}", beginning.rows, beginning.file));
 }
 
+std::vector<formats::ValueChange> changes_since(const Run& run, const std::string& values) {
+  if (run.values.empty() || values.empty()) return {};
+  return formats::scene_changes(values, run.values, formats::scene_key_sets());
+}
+
 [[noreturn]] void throw_of_another_scene(const Run& run, const formats::Checkpoint& checkpoint,
                                          const std::string& file) {
+  const std::vector<formats::ValueChange> changes = changes_since(run, checkpoint.values);
   throw Error(fmt::format("is a checkpoint of scene '{}' with other bodies, joints or superelements (or companion "
-                          "files) than '{}' has",
-                          checkpoint.scene, run.scene.name),
-              file, "go on with the scene that wrote it; values, loads and the end may differ");
+                          "files) than '{}' has{}{}",
+                          checkpoint.scene, run.scene.name, changes.empty() ? "" : ":",
+                          formats::changes_text(changes, "\n  ")),
+              file, "go on with the scene that wrote it; integrator, output and tolerances may differ");
+}
+
+/// `values`: of the scene that the file belongs to.
+void compare_scenes(Run& run, const std::string& file, const std::string& values, ChangedValues changed) {
+  if (run.values.empty()) return;
+  if (values.empty()) {
+    run.report.notes.push_back(fmt::format(
+        "{} does not hold the scene that it belongs to: what has changed in the scene since cannot be said", file));
+    return;
+  }
+  const std::vector<formats::ValueChange> changes = changes_since(run, values);
+  if (changes.empty()) return;
+  const std::string count = changes.size() == 1 ? "1 value" : fmt::format("{} values", changes.size());
+  if (changed == ChangedValues::refused)
+    throw Error(fmt::format("belongs to a scene that differs in {}:{}", count, formats::changes_text(changes, "\n  ")),
+                file, "set them back, or go on with the changed scene by --changed");
+  run.report.notes.push_back(fmt::format("goes on with {} changed since {}:{}", count, file,
+                                         formats::changes_text(changes, "\n    ")));
 }
 
 /// The model of the checkpoint and the memory of the schedule: what is behind that belongs to automatic effects.
@@ -87,7 +114,7 @@ void restore_memory(Run& run, const formats::Checkpoint& checkpoint, const std::
   if (run.automatic) run.automatic->restore(run, {at, memory.end()});
 }
 
-void resume_checkpoint(Run& run, const std::string& file, Joining joining) {
+void resume_checkpoint(Run& run, const std::string& file, Joining joining, ChangedValues changed) {
   const formats::Checkpoint checkpoint = formats::read_checkpoint(file);
   restore_memory(run, checkpoint, file);
   State& state = run.built.state;
@@ -95,6 +122,7 @@ void resume_checkpoint(Run& run, const std::string& file, Joining joining) {
   if (checkpoint.state_version != State::version || checkpoint.state.size() != state.block().size() ||
       checkpoint.fingerprint != own)
     throw_of_another_scene(run, checkpoint, file);
+  compare_scenes(run, file, checkpoint.values, changed);
   require_before_end(run.scene, checkpoint.time, file);
   state.block() = checkpoint.state;
   run.report.mobility =
@@ -108,7 +136,14 @@ void resume_checkpoint(Run& run, const std::string& file, Joining joining) {
   if (joining == Joining::appended) begin_with(run, rows_until(checkpoint, file));
 }
 
-void resume_results(Run& run, const std::string& file, const std::optional<double>& at, Joining joining) {
+std::string values_of_results(const std::string& file) {
+  const std::string text = formats::ResultsReader(file).layout().simulated.text;
+  return text.empty() ? text : formats::values_of_text(text, file + ": /scene/text");
+}
+
+void resume_results(Run& run, const std::string& file, const std::optional<double>& at, Joining joining,
+                    ChangedValues changed) {
+  compare_scenes(run, file, values_of_results(file), changed);
   State& state = run.built.state;
   const StoredSums sums = read_stored_state(run.built.model, file, at, state, run.workspace);
   require_before_end(run.scene, state.time(), file);
@@ -179,7 +214,8 @@ void Checkpoints::write(Run& run, const Schedule& schedule, Stepper& stepper, fo
   }
   results.flush();
   formats::write_checkpoint(path_, {scene_, producer(), fingerprint(run.built.model, state), State::version,
-                                    state.time(), results_, results.run(), results.rows(), state.block(), memory});
+                                    state.time(), results_, results.run(), results.rows(), state.block(), memory,
+                                    run.values});
   stepper.forget(run.workspace);
   set_next(state.time());
 }
@@ -201,7 +237,8 @@ void require_apart(const RestartFile& restart, const std::string& results) {
         results, "give -o another name, or join both with --append");
 }
 
-void resume(Run& run, const std::string& named, const std::optional<double>& at, Joining joining) {
+void resume(Run& run, const std::string& named, const std::optional<double>& at, Joining joining,
+            ChangedValues changed) {
   const std::string file = formats::existing_results(named);
   if (run.scene.analysis != formats::AnalysisKind::dynamics)
     throw Error("only dynamics can go on from a file", file, "name an analysis of `type: dynamics` with --analysis");
@@ -212,9 +249,9 @@ void resume(Run& run, const std::string& named, const std::optional<double>& at,
     throw Error(fmt::format("is a checkpoint and holds one instant; t = {:.9g} cannot be chosen", *at), file,
                 "leave --at out, or give a results file");
   if (checkpoint)
-    resume_checkpoint(run, file, joining);
+    resume_checkpoint(run, file, joining, changed);
   else
-    resume_results(run, file, at, joining);
+    resume_results(run, file, at, joining, changed);
 }
 
 }  // namespace tisserand::mechanism

@@ -15,7 +15,7 @@
 namespace tisserand::mechanism {
 
 /// SHA-256 of what a state block means: version and fields, names of nodes, coordinates and constraints, superelements.
-/// Values (masses, loads, steps) may change between a checkpoint and going on from it.
+/// Values (masses, loads, steps) are no part of it.
 std::string fingerprint(const Model& model, const State& state);
 
 /// Writes <results>.checkpoint.h5 when it is due, each replacing the one before.
@@ -65,11 +65,14 @@ void require_apart(const RestartFile& restart, const std::string& results);
 
 enum class Joining { apart, appended };
 
+/// What holds where values of the scene are not those of the run that is gone on from.
+enum class ChangedValues { refused, accepted };
+
 /// Puts the run where a checkpoint left it, or at a stored instant (`at`, absent: the last) of a results file: from a
 /// checkpoint bit for bit (same machine, same binary), from results through the start of an analysis, to the tolerance.
 /// Appended, the results begin with the rows of the run that is gone on from, until then (run.beginning).
-/// Throws Error: not of this scene, past the end of the integrator, not dynamics, channels that are missing, the
-/// results of that run not found.
-void resume(Run& run, const std::string& file, const std::optional<double>& at, Joining joining);
+/// Throws Error: not of this scene, values that are changed and refused, past the end of the integrator, not dynamics,
+/// channels that are missing, the results of that run not found. Values that are accepted are listed in a note.
+void resume(Run& run, const std::string& file, const std::optional<double>& at, Joining joining, ChangedValues changed);
 
 }  // namespace tisserand::mechanism

@@ -226,7 +226,8 @@ Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunCo
       built(build_model(scene, files)),
       workspace(built.model),
       doubts(scene, built.model),
-      at_start(built.state) {
+      at_start(built.state),
+      values(scene_values(scene_to_run, files)) {
   report.analysis = scene.analysis;
   report.notes = merged(built.notes);
   report.solver = describe(built.model.solver);

@@ -48,6 +48,7 @@ struct Run {
   StartFrom from = StartFrom::poses;
   bool massless = false;                               ///< some directions without mass: they jump to their balance
   State at_start;                                      ///< as the model was built, before anything moved
+  std::string values;                                  ///< formats::scene_values; empty: a program made the scene
   std::vector<double> schedule_memory;                 ///< of a run that goes on from a file; empty: it begins
   std::optional<formats::ResultsBeginning> beginning;  ///< rows of the run that this one is appended to
   std::unique_ptr<AutomaticEffects> automatic;         ///< null: nothing is; set for dynamics alone

@@ -7,7 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "formats/yaml/emit.hpp"
+#include "common/sha256.hpp"
+#include "formats/scene/expand/values.hpp"
 #include "mechanism/build/mirrored_files.hpp"
 
 namespace tisserand::mechanism {
@@ -187,14 +188,53 @@ void add_forces(const formats::Scene& scene, const Model& model, const StoredNod
     links.push_back({model.tyres[i].name, "tyre", {nodes.at(model.tyres[i].wheel, scene.tyres[i].wheel.node), {}}});
 }
 
+/// Content identifiers of the files of bodies, by the keys that name them.
+std::map<std::string, std::string> body_contents(const formats::Scene& scene, const BodyFiles& files) {
+  std::map<std::string, std::string> contents;
+  for (const formats::BodySpec& spec : scene.bodies) {
+    std::string id;
+    if (const auto* element = std::get_if<formats::SuperelementBodySpec>(&spec)) {
+      const auto found = files.superelements.find(element->file);
+      if (found != files.superelements.end()) id = found->second.superelement.content_id;
+      const auto companion = files.companions.find(element->file);
+      if (companion != files.companions.end()) id += " " + companion->second.companion_id;
+    } else if (const auto* modal = std::get_if<formats::ModalBodySpec>(&spec)) {
+      const auto found = files.modal_bodies.find(modal->file);
+      if (found != files.modal_bodies.end()) id = formats::content_id(found->second.body);
+    }
+    const std::string name = std::visit([](const auto& one) { return one.name; }, spec);
+    for (const char* key : {"file", "from"}) contents[fmt::format("bodies.{}.{}", name, key)] = id;
+  }
+  return contents;
+}
+
+formats::ContentsOf contents_of(const formats::Scene& scene, const BodyFiles& files) {
+  const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
+  return [bodies = body_contents(scene, files), folder](const std::string& key, const std::string& name) {
+    if (const auto body = bodies.find(key); body != bodies.end()) return body->second;
+    return key.ends_with(".file") ? sha256_of_file((folder / name).string()) : std::string();
+  };
+}
+
 }  // namespace
+
+std::string scene_values(const formats::Scene& scene, const BodyFiles& files) {
+  if (!scene.tree) return {};
+  std::string values = formats::scene_values(*scene.tree, contents_of(scene, files));
+  constexpr std::size_t most_bytes = std::size_t{16} << 20U;
+  return values.size() <= most_bytes ? values : std::string();
+}
+
+std::string scene_text(const formats::Scene& scene, const BodyFiles& files) {
+  return scene.tree ? formats::text_with_contents(*scene.tree, contents_of(scene, files)) : std::string();
+}
 
 formats::SimulatedScene simulated_scene(const formats::Scene& scene, const BodyFiles& files, const BuiltModel& built,
                                         const State& start) {
   const Model& model = built.model;
   formats::SimulatedScene simulated;
   simulated.analysis = formats::analysis_word(scene.analysis);
-  if (scene.tree) simulated.text = formats::block_text(*scene.tree);
+  simulated.text = scene_text(scene, files);
   simulated.file = absolute(scene.file);
   simulated.gravity = scene.gravity;
   std::map<std::string, int> index;

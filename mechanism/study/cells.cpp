@@ -28,20 +28,12 @@ class Digests {
  public:
   const std::string& of(const std::string& path) {
     auto [found, is_new] = known_.try_emplace(path);
-    if (is_new) found->second = digest(path);
+    if (is_new) found->second = sha256_of_file(path);
+    if (found->second.empty()) found->second = "absent";
     return found->second;
   }
 
  private:
-  static std::string digest(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file || !fs::is_regular_file(path)) return "absent";
-    Sha256 hash;
-    std::vector<char> block(std::size_t{1} << 16);
-    while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0)
-      hash.add(block.data(), static_cast<std::size_t>(file.gcount()));
-    return hash.hex();
-  }
   std::map<std::string, std::string> known_;
 };
 

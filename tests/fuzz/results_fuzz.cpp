@@ -36,7 +36,7 @@ void read_results(const std::string& path) {
 
 void write_checkpoint(const std::string& path) {
   formats::write_checkpoint(
-      path, {"scene", "mechanism", "fingerprint", 1, 0.5, "a.results.h5", "run", 3, {1.0, 2.0, 3.0}, {4.0, 5.0}});
+      path, {"scene", "mechanism", "fingerprint", 1, 0.5, "a.results.h5", "run", 3, {1.0, 2.0, 3.0}, {4.0, 5.0}, ""});
 }
 
 }  // namespace

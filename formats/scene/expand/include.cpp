@@ -117,7 +117,8 @@ YamlNode TreeLoader::load_file(YamlDocument& document, const std::string& name, 
   document.sources.push_back({YamlSourceKind::file, name, folder});
   mark_source(file.root, source);
   if (file.root.kind != YamlKind::map)
-    fail(fmt::format("holds {} instead of a map of keys and values", describe(file.root)),
+    fail(fmt::format("holds {} instead of a map of keys and values",
+                     file.root.kind == YamlKind::scalar ? "a text" : describe(file.root)),
          document.where(file.root.place), "write `bodies:` and the like");
   include_all(document, file.root);
   return std::move(file.root);

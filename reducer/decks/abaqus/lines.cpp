@@ -119,8 +119,7 @@ class Reader {
         keyword_line(continued, path, file, continued_from);
         continued.clear();
       } else if (input_.blocks.empty()) {
-        throw Error(fmt::format("'{}' stands before the first keyword", shown(line)),
-                    input_.where({line, file, number}),
+        throw Error("the line stands before the first keyword", input_.where({line, file, number}),
                     "an Abaqus deck begins with a keyword such as *HEADING or *NODE; is the file of another format?");
       } else {
         input_.blocks.back().data.push_back({line, file, number});

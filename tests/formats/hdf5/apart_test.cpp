@@ -207,7 +207,7 @@ INSTANTIATE_TEST_SUITE_P(
              [](const std::string& path) { static_cast<void>(ResultsReader(path).time()); }},
         Kind{"checkpoint",
              [](const std::string& path) {
-               write_checkpoint(path, {"scene", "mechanism", "print", 1, 0.5, "a", "run", 3, {1.0, 2.0}, {4.0}});
+               write_checkpoint(path, {"scene", "mechanism", "print", 1, 0.5, "a", "run", 3, {1.0, 2.0}, {4.0}, ""});
              },
              [](const std::string& path) { read_checkpoint(path); }}),
     [](const auto& kind) { return std::string(kind.param.name); });

@@ -98,7 +98,7 @@ std::string read_modal(const std::string& path) {
 }
 
 void write_point(const std::string& path) {
-  Checkpoint c{"arm", "test", "fingerprint", 3, 0.25, "arm.results.h5", "run", 12, {}, {1, 2, 3}};
+  Checkpoint c{"arm", "test", "fingerprint", 3, 0.25, "arm.results.h5", "run", 12, {}, {1, 2, 3}, "bodies.arm.mass: 2\n"};
   for (int k = 0; k < 2000; ++k) c.state.push_back(test_support::row_value(k, 1));
   write_checkpoint(path, c);
 }
@@ -107,7 +107,7 @@ std::string read_point(const std::string& path) {
   const Checkpoint c = read_checkpoint(path);
   return text(c.scene) + text(c.producer) + text(c.fingerprint) + text(c.results) + text(c.run) +
          fmt::format("{} {} {} ", c.state_version, c.rows, c.time) + bits(c.state.data(), c.state.size()) +
-         bits(c.schedule.data(), c.schedule.size());
+         bits(c.schedule.data(), c.schedule.size()) + text(c.values);
 }
 
 test_support::SecondOrderBody network() {

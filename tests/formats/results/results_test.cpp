@@ -375,7 +375,7 @@ TEST(Results, CheckpointThatCountsNothingIsRefused) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.checkpoint.h5");
   for (const char* name : {"rows", "state_version"}) {
-    write_checkpoint(path, {"scene", "mechanism", "fingerprint", 1, 0.5, "a.results.h5", "run", 3, {1.0}, {2.0}});
+    write_checkpoint(path, {"scene", "mechanism", "fingerprint", 1, 0.5, "a.results.h5", "run", 3, {1.0}, {2.0}, ""});
     EXPECT_EQ(read_checkpoint(path).rows, 3U);
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     H5Adelete(file, name);
@@ -411,6 +411,29 @@ TEST(Results, CsvHoldsTheSelection) {
   EXPECT_THAT(error_of([&] { export_csv(reader, {"nodes/position/beam/tup/x"}, folder.file("b.csv")); }),
               HasSubstr("did you mean 'nodes/position/beam/tip/x'"));
   EXPECT_FALSE(std::filesystem::exists(folder.file("b.csv")));
+}
+
+// The trial "results with descending time".
+TEST(Results, TimesThatDescendAndUnitsThatAreNoNumbersAreRejected) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.h5");
+  const auto error_with = [&](const std::vector<double>& time, double unit) {
+    write_rows(path, example_layout(), static_cast<int>(time.size()));
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    H5Ldelete(file, "/time", H5P_DEFAULT);
+    hdf5::write_dataset(file, "/time", {time.size()}, time.data(), "");
+    hdf5::write_number_attribute(file, "/", "length_unit", unit, "");
+    H5Fclose(file);
+    return error_of([&] { ResultsReader reader(path); });
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(error_with({0, 1, 1, 2}, 1.0), "no error");
+  EXPECT_EQ(error_with({0, 1}, 0.0), "no error");
+  EXPECT_THAT(error_with({2, 1, 0}, 1.0), HasSubstr("/time: holds 1 after 2; instants must ascend"));
+  EXPECT_THAT(error_with({0, 1, nan}, 1.0), HasSubstr("/time: holds nan after 1"));
+  EXPECT_THAT(error_with({nan}, 1.0), HasSubstr("/time: begins with nan"));
+  for (const double unit : {nan, -1.0, std::numeric_limits<double>::infinity()})
+    EXPECT_THAT(error_with({0, 1}, unit), HasSubstr("attribute 'length_unit': is "));
 }
 
 TEST(Results, OtherFilesAreRejected) {

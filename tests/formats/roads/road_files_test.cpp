@@ -248,7 +248,7 @@ TEST(Crg, TellsDamageWithItsLine) {
               HasSubstr("no line begins with $$$$"));
   EXPECT_THAT(crg_error("D:long section 1,m\nD:long section 2,m   ! the middle\n", ""),
               HasSubstr("has 1 columns of heights"));
-  EXPECT_THAT(crg_error("$ROAD_CRG\n", "x = 3\n$ROAD_CRG\n"), HasSubstr("'x = 3' stands outside of all sections"));
+  EXPECT_THAT(crg_error("$ROAD_CRG\n", "x = 3\n$ROAD_CRG\n"), HasSubstr("road.crg:4: the line stands outside of all sections"));
   EXPECT_THAT(crg_error("* comment = 3\n$", "* comment = 3"), HasSubstr("$kd_definition begins inside of $road_crg"));
   EXPECT_THAT(crg_error("increment = 2.0", "increment = two"), HasSubstr("'two' is not a finite number"));
   EXPECT_THAT(crg_error("increment = 2.0", "increment"), HasSubstr("no = and value follow"));

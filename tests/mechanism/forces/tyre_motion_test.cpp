@@ -345,6 +345,8 @@ TEST(TyreBuild, TakesTheFile) {
   ASSERT_EQ(built.notes.size(), 1u);
   EXPECT_NE(built.notes[0].find("book_205_60R15.tir (MF-Tyre 6.1): keys without effect here: ASPECT_RATIO"),
             std::string::npos);
+  EXPECT_LT(built.notes[0].size(), 200U) << built.notes[0];  // six names, and how many more
+  EXPECT_TRUE(built.notes[0].ends_with(" more")) << built.notes[0];
   formats::Scene flat = wheel_by_file(10.0);
   flat.tyres[0].pressure = 0.5e5;  // PRESMIN = 1e5
   const std::vector<std::string> notes = build_model(flat, {}).notes;
