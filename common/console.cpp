@@ -12,9 +12,11 @@
 #include <new>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 
 #include "common/error.hpp"
 #include "common/output_path.hpp"
+#include "common/temporaries.hpp"
 #include "common/text.hpp"
 
 namespace tisserand {
@@ -67,6 +69,7 @@ std::string with_nearest_options(const std::string& message, const std::vector<s
 }
 
 void complain_of_exception(const char* program) noexcept {
+  (void)remove_temporaries();
   const auto put = [](std::string_view text) {
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
   };
@@ -78,6 +81,15 @@ void complain_of_exception(const char* program) noexcept {
     } catch (const std::bad_alloc&) {
       put(program);
       put(": out of memory; close other programs, raise the limit (`ulimit -v`), or make the model smaller\n");
+    } catch (const std::system_error& error) {
+      const bool is_short = error.code() == std::errc::resource_unavailable_try_again ||
+                            error.code() == std::errc::not_enough_memory;
+      if (is_short) {
+        put(program);
+        put(": out of memory or threads; close other programs, or raise the limits (`ulimit -v`, `ulimit -u`)\n");
+      } else {
+        complain(program, fmt::format("internal error: {}", error.what()));
+      }
     } catch (const std::exception& error) {
       complain(program, fmt::format("internal error: {}", error.what()));
     }

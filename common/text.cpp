@@ -196,6 +196,8 @@ std::string remedy_of_errno(int error_number) {
       return "choose a folder that exists, or create it first";
     case EISDIR:
       return "give the name of a file, not of a folder";
+    case ENOMEM:
+      return "close other programs, raise the limit (`ulimit -v`), or make the model smaller";
     default:
       return "choose another place or name";
   }

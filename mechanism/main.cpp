@@ -15,6 +15,7 @@
 #include "common/clock.hpp"
 #include "common/console.hpp"
 #include "common/error.hpp"
+#include "common/memory/short_memory.hpp"
 #include "common/output_path.hpp"
 #include "common/progress.hpp"
 #include "common/text.hpp"
@@ -496,6 +497,7 @@ int command_line(int argc, char** argv) {
 int main(int argc, char** argv) {
   tisserand::fill_standard_streams();
   tisserand::take_write_failures_as_errors();
+  tisserand::report_short_memory("mechanism");
   try {
     return command_line(argc, argv);
   } catch (...) {

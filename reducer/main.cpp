@@ -11,6 +11,7 @@
 
 #include "common/console.hpp"
 #include "common/error.hpp"
+#include "common/memory/short_memory.hpp"
 #include "reducer/commands.hpp"
 #include "reducer/startup.hpp"
 
@@ -273,6 +274,7 @@ int tell_usage(const CLI::App& app, const CLI::ParseError& error, const std::str
 int main(int argc, char** argv) {
   tisserand::fill_standard_streams();
   tisserand::take_write_failures_as_errors();
+  tisserand::report_short_memory("reducer");
   const std::string asked = argc > 1 ? argv[1] : "";
   CLI::App app(description, "reducer");
   app.set_version_flag("--version", "reducer " TISSERAND_VERSION " (Tisserand)");

@@ -103,6 +103,9 @@ bool close_door() {
   return filter.install();
 }
 
+/// Exit status of a child.
+constexpr int left_without_memory = 3;
+
 std::string pack_complaint(const Error& error) {
   Packer to;
   to.error(error);
@@ -119,7 +122,7 @@ void send_result(Room& room, const Work& work) {
   } catch (const Error& error) {
     room.put(pack_complaint(error));
   } catch (const std::bad_alloc&) {
-    ::_exit(1);
+    ::_exit(left_without_memory);
   }
   room.send(answer);
 }
@@ -219,6 +222,7 @@ struct Apart::Impl {
   pid_t child = -1;
   int socket = -1;
   char* window = nullptr;
+  int status = 0;  ///< of the child, once it has ended
 
   void end();
   [[noreturn]] void give_up();
@@ -258,7 +262,7 @@ Apart::~Apart() { impl_->end(); }
 void Apart::Impl::end() {
   if (socket >= 0) ::close(socket);
   if (child > 0) ::kill(child, SIGKILL);
-  while (child > 0 && ::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+  while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (window != nullptr) ::munmap(window, window_bytes);
   child = socket = -1;
@@ -267,6 +271,9 @@ void Apart::Impl::end() {
 
 void Apart::Impl::give_up() {
   end();
+  if (WIFEXITED(status) && WEXITSTATUS(status) == left_without_memory)
+    throw Error("there is no memory to read it: it is damaged, or memory is short", path,
+                "close other programs, raise the limit (`ulimit -v`), or write the file again");
   throw Error("is an HDF5 file, but so damaged that HDF5 cannot read it", path, "write or copy the file again");
 }
 

@@ -148,7 +148,11 @@ herr_t collect_attribute(hid_t, const char* name, const H5A_info_t*, void* names
 
 herr_t find_errno(unsigned, const H5E_error2_t* entry, void* number) {
   const char* found = entry->desc != nullptr ? std::strstr(entry->desc, "errno = ") : nullptr;
-  if (found != nullptr) *static_cast<int*>(number) = std::atoi(found + 8);
+  int& result = *static_cast<int*>(number);
+  if (found != nullptr) result = std::atoi(found + 8);
+  const bool memory =
+      entry->maj_num == H5E_RESOURCE && (entry->min_num == H5E_NOSPACE || entry->min_num == H5E_CANTALLOC);
+  if (memory && result == 0) result = ENOMEM;
   return 0;
 }
 

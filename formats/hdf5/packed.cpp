@@ -76,7 +76,10 @@ OutputFile::OutputFile(const std::string& path) : path_(path), temporary_(tempor
   H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
   H5Pset_obj_track_times(creation.id(), false);
   file_ = Handle(H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
-  if (!file_.valid()) throw last_error("cannot create the file", path, packed_remedy);
+  if (file_.valid()) return;
+  const Error error = last_error("cannot create the file", path, packed_remedy);
+  ::unlink(temporary_.c_str());
+  throw error;
 }
 
 OutputFile::~OutputFile() {

@@ -124,7 +124,7 @@ HeldFile publish_head(const std::string& part, const ResultsLayout& layout, cons
   try {
     create_head(temporary, layout, blocks, run, part);
     return HeldFile::publish(temporary, part);
-  } catch (const Error&) {
+  } catch (...) {  // short memory too
     ::unlink(temporary.c_str());
     throw;
   }
@@ -185,6 +185,7 @@ struct ResultsWriter::Impl {
   Clock::time_point last_flush = Clock::now();
   bool broken = false;  ///< a write failed: the file on disk stays as the last good write left it
   bool finished = false;
+  bool published = false;  ///< `part` is this writer's
 
   std::optional<ModesTable> modes;
   ResultsLayout layout;
@@ -341,6 +342,7 @@ void ResultsWriter::Impl::rename_to_final(const std::string& last) const {
 void ResultsWriter::Impl::create() {
   const std::vector<Block> blocks = chosen_blocks(layout, layout.scene);
   held = publish_head(part, layout, blocks, run);
+  published = true;
   file = open_for_writing(part, H5F_ACC_SWMR_WRITE);
   std::size_t width = 0;
   for (const Block& block : blocks) width += block.width();
@@ -408,8 +410,13 @@ ResultsWriter::ResultsWriter(const std::string& path, const ResultsLayout& layou
     impl_->rename_to_final(impl_->part);
     old.file = path;
   }
-  impl_->create();
-  if (!old.file.empty()) impl_->begin_with(old);
+  try {
+    impl_->create();
+    if (!old.file.empty()) impl_->begin_with(old);
+  } catch (...) {  // it holds no row that is not elsewhere
+    if (impl_->published) ::unlink(impl_->part.c_str());
+    throw;
+  }
 }
 
 ResultsWriter::~ResultsWriter() {
@@ -461,7 +468,8 @@ void ResultsWriter::finish(bool completed, const std::string& reason, const std:
     problem = error.what();
   }
   impl_->close();
-  if (problem.empty() && impl_->broken) problem = "some rows could not be written";
+  if (problem.empty() && impl_->broken)
+    problem = hdf5::last_error("some rows could not be written", "", "").message();
   const std::string told = reason.empty() || problem.empty() ? reason + problem : reason + "; " + problem;
   std::string last = impl_->part;
   try {

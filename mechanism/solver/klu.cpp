@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <new>
 #include <random>
 
 #include "common/error.hpp"
@@ -59,6 +60,11 @@ std::vector<double> made_up_values(const SparsePattern& pattern) {
   return values;
 }
 
+/// Short memory is no singular matrix.
+void require_klu_memory(const klu_common& common) {
+  if (common.status == KLU_OUT_OF_MEMORY || common.status == KLU_TOO_LARGE) throw std::bad_alloc();
+}
+
 }  // namespace
 
 /// A symbolic analysis and the factors that belong to it.
@@ -70,11 +76,13 @@ struct KluFactors {
   void analyse(const SparsePattern& pattern, int ordering, klu_common& common) {
     common.ordering = ordering;
     symbolic = klu_analyze(pattern.size(), starts(pattern), rows(pattern), &common);
+    require_klu_memory(common);
     TISSERAND_ENSURE(symbolic != nullptr, "KLU status {}", common.status);
   }
   /// False: singular, and no factors.
   bool factor(const SparsePattern& pattern, double* values, klu_common& common) {
     numeric = calls->factor(starts(pattern), rows(pattern), values, symbolic, &common);
+    require_klu_memory(common);
     if (numeric == nullptr || common.status != KLU_OK) forget(common);
     return numeric != nullptr;
   }

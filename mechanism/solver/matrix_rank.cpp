@@ -4,6 +4,7 @@
 #include <SuiteSparseQR.hpp>
 
 #include <algorithm>
+#include <new>
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/QR>
@@ -40,6 +41,7 @@ ColumnRank column_rank(const Eigen::SparseMatrix<double>& A, double tolerance) {
   common.print = 0;
   SuiteSparseQR_factorization<double>* qr =
       SuiteSparseQR_factorize<double>(SPQR_ORDERING_DEFAULT, tolerance, &matrix, &common);
+  if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
   TISSERAND_ENSURE(qr != nullptr, "status {}", common.status);
   ColumnRank result;
   result.rank = static_cast<int>(qr->rank);

@@ -4,17 +4,27 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <new>
 
 #include "common/error.hpp"
 #include "mechanism/solver/back_ends.hpp"
 
 namespace tisserand::mechanism::back_end {
+namespace {
+
+/// Short memory is no singular matrix.
+void require_umfpack_memory(int status) {
+  if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
+}
+
+}  // namespace
 
 Effort umfpack_effort(const SparsePattern& pattern) {
   std::array<double, UMFPACK_INFO> info{};
   void* symbolic = nullptr;
   const int status = umfpack_di_symbolic(pattern.size(), pattern.size(), pattern.column_start().data(),
                                          pattern.rows().data(), nullptr, &symbolic, nullptr, info.data());
+  require_umfpack_memory(status);
   TISSERAND_ENSURE(status == UMFPACK_OK, "UMFPACK status {}", status);
   umfpack_di_free_symbolic(&symbolic);
   return {info[UMFPACK_FLOPS_ESTIMATE], info[UMFPACK_LNZ_ESTIMATE] + info[UMFPACK_UNZ_ESTIMATE]};
@@ -62,6 +72,7 @@ Umfpack::Umfpack(const SparsePattern& pattern) : data_(std::make_unique<Data>())
   const int status =
       umfpack_di_symbolic(pattern.size(), pattern.size(), pattern.column_start().data(), pattern.rows().data(), nullptr,
                           &data_->symbolic, data_->control.data(), data_->info.data());
+  require_umfpack_memory(status);
   TISSERAND_ENSURE(status == UMFPACK_OK, "UMFPACK status {}", status);
 }
 
@@ -79,6 +90,7 @@ FactorReport Umfpack::factor(const SparsePattern& pattern, const double* values)
   if (status == UMFPACK_OK)
     return {true, data_->info[UMFPACK_RCOND], -1, 1.0,
             (data_->info[UMFPACK_LNZ] + data_->info[UMFPACK_UNZ]) / pattern.nonzeros()};
+  require_umfpack_memory(status);
   TISSERAND_ENSURE(status == UMFPACK_WARNING_singular_matrix, "UMFPACK status {}", status);
   const int column = data_->singular_column(pattern.size());
   data_->forget();
@@ -114,6 +126,7 @@ ComplexUmfpack::ComplexUmfpack(const SparsePattern& pattern) : data_(std::make_u
   const int status =
       umfpack_zi_symbolic(pattern.size(), pattern.size(), pattern.column_start().data(), pattern.rows().data(), nullptr,
                           nullptr, &data_->symbolic, data_->control.data(), data_->info.data());
+  require_umfpack_memory(status);
   TISSERAND_ENSURE(status == UMFPACK_OK, "UMFPACK status {}", status);
 }
 
@@ -132,6 +145,7 @@ FactorReport ComplexUmfpack::factor(const SparsePattern& pattern, const double* 
   const int status = umfpack_zi_numeric(pattern.column_start().data(), pattern.rows().data(), values, nullptr,
                                         data_->symbolic, &data_->numeric, data_->control.data(), data_->info.data());
   if (status == UMFPACK_OK) return {true, data_->info[UMFPACK_RCOND], -1, 1.0};
+  require_umfpack_memory(status);
   TISSERAND_ENSURE(status == UMFPACK_WARNING_singular_matrix, "UMFPACK status {}", status);
   forget();
   return {};

@@ -3,6 +3,7 @@
 #include "reducer/algebra/cholesky.hpp"
 
 #include <algorithm>
+#include <new>
 #include <vector>
 
 #include <suitesparse/cholmod.h>
@@ -85,6 +86,11 @@ void backward(const Supernode& s, double* y, double* all) {
   scatter(s, s.own, y, all);
 }
 
+/// Short memory is no singular matrix.
+void require_memory(const cholmod_common& common) {
+  if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
+}
+
 }  // namespace
 
 struct Cholesky::State {
@@ -130,6 +136,7 @@ Cholesky::Cholesky(const SymmetricRows& A) : state_(std::make_unique<State>()) {
   a.dtype = CHOLMOD_DOUBLE;
   a.sorted = a.packed = 1;
   state_->L = cholmod_analyze(&a, &common);
+  require_memory(common);
   if (state_->L != nullptr) cost_ = {static_cast<double>(state_->L->xsize), common.fl};
 }
 
@@ -139,6 +146,7 @@ double Cholesky::factor() {
   State& s = *state_;
   if (s.L == nullptr) return -1.0;
   cholmod_factorize(&s.A, s.L, &s.common);
+  require_memory(s.common);
   if (s.common.status == CHOLMOD_NOT_POSDEF) return 0.0;
   if (s.common.status != CHOLMOD_OK) return -1.0;
   const int* const permutation = static_cast<const int*>(s.L->Perm);

@@ -2,9 +2,11 @@
 #include "reducer/algebra/petsc.hpp"
 
 #include <dlfcn.h>
+#include <sys/mman.h>
 
 #include <array>
 #include <cstdlib>
+#include <new>
 
 #include <fmt/format.h>
 #include <slepcsys.h>
@@ -39,9 +41,18 @@ void use_one_thread() {
   omp_set_max_active_levels(0);
 }
 
+/// Open MPI ends the program in its own words where it cannot begin, OpenBLAS needs 128 MB for its first product.
+void require_addresses() {
+  constexpr std::size_t bytes = std::size_t{160} << 20U;
+  void* const tried = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (tried == MAP_FAILED) throw std::bad_alloc();
+  munmap(tried, bytes);
+}
+
 }  // namespace
 
 SolverSession::SolverSession() {
+  require_addresses();
   use_one_thread();
   unsetenv("PETSC_OPTIONS");
   std::array<std::string, 5> words{"reducer", "-skip_petscrc", "-no_signal_handler", "-options_left", "no"};
@@ -64,9 +75,8 @@ SolverSession::~SolverSession() {
 void petsc_check(int code) {
   if (code == 0) return;
   const std::string text = std::exchange(failure_text(), {});
-  throw Error(fmt::format("PETSc error {}: {}", code, text), "solver",
-              code == PETSC_ERR_MEM ? "the part is too large for this machine's memory: use fewer elements"
-                                    : "please report this with the part file");
+  if (code == PETSC_ERR_MEM || text.find("PetscMalloc") != std::string::npos) throw std::bad_alloc();
+  throw Error(fmt::format("PETSc error {}: {}", code, text), "solver", "please report this with the part file");
 }
 
 Matrix::~Matrix() {

@@ -41,6 +41,13 @@ TEST_F(Compatibility, CompanionFilesOfAllVersions) {
     EXPECT_THAT(run(version), AllOf(HasSubstr("its companion file has version " + version),
                                     HasSubstr("second order of rotary inertia"), HasSubstr("Reduce the part again")));
   EXPECT_THAT(run("1.2"), Not(HasSubstr("companion file has version")));
+  // The trial `stress_cantilever` without its companion file: one note.
+  fs::remove(folder.file("disc.companion.h5"));
+  const Outcome bare = call({program("mechanism"), "run", "disc.scene.yaml"}, where);
+  EXPECT_EQ(bare.code, 0) << bare.error;
+  const std::string note = "there is no companion file, so it is linear";
+  ASSERT_THAT(bare.out, HasSubstr(note));
+  EXPECT_EQ(bare.out.find(note), bare.out.rfind(note));
 }
 
 // Stress of a cantilever of radius r at its clamp: 4 F L/(π r³) = 63.66 MPa. Recovery files before version 1.3 lack the

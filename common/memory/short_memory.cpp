@@ -1,0 +1,88 @@
+// A reserve, and handlers of signals that look whether memory is left.
+#include "common/memory/short_memory.hpp"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <new>
+
+#include "common/temporaries.hpp"
+
+namespace tisserand {
+namespace {
+
+constexpr std::size_t reserve_bytes = std::size_t{8} << 20U;
+void* reserve = nullptr;
+const char* name_of_program = "";
+std::terminate_handler former_terminate = std::abort;
+
+/// Called by `operator new`, which then tries once more.
+void give_reserve_back() {
+  if (reserve == nullptr) throw std::bad_alloc();
+  std::free(reserve);
+  reserve = nullptr;
+}
+
+bool is_memory_left() {
+  constexpr std::size_t some = std::size_t{64} << 20U;  // libraries that they open, stacks of threads
+  void* const tried = ::mmap(nullptr, some, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (tried == MAP_FAILED) return false;
+  ::munmap(tried, some);
+  return true;
+}
+
+void put(const char* text) { [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, std::strlen(text)); }
+
+[[noreturn]] void end_without_memory() {
+  (void)remove_temporaries();
+  put(name_of_program);
+  put(": out of memory; raise the limit (`ulimit -v`), close other programs, or make the model smaller\n");
+  ::_exit(1);
+}
+
+void on_crash(int signal) {
+  if (!is_memory_left()) end_without_memory();
+  std::signal(signal, SIG_DFL);
+  (void)::raise(signal);
+}
+
+/// An exception where none may leave: in destructors of a library.
+void on_terminate() {
+  try {
+    if (std::current_exception()) throw;
+  } catch (const std::bad_alloc&) {
+    end_without_memory();
+  } catch (...) {
+    former_terminate();
+  }
+  former_terminate();
+}
+
+}  // namespace
+
+void report_short_memory(const char* program) {
+#if !defined(__SANITIZE_ADDRESS__)
+  name_of_program = program;
+  reserve = std::malloc(reserve_bytes);
+  std::set_new_handler(give_reserve_back);
+  former_terminate = std::set_terminate(on_terminate);
+  static std::array<char, std::size_t{64} << 10U> stack;  // of the handlers: the own one may be at its end
+  stack_t alternative{};
+  alternative.ss_sp = stack.data();
+  alternative.ss_size = stack.size();
+  ::sigaltstack(&alternative, nullptr);
+  struct sigaction action {};
+  action.sa_handler = on_crash;
+  action.sa_flags = SA_ONSTACK | SA_NODEFER;
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) ::sigaction(signal, &action, nullptr);
+#else
+  (void)program;
+#endif
+}
+
+}  // namespace tisserand

@@ -1,0 +1,54 @@
+// OpenBLAS asks for 128 MB of addresses at its first product, and again and again for ever where it gets none. Its
+// calls of mmap come here, since the program stands before the C library in the search for names.
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <string_view>
+
+#include "common/temporaries.hpp"
+
+#if defined(__SANITIZE_ADDRESS__)
+#define TISSERAND_OWN_MMAP 0
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define TISSERAND_OWN_MMAP 0
+#endif
+#endif
+#ifndef TISSERAND_OWN_MMAP
+#define TISSERAND_OWN_MMAP 1
+#endif
+
+#if TISSERAND_OWN_MMAP
+
+namespace {
+
+/// Who asks so often in a row takes no refusal for an answer; others give up at the first.
+constexpr int most_refusals = 1000;
+std::atomic<int> refusals{0};
+
+/// Without memory of its own.
+[[noreturn]] void end_without_memory() {
+  constexpr std::string_view text =
+      "reducer: out of memory: the linear algebra needs 128 MB more for each thread; raise the limit (`ulimit -v`), or "
+      "close other programs\n";
+  (void)tisserand::remove_temporaries();
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+  ::_exit(1);
+}
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) void* mmap(void* address, size_t length, int protection, int flags,
+                                                             int file, off_t offset) noexcept {
+  const long result = ::syscall(SYS_mmap, address, length, protection, flags, file, offset);
+  if (result != -1)
+    refusals = 0;
+  else if (errno == ENOMEM && ++refusals >= most_refusals)
+    end_without_memory();
+  return reinterpret_cast<void*>(result);
+}
+
+#endif
