@@ -28,13 +28,14 @@ void give_reserve_back() {
   reserve = nullptr;
 }
 
-bool is_memory_left() {
-  constexpr std::size_t some = std::size_t{64} << 20U;  // libraries that they open, stacks of threads
-  void* const tried = ::mmap(nullptr, some, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+bool are_left(std::size_t bytes) {
+  void* const tried = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (tried == MAP_FAILED) return false;
-  ::munmap(tried, some);
+  ::munmap(tried, bytes);
   return true;
 }
+
+bool is_memory_left() { return are_left(std::size_t{64} << 20U); }  // libraries that they open, stacks of threads
 
 void put(const char* text) { [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, std::strlen(text)); }
 
@@ -64,6 +65,10 @@ void on_terminate() {
 }
 
 }  // namespace
+
+void require_memory(std::size_t bytes) {
+  while (!are_left(bytes)) give_reserve_back();
+}
 
 void report_short_memory(const char* program) {
 #if !defined(__SANITIZE_ADDRESS__)

@@ -2,7 +2,6 @@
 #include "reducer/algebra/petsc.hpp"
 
 #include <dlfcn.h>
-#include <sys/mman.h>
 
 #include <array>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 #include <slepcsys.h>
 
 #include "common/error.hpp"
+#include "common/memory/short_memory.hpp"
 #include "reducer/algebra/ranks.hpp"
 
 /// Of OpenMP. GCC's omp.h, where it stands, does not compile with clang.
@@ -41,18 +41,11 @@ void use_one_thread() {
   omp_set_max_active_levels(0);
 }
 
-/// Open MPI ends the program in its own words where it cannot begin, OpenBLAS needs 128 MB for its first product.
-void require_addresses() {
-  constexpr std::size_t bytes = std::size_t{160} << 20U;
-  void* const tried = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (tried == MAP_FAILED) throw std::bad_alloc();
-  munmap(tried, bytes);
-}
-
 }  // namespace
 
 SolverSession::SolverSession() {
-  require_addresses();
+  // Open MPI ends the program in its own words where it cannot begin, OpenBLAS needs 128 MB for its first product.
+  require_memory(std::size_t{160} << 20U);
   use_one_thread();
   unsetenv("PETSC_OPTIONS");
   std::array<std::string, 5> words{"reducer", "-skip_petscrc", "-no_signal_handler", "-options_left", "no"};

@@ -66,7 +66,8 @@ GeometryRequest geometry_request(const ImportRequest& request) {
   const double brief = 5.0 + size / 1e5, ample = 600.0 + size / 2e5;
   result.reading_seconds = given.time > 0.0 ? given.time : is_cad(result.kind) ? brief : ample;
   result.seconds = given.time > 0.0 ? given.time : is_coarse(result) ? 2.0 * brief : ample;
-  result.wall_seconds = std::max(4.0 * result.seconds, 60.0);  // other work may have most of the processor
+  result.wall_seconds = 4.0 * result.seconds;  // other work may have most of the processor
+  if (!(given.time > 0.0)) result.wall_seconds = std::max(result.wall_seconds, 60.0);
   result.idle_seconds = 20.0;
   return result;
 }
