@@ -343,6 +343,15 @@ test("the viewer", async (suite) => {
     await quiet(page);
   });
 
+  await suite.test("shows the user's channels first", async () => {
+    const page = await open("beam", { change: ({ runs: [run] }) => {
+      run.references = [];
+      run.channels.push({ ...run.channels[0], path: "channels/value/reach", group: "channels" });
+    } });
+    assert.deepEqual((await state(page)).panels[0].paths, ["channels/value/reach"]);
+    await quiet(page);
+  });
+
   await suite.test("has the poles of modes that do not vibrate", async () => {
     const page = await open("modes", { change: (header) => Object.assign(header.runs[0].modes[1], { frequency: 0.162472, damping: 1 }) });
     assert.match(await page.evaluate("document.querySelector('.modes').textContent"), /pole \[1\/s\]/);
