@@ -299,7 +299,7 @@ void add_picture(CLI::App& app, PictureArguments& arguments) {
   CLI::App* command = app.add_subcommand("picture", first_line(about_picture));
   add_series_arguments(*command, arguments.runs);
   add_page_options(*command, request.page);
-  command->add_option("-o,--output", request.output, "picture, .png; default: <results>.png in this folder");
+  command->add_option("-o,--output", request.output, "picture, .png; default: arm.png of arm.results.h5, here");
   CLI::Option* time = command->add_option("--time,-t", request.times, "instant; several: states from left to right");
   time->allow_extra_args(false);
   command->add_option("--mode", request.mode, "this mode of a `modes` analysis, from 1, in place of instants")
@@ -448,7 +448,7 @@ int command_line(int argc, char** argv) {
   CLI::App* view_command = app.add_subcommand("view", first_line(about_view));
   add_series_arguments(*view_command, view_arguments);
   CLI::Option* page = view_command->add_option("-o,--output", view_request.output,
-                                               "page, .html; default: <results>.html in this folder");
+                                               "page, .html; default: arm.html of arm.results.h5, here");
   view_command->add_option("--paraview", paraview, "folder for files of ParaView (.pvd, .vtu) instead of a page")
       ->excludes(page);
   add_page_options(*view_command, view_request);

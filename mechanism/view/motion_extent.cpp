@@ -38,13 +38,15 @@ MotionExtent::MotionExtent(const ViewedRun& run)
   };
   for (const Track& node : run.nodes) add_points(node);
   for (const ViewedBody& body : run.bodies) add_points(body.frame);
-  for (const formats::SimulatedLink& link : run.layout().simulated.links)
-    for (const formats::SimulatedMarker& end : link.ends) {
-      if (end.node != formats::SimulatedMarker::ground || link.kind == "tyre" || link.kind.starts_with("load/"))
-        continue;
-      for (AlignedBox3d& box : at_) box.extend(end.position);
-      box_.extend(end.position);
+  for (const formats::SimulatedLink& link : run.layout().simulated.links) {
+    if (link.kind == "tyre" || link.kind.starts_with("load/")) continue;
+    const std::size_t drawn = link.kind.starts_with("joint/") ? 1 : 2;  // a joint is drawn at its first marker
+    for (std::size_t k = 0; k < drawn; ++k) {
+      if (link.ends[k].node != formats::SimulatedMarker::ground) continue;
+      for (AlignedBox3d& box : at_) box.extend(link.ends[k].position);
+      box_.extend(link.ends[k].position);
     }
+  }
 }
 
 void MotionExtent::add(const formats::Surface& surface, const Track& frame) {

@@ -22,6 +22,7 @@ using formats::Surface;
 constexpr double half_width = 0.3, rim = 0.6, margin = 4.0, spacing = 0.15;
 constexpr int most_along = 4000, most_tracks = 40;
 constexpr int spokes = 40;
+constexpr double larger = 1.004;
 
 Track wheel_of(const ViewedRun& run, const SimulatedLink& tyre) {
   const formats::SimulatedMarker& wheel = tyre.ends[0];
@@ -29,11 +30,11 @@ Track wheel_of(const ViewedRun& run, const SimulatedLink& tyre) {
   return carried(run.nodes[wheel.node], wheel.position, wheel.orientation);
 }
 
-/// A ring about y: outer face, inner face and both sides. Its sides touch the circle from outside, so that a wheel of the
-/// same radius is inside.
+/// A ring about y: outer face, inner face and both sides. It lies a little outside of the circle, so that a wheel that is
+/// drawn with the same radius is inside.
 Surface ring(double radius) {
   Surface surface;
-  const double outer = radius / std::cos(std::numbers::pi / spokes);
+  const double outer = larger * radius / std::cos(std::numbers::pi / spokes);
   const double r[] = {outer, outer, rim * radius, rim * radius},
                y[] = {-half_width * radius, half_width * radius, half_width * radius, -half_width * radius};
   for (int i = 0; i < spokes; ++i)

@@ -71,9 +71,8 @@ std::string told(const Json& header) {
                       run["channels_left_out"]["why"].get<std::string>());
     std::vector<std::string> bare;
     for (const Json& body : run["bodies"])
-      if (const std::string kind = body["kind"]; kind == "superelement" || kind == "modal")
-        if (run["shapes"][body["shape"].get<std::size_t>()]["source"] == "nodes")
-          bare.push_back("'" + printable_line(body["name"].get<std::string>(), 100) + "'");
+      if (body["kind"] == "superelement" && run["shapes"][body["shape"].get<std::size_t>()]["source"] == "nodes")
+        bare.push_back("'" + printable_line(body["name"].get<std::string>(), 100) + "'");
     if (!bare.empty())
       text += fmt::format("{}: shown by nodes and straight lines: {}; `recovery: yes` in the part shows the surface\n",
                           name, listed(bare));

@@ -287,6 +287,7 @@ test("the viewer", async (suite) => {
       assert.deepEqual(cut, [], `cut off at ${width} pixels`);
       const bar = await page.evaluate("(({ bottom }) => bottom)(document.querySelector('.transport').getBoundingClientRect())");
       assert.ok(bar <= height + 0.5, `the bar of time ends at ${bar} of ${height}`);
+      assert.equal(await page.evaluate("(({ scrollWidth, clientWidth }) => scrollWidth <= clientWidth)(document.querySelector('.time'))"), true, "the time is whole");
       await quiet(page);
     }
   });
@@ -322,6 +323,13 @@ test("the viewer", async (suite) => {
     assert.equal(now.title, "von Mises stress [MPa]");
     near([now.range[1]], [1e-6 * legend.range[1]], 1e-9 * legend.range[1], "MPa");
     await quiet(page);
+    // kg, mm, s: a unit of stress is a kPa, and MPa are shown.
+    const small = await open("beam", { change: (header) => Object.assign(header.runs[0], { pascal: 1000, units: { ...header.runs[0].units, length: "mm", stress: "kg mm^-1 s^-2" } }) });
+    for (let i = 0; i < 3; ++i) await small.key("c");
+    const millimetres = (await state(small)).legend;
+    assert.equal(millimetres.title, "von Mises stress [MPa]");
+    near([millimetres.range[1]], [1e-3 * legend.range[1]], 1e-9 * legend.range[1], "kPa to MPa");
+    await quiet(small);
   });
 
   await suite.test("makes deformation visible where nothing else moves", async () => {
@@ -332,6 +340,15 @@ test("the viewer", async (suite) => {
     assert.match(settings.exaggeration.toExponential(), /^[125]e/);
     assert.match(await page.evaluate("document.querySelector('.grid-step').textContent"), /deformation × /);
     assert.deepEqual(panels[0].paths, ["nodes/position/beam/tip/x"], "only what moves");
+    await quiet(page);
+  });
+
+  await suite.test("shows the user's channels first", async () => {
+    const page = await open("beam", { change: ({ runs: [run] }) => {
+      run.references = [];
+      run.channels.push({ ...run.channels[0], path: "channels/value/reach", group: "channels" });
+    } });
+    assert.deepEqual((await state(page)).panels[0].paths, ["channels/value/reach"]);
     await quiet(page);
   });
 

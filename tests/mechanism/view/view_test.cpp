@@ -215,8 +215,8 @@ TEST_F(Page, ShowsLoadsTyresAndTheirRoad) {
     const Eigen::Matrix3Xd ring = read.vertices(one, named(one["bodies"], "front"), t);
     double radius = 0.0;
     for (Index v = 0; v < ring.cols(); ++v) radius = std::max(radius, (ring.col(v) - position(t)).norm());
-    // Its 40 sides touch the circle of 0.3 m from outside; half a width of 0.3 times the radius.
-    EXPECT_NEAR(radius, 0.3 * std::hypot(1.0 / std::cos(EIGEN_PI / 40.0), 0.3), 1e-4);
+    // Its 40 sides touch a circle of 1.004 times 0.3 m from outside; half a width of 0.3 times the radius.
+    EXPECT_NEAR(radius, 0.3 * std::hypot(1.004 / std::cos(EIGEN_PI / 40.0), 0.3), 1e-4);
     EXPECT_LT((ring.rowwise().mean() - position(t)).norm(), 1e-4);
   }
   // The road is drawn as far as the wheel goes and a little more, with its bump of 0.05 m at x = 2 m.

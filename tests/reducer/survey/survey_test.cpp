@@ -116,6 +116,12 @@ TEST(Survey, BSplinesAreWhatTheyDraw) {
   EXPECT_FALSE(survey.faces[0].facts.is_outward) << "a face alone bounds no volume";
 }
 
+// OpenCASCADE gives shapes without a name that of its translator.
+TEST(Survey, NamesOfTheProgramThatWroteAFileAreNoLabels) {
+  const reducer::Survey survey = reducer::survey(reducer::part_of_file(sources + "square.step"));
+  EXPECT_THAT(survey.text, AllOf(HasSubstr("face 1"), Not(HasSubstr("translator"))));
+}
+
 // A hole of two halves is one cylinder as a group.
 TEST(Survey, GroupsOfFacesHaveOneForm) {
   const reducer::Survey survey = survey_of(

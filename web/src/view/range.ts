@@ -70,15 +70,16 @@ export function largestValue(run: Run, what: Colouring, states: (() => void)[], 
       if (value > found.value) Object.assign(found, { value, b, v, state });
     }
   };
-  const all = sample.map(({ b }) => ({ b, list: listOf(b, 1) }));
   states.forEach((move, state) => {
     move();
     for (const part of sample) search(state, part);
   });
   if (found.b < 0) return { value: 0, body: "", place: [0, 0, 0], time: null };
   // All vertices of that body at that instant: the sample may have missed a neighbour.
+  run.at(run.times[0]!, run.motion);
+  const whole = { b: found.b, list: listOf(found.b, 1) };
   states[found.state]!();
-  search(found.state, all.find(({ b }) => b === found.b)!);
+  search(found.state, whole);
   return { value: found.value, body: run.bodies[found.b]!.name, place: vertexPlace(run, found.b, found.v), time: timed ? run.time : null };
 }
 
