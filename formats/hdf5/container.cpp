@@ -157,8 +157,18 @@ herr_t find_errno(unsigned, const H5E_error2_t* entry, void* number) {
   return 0;
 }
 
-/// The problem of the HDF5 call that just failed.
+/// The number of the system's error behind the HDF5 call that just failed, or 0. HDF5 may lack memory for its own report.
+int number_of_last_error() {
+  const int last = errno;
+  int number = 0;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_errno, &number);
+  return number == 0 && last == ENOMEM ? last : number;
+}
+
+/// The problem of the HDF5 call that just failed. Sizes of a damaged file can ask for any memory.
 Problem last_problem(const std::string& action, const std::string& remedy) {
+  if (number_of_last_error() == ENOMEM)
+    return {action + ": no memory for it", remedy + "; where memory is short, raise the limit (`ulimit -v`)"};
   const Error error = last_error(action, "", remedy);
   return {error.message(), error.remedy()};
 }
@@ -237,8 +247,7 @@ void silence() {
 }
 
 Error last_error(const std::string& action, const std::string& where, const std::string& remedy) {
-  int number = 0;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_errno, &number);
+  const int number = number_of_last_error();
   if (number != 0) return Error(action + ": " + std::strerror(number), where, remedy_of_errno(number));
   return Error(action, where, remedy);
 }

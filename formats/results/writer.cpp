@@ -307,7 +307,7 @@ std::string ResultsWriter::Impl::write_end_apart(int completed, const std::strin
     try {
       write_end(copy, completed, reason, report_json);
       return copy;
-    } catch (const Error&) {
+    } catch (const std::exception&) {
       // Met again below, and reported, if it is not a matter of the copy.
     }
   }
@@ -459,6 +459,7 @@ void ResultsWriter::set_modes(ModesTable modes) { impl_->modes = std::move(modes
 
 void ResultsWriter::finish(bool completed, const std::string& reason, const std::string& report_json) {
   TISSERAND_ENSURE(!impl_->finished, "finish() twice of {}", impl_->path);
+  constexpr const char* without_memory = "out of memory at the end of the run";
   impl_->finished = true;
   if (impl_->path.empty()) return;
   std::string problem = impl_->shortage;
@@ -466,6 +467,8 @@ void ResultsWriter::finish(bool completed, const std::string& reason, const std:
     if (!impl_->broken) impl_->flush();
   } catch (const Error& error) {
     problem = error.what();
+  } catch (const std::bad_alloc&) {
+    problem = without_memory;
   }
   impl_->close();
   if (problem.empty() && impl_->broken)
@@ -476,6 +479,8 @@ void ResultsWriter::finish(bool completed, const std::string& reason, const std:
     if (!impl_->broken) last = impl_->write_end_apart(completed && problem.empty() ? 1 : 0, told, report_json);
   } catch (const Error& error) {
     if (problem.empty()) problem = error.what();
+  } catch (const std::bad_alloc&) {
+    if (problem.empty()) problem = without_memory;
   }
   impl_->rename_to_final(last);
   if (completed && !problem.empty()) throw Error(problem, "", "the results until then are in " + impl_->path);
