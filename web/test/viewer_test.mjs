@@ -386,6 +386,8 @@ test("the viewer", async (suite) => {
         assert.ok((high + 0.05) / (low + 0.05) >= 4.5, `${theme}, ${a} on ${b}: ${((high + 0.05) / (low + 0.05)).toFixed(2)} (WCAG AA asks 4.5)`);
       }
       await page.until("document.querySelector('.curve-legend .mark') !== null");
+      // Panels are built anew after the theme has changed.
+      await page.until(`(getComputedStyle(document.querySelector('.curve-legend .mark')).color === "rgb(0, 114, 178)") === ${theme === "light"}`, 30000);
       const line = await page.evaluate("getComputedStyle(document.querySelector('.curve-legend .mark')).color.match(/\\d+/g).slice(0, 3).map((c) => Number(c).toString(16).padStart(2, '0')).join('')");
       const [dim, bright] = [luminance(`#${line}`), luminance(colours.paper)].sort((x, y) => x - y);
       assert.ok((bright + 0.05) / (dim + 0.05) >= 4.5, `${theme}, first curve #${line}`);
