@@ -66,7 +66,7 @@ void on_terminate() {
 
 }  // namespace
 
-void require_memory(std::size_t bytes) {
+void require_addresses(std::size_t bytes) {
   while (!are_left(bytes)) give_reserve_back();
 }
 

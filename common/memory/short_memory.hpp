@@ -13,6 +13,6 @@ void report_short_memory(const char* program);
 
 /// Throws std::bad_alloc if `bytes` of addresses cannot be had, not even with that reserve: before a library begins that
 /// ends the program, or crashes, where it gets no memory.
-void require_memory(std::size_t bytes);
+void require_addresses(std::size_t bytes);
 
 }  // namespace tisserand

@@ -240,7 +240,7 @@ int Handle::reset() {
 }
 
 void silence() {
-  require_memory(std::size_t{4} << 20U);  // HDF5 crashes, or ends the program, where it cannot begin
+  require_addresses(std::size_t{4} << 20U);  // HDF5 crashes, or ends the program, where it cannot begin
   // HDF5's own closing at exit crashes on files whose last write failed; ours are closed by their owners.
   [[maybe_unused]] static const herr_t once = H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

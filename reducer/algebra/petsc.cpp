@@ -45,7 +45,7 @@ void use_one_thread() {
 
 SolverSession::SolverSession() {
   // Open MPI ends the program in its own words where it cannot begin, OpenBLAS needs 128 MB for its first product.
-  require_memory(std::size_t{160} << 20U);
+  require_addresses(std::size_t{160} << 20U);
   use_one_thread();
   unsetenv("PETSC_OPTIONS");
   std::array<std::string, 5> words{"reducer", "-skip_petscrc", "-no_signal_handler", "-options_left", "no"};
