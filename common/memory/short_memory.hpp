@@ -9,4 +9,7 @@ namespace tisserand {
 /// `program` must stay.
 void report_short_memory(const char* program);
 
+/// Whether the process may have 64 MB more of addresses.
+bool is_memory_left();
+
 }  // namespace tisserand

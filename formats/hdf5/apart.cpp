@@ -22,6 +22,7 @@
 
 #include "common/confined/call_filter.hpp"
 #include "common/console.hpp"
+#include "common/memory/short_memory.hpp"
 #include "common/text.hpp"
 #include "formats/hdf5/container.hpp"
 
@@ -271,7 +272,7 @@ void Apart::Impl::end() {
 
 void Apart::Impl::give_up() {
   end();
-  if (WIFEXITED(status) && WEXITSTATUS(status) == left_without_memory)
+  if ((WIFEXITED(status) && WEXITSTATUS(status) == left_without_memory) || !is_memory_left())
     throw Error("there is no memory to read it: it is damaged, or memory is short", path,
                 "close other programs, raise the limit (`ulimit -v`), or write the file again");
   throw Error("is an HDF5 file, but so damaged that HDF5 cannot read it", path, "write or copy the file again");
