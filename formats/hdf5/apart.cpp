@@ -104,8 +104,8 @@ bool close_door() {
   return filter.install();
 }
 
-/// Exit status of a child.
-constexpr int left_without_memory = 3;
+/// Exit status of a child, as of any program of ours (report_short_memory).
+constexpr int left_without_memory = 1;
 
 std::string pack_complaint(const Error& error) {
   Packer to;
@@ -157,7 +157,7 @@ struct Request {
 
 Request parse_request(std::string_view bytes) {
   std::size_t file = 0;
-  if (bytes.size() <= sizeof file) ::_exit(1);
+  if (bytes.size() <= sizeof file) ::_exit(2);
   std::memcpy(&file, bytes.data(), sizeof file);
   const char opens = bytes[sizeof file];
   const std::string_view question = bytes.substr(sizeof file + 1);
