@@ -29,10 +29,11 @@ std::string gnuplot_picture(const std::string& script, const std::string& where)
   request.input = script;
   request.most_text = std::size_t{1} << 28;
   ChildReport report = run_child(request);
-  if ((report.ending != ChildEnding::left || report.code != 0) && report.complaint.empty())
-    throw Error("gnuplot ended without a word, as where it gets no memory", where,
+  const bool failed = report.ending != ChildEnding::left || report.code != 0;
+  if (failed && (report.complaint.empty() || report.complaint.find("failed to map segment") != std::string::npos))
+    throw Error("gnuplot does not start, as where it gets no memory", where,
                 "close other programs, or raise the limit (`ulimit -v`)");
-  if (report.ending != ChildEnding::left || report.code != 0)
+  if (failed)
     throw Error("gnuplot failed: " + report.complaint, where, "try other ranges or channels");
   constexpr std::array<std::string_view, 3> ends{"IEND\xae\x42\x60\x82", "</svg>", "%%EOF"};
   const std::string_view tail =

@@ -13,12 +13,25 @@
 
 #include "common/temporaries.hpp"
 
+// The address sanitizer has handlers and an allocator of its own.
+#if defined(__SANITIZE_ADDRESS__)
+#define TISSERAND_OWN_HANDLERS 0
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define TISSERAND_OWN_HANDLERS 0
+#endif
+#endif
+#ifndef TISSERAND_OWN_HANDLERS
+#define TISSERAND_OWN_HANDLERS 1
+#endif
+
 namespace tisserand {
 namespace {
 
 constexpr std::size_t reserve_bytes = std::size_t{8} << 20U;
 void* reserve = nullptr;
 const char* name_of_program = "";
+pid_t own_process = 0;
 std::terminate_handler former_terminate = std::abort;
 
 /// Called by `operator new`, which then tries once more.
@@ -35,12 +48,10 @@ bool are_left(std::size_t bytes) {
   return true;
 }
 
-bool is_memory_left() { return are_left(std::size_t{64} << 20U); }  // libraries that they open, stacks of threads
-
 void put(const char* text) { [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, std::strlen(text)); }
 
 [[noreturn]] void end_without_memory() {
-  (void)remove_temporaries();
+  if (::getpid() == own_process) (void)remove_temporaries();  // not those of the parent of a child that reads
   put(name_of_program);
   put(": out of memory; raise the limit (`ulimit -v`), close other programs, or make the model smaller\n");
   ::_exit(1);
@@ -70,9 +81,12 @@ void require_addresses(std::size_t bytes) {
   while (!are_left(bytes)) give_reserve_back();
 }
 
+bool is_memory_left() { return are_left(std::size_t{64} << 20U); }  // libraries that they open, stacks of threads
+
 void report_short_memory(const char* program) {
-#if !defined(__SANITIZE_ADDRESS__)
+  if (!TISSERAND_OWN_HANDLERS) return;
   name_of_program = program;
+  own_process = ::getpid();
   reserve = std::malloc(reserve_bytes);
   std::set_new_handler(give_reserve_back);
   former_terminate = std::set_terminate(on_terminate);
@@ -85,9 +99,6 @@ void report_short_memory(const char* program) {
   action.sa_handler = on_crash;
   action.sa_flags = SA_ONSTACK | SA_NODEFER;
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT}) ::sigaction(signal, &action, nullptr);
-#else
-  (void)program;
-#endif
 }
 
 }  // namespace tisserand

@@ -15,4 +15,7 @@ void report_short_memory(const char* program);
 /// ends the program, or crashes, where it gets no memory.
 void require_addresses(std::size_t bytes);
 
+/// Whether the process may have 64 MB more of addresses.
+bool is_memory_left();
+
 }  // namespace tisserand

@@ -22,6 +22,7 @@
 
 #include "common/confined/call_filter.hpp"
 #include "common/console.hpp"
+#include "common/memory/short_memory.hpp"
 #include "common/text.hpp"
 #include "formats/hdf5/container.hpp"
 
@@ -103,8 +104,8 @@ bool close_door() {
   return filter.install();
 }
 
-/// Exit status of a child.
-constexpr int left_without_memory = 3;
+/// Exit status of a child, as of any program of ours (report_short_memory).
+constexpr int left_without_memory = 1;
 
 std::string pack_complaint(const Error& error) {
   Packer to;
@@ -156,7 +157,7 @@ struct Request {
 
 Request parse_request(std::string_view bytes) {
   std::size_t file = 0;
-  if (bytes.size() <= sizeof file) ::_exit(1);
+  if (bytes.size() <= sizeof file) ::_exit(2);
   std::memcpy(&file, bytes.data(), sizeof file);
   const char opens = bytes[sizeof file];
   const std::string_view question = bytes.substr(sizeof file + 1);
@@ -271,7 +272,7 @@ void Apart::Impl::end() {
 
 void Apart::Impl::give_up() {
   end();
-  if (WIFEXITED(status) && WEXITSTATUS(status) == left_without_memory)
+  if ((WIFEXITED(status) && WEXITSTATUS(status) == left_without_memory) || !is_memory_left())
     throw Error("there is no memory to read it: it is damaged, or memory is short", path,
                 "close other programs, raise the limit (`ulimit -v`), or write the file again");
   throw Error("is an HDF5 file, but so damaged that HDF5 cannot read it", path, "write or copy the file again");

@@ -36,6 +36,7 @@ Kind kind = Kind::none;
 long at = 0;
 bool for_good = false;
 bool only_new = false;
+pid_t process = 0;
 constexpr const char* first_process = "TISSERAND_SHORT_PROCESS";
 
 /// To what the program has.
@@ -54,7 +55,7 @@ bool fails(Kind of) {
   const long number = calls.fetch_add(1, std::memory_order_relaxed) + 1;
   if (at == 0 || number < at || (number > at && !for_good)) return false;
   if (kind == Kind::disk || !for_good) return true;
-  if (number == at) limit_addresses();
+  if (number == at && ::getpid() == process) limit_addresses();  // which children that it forks then have too
   return false;
 }
 
@@ -87,6 +88,7 @@ int counted_main(int argc, char** argv, char** environment) {
   if (number != nullptr) at = std::atol(number);
   for_good = length != nullptr && std::strcmp(length, "good") == 0;
   ::setenv(first_process, std::to_string(::getpid()).c_str(), 0);
+  process = ::getpid();
   counting = true;
   return program(argc, argv, environment);
 }
