@@ -63,6 +63,11 @@ void on_crash(int signal) {
   (void)::raise(signal);
 }
 
+/// Libraries in C that get no memory when they begin end the program without a word, by exit(-1).
+void on_end(int status, void* /*unused*/) {
+  if ((status & 0xff) == 0xff && !is_memory_left()) end_without_memory();
+}
+
 /// An exception where none may leave: in destructors of a library.
 void on_terminate() {
   try {
@@ -89,6 +94,7 @@ void report_short_memory(const char* program) {
   own_process = ::getpid();
   reserve = std::malloc(reserve_bytes);
   std::set_new_handler(give_reserve_back);
+  ::on_exit(on_end, nullptr);
   former_terminate = std::set_terminate(on_terminate);
   static std::array<char, std::size_t{64} << 10U> stack;  // of the handlers: the own one may be at its end
   stack_t alternative{};
