@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -49,6 +50,19 @@ std::string unknown_command(const std::string& word, const std::vector<std::stri
   const auto near = nearest(word, commands);
   return fmt::format("there is no command '{}'; {}", word.substr(0, 80),
                      near ? fmt::format("did you mean '{}'?", *near) : "the commands are " + join(commands, ", "));
+}
+
+std::optional<std::string> unknown_option(const std::vector<std::string>& words,
+                                          const std::vector<std::string>& options) {
+  for (const std::string& word : words) {
+    if (word == "--") return {};
+    const std::string name = word.substr(0, word.find('='));
+    if (!name.starts_with("--") || std::ranges::find(options, name) != options.end()) continue;
+    const auto near = nearest(name, options);
+    return fmt::format("there is no option '{}'; {}", name.substr(0, 80),
+                       near ? fmt::format("did you mean '{}'?", *near) : "the options are " + join(options, ", "));
+  }
+  return {};
 }
 
 }  // namespace tisserand

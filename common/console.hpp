@@ -1,6 +1,7 @@
 // Between the programs and the terminal: standard output that may be closed or full, and words that are no commands.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,9 @@ void complain(const std::string& program, const std::string& text);
 
 /// The message for `word` in the place of a command, with the nearest one or the list of all.
 std::string unknown_command(const std::string& word, const std::vector<std::string>& commands);
+
+/// The message for the first of the `words` that begins with "--" and is none of the options ("--set"), with the nearest
+/// one or the list of all; nothing: all are.
+std::optional<std::string> unknown_option(const std::vector<std::string>& words, const std::vector<std::string>& options);
 
 }  // namespace tisserand
