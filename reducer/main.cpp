@@ -256,16 +256,28 @@ void tell(const std::string& text) {
   if (!tisserand::reducer::is_follower()) tisserand::complain("reducer", text);
 }
 
+/// "--set", "--output", ... of a command.
+std::vector<std::string> options_of(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
 /// Prints what is wrong with the words of the command line.
-int tell_usage(const CLI::ParseError& error, const std::string& asked) {
+int tell_usage(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& words) {
+  const std::string asked = words.empty() ? "" : words.front();
   const std::vector<std::string> commands{"run",    "solve",   "show",    "mesh",   "view",
                                           "groups", "section", "recover", "import", "export"};
   const bool known = std::find(commands.begin(), commands.end(), asked) != commands.end();
   const bool is_word = !asked.empty() && asked[0] != '-';
-  tisserand::complain("reducer", fmt::format("{}\n`reducer {}--help` explains.",
-                                             is_word && !known ? tisserand::unknown_command(asked, commands)
-                                                               : std::string(error.what()),
-                                             known ? asked + " " : ""));
+  std::string what = error.what();
+  if (is_word && !known) what = tisserand::unknown_command(asked, commands);
+  if (known)
+    what = tisserand::unknown_option({words.begin() + 1, words.end()}, options_of(*app.get_subcommand(asked)))
+               .value_or(what);
+  tisserand::complain("reducer",
+                      fmt::format("{}\n`reducer {}--help` explains.", what, known ? asked + " " : ""));
   return 2;
 }
 
@@ -317,7 +329,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (tisserand::reducer::is_follower()) return 0;
-    return error.get_exit_code() == 0 ? app.exit(error) : tell_usage(error, asked);
+    return error.get_exit_code() == 0 ? app.exit(error) : tell_usage(app, error, {argv + 1, argv + argc});
   }
   arguments.command = run_command->parsed()    ? Command::run
                       : show_command->parsed() ? Command::show
