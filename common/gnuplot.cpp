@@ -13,10 +13,13 @@
 namespace tisserand {
 
 std::string gnuplot_quoted(const std::string& text) {
+  // gnuplot 5.4 takes '' for an apostrophe, but not at the beginning of a text, nor alone.
   std::string quoted = "'";
   for (const char c : printable_line(text, 1000)) {
-    quoted += c;
-    if (c == '\'') quoted += '\'';
+    if (c == '\'')
+      quoted += R"('."'".')";
+    else
+      quoted += c;
   }
   return quoted + "'";
 }

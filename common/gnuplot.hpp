@@ -5,7 +5,7 @@
 
 namespace tisserand {
 
-/// A gnuplot string in single quotes, in which nothing is expanded; control characters become visible.
+/// A gnuplot string in single quotes, in which nothing is expanded, joined with apostrophes; control characters become visible.
 std::string gnuplot_quoted(const std::string& text);
 
 /// The picture that gnuplot makes of `script`, whose terminal is pngcairo, svg or pdfcairo, with no output set: no name

@@ -14,6 +14,7 @@ Examples:
   mechanism run arm.scene.yaml --set integrator.step=0.005 --set bodies.arm.modes=2
   mechanism channels arm.results.h5                    what the file holds, with units
   mechanism plot arm.results.h5 -c nodes/position/arm/tip/z -o arm.png
+  mechanism plot arm.results.h5 -c nodes/position/arm/tip/z --reference fine.results.h5 -o arm.pdf
   mechanism view arm.results.h5 -o arm.html            a page with the motion, for any browser
   mechanism picture arm.results.h5 --time 1.2 -o a.png a still of it
   mechanism study arm.study.yaml --tolerance 1e-3      what accuracy costs, and the cheapest setting for it
@@ -83,12 +84,20 @@ inline constexpr const char* about_channels = R"help(Lists the channels of a res
   mechanism channels arm.results.h5 -c 'nodes/position/arm/*')help";
 
 inline constexpr const char* about_plot =
-    R"help(Draws channels of results files over one another, one panel per unit (png or svg, by gnuplot); modes as bars.
+    R"help(Draws channels of results files over one another, one panel per unit (by gnuplot); modes as bars.
 
   mechanism plot arm.results.h5 -c nodes/position/arm/tip/z -o tip.png
   mechanism plot coarse.results.h5 fine.results.h5 --label coarse --label fine -c energy/total -o energy.svg --range 0 2
   mechanism plot arm.results.h5 -c nodes/position/arm/tip/z --reference 'measured.csv:t:z:measured' -o tip.png
-  mechanism plot tones.results.h5 -c modes/frequency -c modes/damping_ratio -o tones.png)help";
+  mechanism plot arm.results.h5 -c nodes/position/arm/tip/z --reference fine.results.h5 -o tip.pdf
+  mechanism plot arm.results.h5 -c joints/coordinate -c forces --units deg,kN --size 160x100mm --font 9 -o drive.pdf
+  mechanism plot tones.results.h5 -c modes/frequency -c modes/damping_ratio -o tones.png
+
+A reference run is drawn beneath, wide and grey, channel by channel, and the difference from it in a panel of its own with its
+largest value and RMS; --difference does so for a CSV reference. Where instants differ, the history that has more of them is
+interpolated by cubics. --units takes units of any quantity that is drawn: mm, deg, MPa, kN, N mm, km/h, rpm, ms, %, or with its
+name (length=mm); --range and --y-range count in them. A .png with a size on paper has 300 pixels per inch. Lines are solid and
+bear some marks, each curve at places of its own, which tell them apart in print.)help";
 
 inline constexpr const char* about_view =
     R"help(Makes one page that shows a run: bodies in motion, curves, report. Any browser opens it, without a network.
@@ -121,8 +130,9 @@ inline constexpr const char* about_compare =
 
   mechanism compare arm.results.h5 -c nodes/position/arm/tip/z --reference reference.csv:t:z --from 1 --to 5
   mechanism compare arm.results.h5 -c nodes/position/rod/end/z --reference other.csv:1:3
+  mechanism compare coarse.results.h5 -c nodes/position --reference fine.results.h5
 
-The columns of a CSV file are named, or counted from 1.)help";
+The columns of a CSV file are named, or counted from 1. A reference run is compared channel by channel.)help";
 
 inline constexpr const char* about_study =
     R"help(Runs a scene with all combinations of settings and shows what accuracy costs in time.

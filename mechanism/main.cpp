@@ -24,8 +24,7 @@
 #include "formats/yaml/override.hpp"
 #include "mechanism/command_files.hpp"
 #include "mechanism/help.hpp"
-#include "mechanism/histories/plot.hpp"
-#include "mechanism/histories/tables.hpp"
+#include "mechanism/history_commands.hpp"
 #include "mechanism/ledger/perform.hpp"
 #include "mechanism/run/analyses.hpp"
 #include "mechanism/run/checkpoint.hpp"
@@ -39,6 +38,8 @@
 namespace {
 
 using namespace tisserand;
+using mechanism::first_line;
+using mechanism::SeriesArguments;
 using namespace tisserand::mechanism::help;
 
 // Exit codes: 0 done, 1 error, 2 usage, 3 did not converge, 130 interrupted.
@@ -94,6 +95,7 @@ mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunReq
   control.interrupted = [] { return interrupt_requested.load(std::memory_order_relaxed); };
   control.clock = wall_clock;
   control.progress = [&progress, start](double t) { progress.update(t - start, ""); };
+  control.announce = [](const std::string& text) { complain("mechanism", text); };
   mechanism::RunEnd end = request.scene.integrator.accuracy ? mechanism::simulate_to_accuracy(request, control)
                                                             : mechanism::simulate(request, control);
   if (end.report.outcome != mechanism::RunOutcome::interrupted) progress.finish();
@@ -200,39 +202,6 @@ void add_run_arguments(CLI::App& command, RunArguments& arguments) {
       ->allow_extra_args(false);
 }
 
-struct SeriesArguments {
-  mechanism::SeriesRequest request;
-  std::vector<std::string> references;
-};
-
-void add_series_arguments(CLI::App& command, SeriesArguments& arguments) {
-  command.add_option("results", arguments.request.files, "results files, also of interrupted runs");
-  command
-      .add_option("--channel,-c", arguments.request.channels,
-                  "channel, group or pattern, e.g. nodes/position/beam/tip/*")
-      ->allow_extra_args(false);
-  command.add_option("--label", arguments.request.labels, "label of each file, in order")->allow_extra_args(false);
-  command
-      .add_option("--reference", arguments.references,
-                  "history from a CSV file: file.csv:x column:y column[:label], columns by name or number")
-      ->allow_extra_args(false);
-}
-
-mechanism::SeriesRequest complete(SeriesArguments arguments) {
-  for (const std::string& text : arguments.references)
-    arguments.request.references.push_back(mechanism::parse_reference(text));
-  return arguments.request;
-}
-
-std::vector<std::string> drawn_files(const SeriesArguments& arguments) {
-  std::vector<std::string> files = arguments.request.files;
-  for (const std::string& text : arguments.references) files.push_back(mechanism::parse_reference(text).file);
-  return files;
-}
-
-/// The list of commands shows one line of each; its own help shows all.
-std::string first_line(const char* text) { return std::string(text).substr(0, std::string(text).find('\n')); }
-
 int study(const mechanism::StudyRequest& request) {
   listen_for_interrupts();
   say(mechanism::perform_study(request, {[] { return interrupt_requested.load(); }, wall_clock}));
@@ -297,9 +266,9 @@ struct PictureArguments {
 void add_picture(CLI::App& app, PictureArguments& arguments) {
   mechanism::PictureRequest& request = arguments.request;
   CLI::App* command = app.add_subcommand("picture", first_line(about_picture));
-  add_series_arguments(*command, arguments.runs);
+  mechanism::add_series_arguments(*command, arguments.runs);
   add_page_options(*command, request.page);
-  command->add_option("-o,--output", request.output, "picture, .png; default: arm.png of arm.results.h5, here");
+  command->add_option("-o,--output", request.output, "picture, .png; default: arm.png beside arm.results.h5");
   CLI::Option* time = command->add_option("--time,-t", request.times, "instant; several: states from left to right");
   time->allow_extra_args(false);
   command->add_option("--mode", request.mode, "this mode of a `modes` analysis, from 1, in place of instants")
@@ -329,9 +298,9 @@ void add_picture(CLI::App& app, PictureArguments& arguments) {
   command->add_flag_callback(
       "--bare", [&] { request.captions = mechanism::Captions::none; }, "without title and times");
   command->callback([&] {
-    request.page.shown = complete(arguments.runs);
+    request.page.shown = mechanism::complete_for_page(arguments.runs);
     if (request.output.empty()) request.output = mechanism::default_page(request.page.shown.files, ".png");
-    require_output(request.output, {".png"}, drawn_files(arguments.runs));
+    require_output(request.output, {".png"}, mechanism::drawn_files(arguments.runs));
     say_of(request.output, mechanism::picture(request));
   });
 }
@@ -371,7 +340,7 @@ int command_line(int argc, char** argv) {
   CLI::App* run_command = app.add_subcommand("run", first_line(about_run));
   add_run_arguments(*run_command, run_arguments);
   run_command->add_option("-o,--output", run_arguments.output,
-                          "results file; default: <scene>.results.h5 in this folder");
+                          "results file; default: <scene>.results.h5 beside the scene");
   run_command->add_option("--analysis", run_arguments.analysis,
                           "one of the scene's `analyses`, after those that it starts from; default: all, in order");
   run_command->add_option("--restart", run_arguments.restart,
@@ -397,80 +366,28 @@ int command_line(int argc, char** argv) {
   LedgerArguments ledger_arguments;
   add_ledger(app, ledger_arguments, code);
 
-  std::string export_file, export_output;
-  std::vector<std::string> export_channels;
-  CLI::App* export_command = app.add_subcommand("export", first_line(about_export));
-  export_command->add_option("results", export_file, "results file, also of an interrupted run")->required();
-  export_command->add_option("--channel,-c", export_channels, "channel, group or pattern; default: all")
-      ->allow_extra_args(false);
-  export_command->add_option("-o,--output", export_output, "CSV file; - is standard output")->required();
-  export_command->callback([&] {
-    require_output(export_output, {".csv"}, {export_file});
-    mechanism::export_table(export_file, export_channels, export_output);
-  });
-
-  std::string channels_file;
-  std::vector<std::string> channels_patterns;
-  CLI::App* channels_command = app.add_subcommand("channels", first_line(about_channels));
-  channels_command->add_option("results", channels_file, "results file, also of an interrupted run")->required();
-  channels_command->add_option("--channel,-c", channels_patterns, "group or pattern; default: all")
-      ->allow_extra_args(false);
-  channels_command->callback([&] { say(mechanism::channels_table(channels_file, channels_patterns)); });
-
-  SeriesArguments plot_arguments;
-  mechanism::PlotOptions plot_options;
-  std::vector<double> plot_range, plot_y_range;
-  CLI::App* plot_command = app.add_subcommand("plot", first_line(about_plot));
-  add_series_arguments(*plot_command, plot_arguments);
-  plot_command->add_option("-o,--output", plot_options.output, "picture, .png or .svg")->required();
-  plot_command->add_option("--title", plot_options.title, "title of the picture");
-  plot_command->add_option("--range", plot_range, "first and last abscissa")->expected(2);
-  plot_command->add_option("--y-range", plot_y_range, "lowest and highest ordinate")->expected(2);
-  plot_command->add_option("--x-label", plot_options.x_label, "default: name and unit of the abscissa");
-  plot_command->add_option("--y-label", plot_options.y_label, "default: quantity and unit of the channels");
-  plot_command->add_flag_callback(
-      "--log-x", [&] { plot_options.x_scale = mechanism::AxisScale::logarithmic; }, "logarithmic abscissa");
-  plot_command->add_flag_callback(
-      "--log-y", [&] { plot_options.y_scale = mechanism::AxisScale::logarithmic; }, "logarithmic ordinate");
-  plot_command->add_flag_callback(
-      "--points", [&] { plot_options.mark = mechanism::Mark::line_with_points; }, "mark the points");
-  plot_command->callback([&] {
-    if (plot_range.size() == 2) plot_options.x_range = {{plot_range[0], plot_range[1]}};
-    if (plot_y_range.size() == 2) plot_options.y_range = {{plot_y_range[0], plot_y_range[1]}};
-    require_output(plot_options.output, {".png", ".svg"}, drawn_files(plot_arguments));
-    mechanism::plot(mechanism::read_series(complete(plot_arguments)), plot_options);
-    say_of(plot_options.output, fmt::format("picture: {}\n", plot_options.output));
-  });
+  const mechanism::HistoryCommands histories(app);
 
   SeriesArguments view_arguments;
   mechanism::ViewRequest view_request;
   std::string paraview;
   CLI::App* view_command = app.add_subcommand("view", first_line(about_view));
-  add_series_arguments(*view_command, view_arguments);
+  mechanism::add_series_arguments(*view_command, view_arguments);
   CLI::Option* page = view_command->add_option("-o,--output", view_request.output,
-                                               "page, .html; default: arm.html of arm.results.h5, here");
+                                               "page, .html; default: arm.html beside arm.results.h5");
   view_command->add_option("--paraview", paraview, "folder for files of ParaView (.pvd, .vtu) instead of a page")
       ->excludes(page);
   add_page_options(*view_command, view_request);
   view_command->callback([&] {
-    view_request.shown = complete(view_arguments);
+    view_request.shown = mechanism::complete_for_page(view_arguments);
     if (view_request.output.empty()) view_request.output = mechanism::default_page(view_request.shown.files, ".html");
     if (!paraview.empty()) return say(mechanism::write_paraview(view_request, paraview));
-    require_output(view_request.output, {".html"}, drawn_files(view_arguments));
+    require_output(view_request.output, {".html"}, mechanism::drawn_files(view_arguments));
     say_of(view_request.output, mechanism::view(view_request));
   });
 
   PictureArguments picture_arguments;
   add_picture(app, picture_arguments);
-
-  SeriesArguments compare_arguments;
-  mechanism::TimeWindow window;
-  CLI::App* compare_command = app.add_subcommand("compare", first_line(about_compare));
-  add_series_arguments(*compare_command, compare_arguments);
-  compare_command->add_option("--from", window.from, "first instant compared [time of the run]; default: all");
-  compare_command->add_option("--to", window.to, "last instant compared; default: all");
-  compare_command->callback(
-      [&] { say(mechanism::deviations_table(mechanism::compare(complete(compare_arguments), window))); });
 
   describe(app,
            {{"run", about_run},

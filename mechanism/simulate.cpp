@@ -1,7 +1,6 @@
 // scene -> model -> start -> steps -> results, as a page of calls.
 #include "mechanism/simulate.hpp"
 
-#include <string>
 #include <utility>
 
 #include "formats/results/results.hpp"
@@ -73,6 +72,7 @@ RunReport inspect(const formats::Scene& scene, const RunControl& control) {
   Run run(scene, files, control);
   start(run);
   keep_chosen_places(run.scene, run.built.model);
+  note_large_output(run.scene, run.built.model, scene.integrator.start, run.report.notes);
   if (run.automatic) run.automatic->hold_stressed(run);
   return run.report;
 }

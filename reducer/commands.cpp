@@ -197,12 +197,12 @@ int run(const Arguments& arguments, std::optional<SolverSession>& session) {
   if (!part.supports.empty())
     say(fmt::format("{:<19}supports: they are for `reducer solve`; the superelement is that of the free part\n",
                     "not used"));
-  say(times_text(phases));
   say(fmt::format("{:<19}{}\n{:<19}{}\n", "written", output, "", certificate_path(output)));
   for (const auto& [path, recovery] : recoveries) say(fmt::format("{:<19}{}\n", "", path));
   if (reduction.companion) say(fmt::format("{:<19}{}\n", "", companion_text(*reduction.companion, companion)));
   if (reduction.modal_body) say(fmt::format("{:<19}{}\n", "", modal_body));
   say(cleared);
+  say(times_text(phases));
   return 0;
 }
 
@@ -220,8 +220,9 @@ int solve(const Arguments& arguments, std::optional<SolverSession>& session) {
   phases.begin("write");
   write_solution(solution, part, arguments.solve_request, stem);
   phases.end();
-  say(solution_text(solution, part) + "\n" + times_text(phases));
+  say(solution_text(solution, part) + "\n");
   for (const std::string& file : files) say(fmt::format("{:<19}{}\n", &file == &files.front() ? "written" : "", file));
+  say(times_text(phases));
   return 0;
 }
 

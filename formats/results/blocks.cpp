@@ -213,6 +213,17 @@ void add_loads(const ResultsLayout& layout, std::vector<Block>& blocks) {
   blocks.push_back(load);
 }
 
+void add_quantities(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  Block block{"/channels/value", {layout.quantities.size()}, {}, {}, "", [](const ResultsRow& r) {
+                return r.quantity.data();
+              }};
+  for (const ResultsLayout::Quantity& quantity : layout.quantities) {
+    block.columns.push_back(quantity.name);
+    block.units.push_back(quantity.unit);
+  }
+  blocks.push_back(std::move(block));
+}
+
 void add_tyres(const ResultsLayout& layout, std::vector<Block>& blocks) {
   using Row = const ResultsRow&;
   const Units& u = layout.units;
@@ -297,58 +308,6 @@ bool means_node(const std::string& entry, const std::string& node) {
 
 }  // namespace
 
-void ResultsRow::resize(const ResultsLayout& layout) {
-  const auto is_reaction = [](const Block& block) {
-    return block.dataset == "/joints/force" || block.dataset == "/joints/moment" || block.dataset == "/motions/force" ||
-           block.dataset == "/couplings/first_force" || block.dataset == "/couplings/second_force";
-  };
-  reactions = std::ranges::any_of(chosen_blocks(layout, layout.scene), is_reaction);
-  const auto nodes = static_cast<Eigen::Index>(layout.nodes.size());
-  const auto superelements = static_cast<Eigen::Index>(layout.superelements.size());
-  const auto joints = static_cast<Eigen::Index>(layout.joints.size());
-  const auto coordinates = static_cast<Eigen::Index>(layout.coordinates.size());
-  const auto last = [](const std::vector<int>& offset) { return offset.empty() ? 0 : offset.back(); };
-  for (Eigen::Matrix3Xd* block :
-       {&node_position, &node_velocity, &node_angular_velocity, &node_acceleration, &node_angular_acceleration})
-    block->setZero(3, nodes);
-  const Eigen::Vector4d no_rotation(1, 0, 0, 0);
-  node_rotation = no_rotation.replicate(1, nodes);
-  frame_position.setZero(3, superelements);
-  frame_rotation = no_rotation.replicate(1, superelements);
-  y.setZero(last(layout.modes_offset));
-  y_rate.setZero(last(layout.modes_offset));
-  y_strain.setZero(layout.strained ? last(layout.modes_offset) : 0);
-  for (Eigen::Matrix3Xd* block : {&frame_acceleration, &frame_angular_velocity, &frame_angular_acceleration})
-    block->setZero(3, superelements);
-  load_factor.setZero(static_cast<Eigen::Index>(layout.load_cases.size()));
-  boundary_force.setZero(6, last(layout.boundary_offset));
-  for (Eigen::Matrix3Xd* block : {&modal.acceleration, &modal.angular_velocity, &modal.angular_acceleration})
-    block->setZero(3, static_cast<Eigen::Index>(layout.modal_bodies.size()));
-  modal.node_force.setZero(6, static_cast<Eigen::Index>(layout.modal_nodes.size()));
-  w.setZero(last(layout.modal_offset));
-  w_rate.setZero(last(layout.modal_offset));
-  joint_force.setZero(3, joints);
-  joint_moment.setZero(3, joints);
-  joint_coordinate.setZero(coordinates);
-  joint_rate.setZero(coordinates);
-  for (Eigen::VectorXd* block : {&coupling_first_force, &coupling_second_force})
-    block->setZero(static_cast<Eigen::Index>(layout.couplings.size()));
-  motion_force.setZero(static_cast<Eigen::Index>(layout.motions.size()));
-  spring_force.setZero(static_cast<Eigen::Index>(layout.springs.size()));
-  stop_force.setZero(static_cast<Eigen::Index>(layout.stops.size()));
-  for (Eigen::Matrix3Xd* block : {&bushing_force, &bushing_moment})
-    block->setZero(3, static_cast<Eigen::Index>(layout.bushings.size()));
-  for (Eigen::Matrix3Xd* block : {&friction_force, &friction_moment})
-    block->setZero(3, static_cast<Eigen::Index>(layout.frictions.size()));
-  const auto tyres = static_cast<Eigen::Index>(layout.tyres.size());
-  for (Eigen::Matrix3Xd* block : {&tyre_force, &tyre_moment, &tyre_contact, &tyre_normal}) block->setZero(3, tyres);
-  for (Eigen::VectorXd* block :
-       {&tyre_slip, &tyre_slip_angle, &tyre_camber, &tyre_penetration, &tyre_rolling_radius, &tyre_adhesion})
-    block->setZero(tyres);
-  for (Eigen::Matrix2Xd* block : {&tyre_deflection, &tyre_deflection_rate}) block->setZero(2, tyres);
-  load.setZero(3, static_cast<Eigen::Index>(layout.loads.size()));
-}
-
 std::vector<Block> all_blocks(const ResultsLayout& layout) {
   std::vector<Block> blocks{
       scalar("/time", unit_label(layout.units, 0, 0, 1), [](const ResultsRow& r) { return &r.time; })};
@@ -360,6 +319,7 @@ std::vector<Block> all_blocks(const ResultsLayout& layout) {
   add_forces(layout, blocks);
   add_tyres(layout, blocks);
   add_loads(layout, blocks);
+  add_quantities(layout, blocks);
   add_scalars(layout, blocks);
   std::erase_if(blocks, [](const Block& block) { return block.width() == 0; });
   return blocks;
@@ -443,6 +403,7 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
   full.switched = true;
   full.coordinates = full.motions = full.springs = full.stops = full.loads = {{"a", false}};
   full.couplings = {{"a", false, false}};
+  full.quantities = {{"a", ""}};
   full.modes_offset = full.boundary_offset = full.modal_offset = full.load_case_offset = full.modal_node_offset = {0, 1};
   full.load_cases = full.modal_nodes = {"a"};
   for (const Block& block : all_blocks(full)) {

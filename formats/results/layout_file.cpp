@@ -61,6 +61,15 @@ void write_names(hdf5::Id file, const ResultsLayout& layout, const std::vector<B
   if (stores("/forces/spring")) coordinates("/forces/spring_", layout.springs);
   if (stores("/forces/stop")) coordinates("/forces/stop_", layout.stops);
   if (stores("/forces/load")) coordinates("/forces/load_", layout.loads);
+  if (stores("/channels/")) {
+    std::vector<std::string> names, units;
+    for (const ResultsLayout::Quantity& quantity : layout.quantities) {
+      names.push_back(quantity.name);
+      units.push_back(quantity.unit);
+    }
+    hdf5::write_texts(file, "/channels/name", names, where);
+    hdf5::write_texts(file, "/channels/unit", units, where);
+  }
   const auto list = [&](const std::string& before, const std::vector<std::string>& names) {
     if (stores(before)) hdf5::write_texts(file, before + "name", names, where);
   };

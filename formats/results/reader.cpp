@@ -5,7 +5,9 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
@@ -88,6 +90,16 @@ std::vector<ResultsLayout::Coupling> read_couplings(const hdf5::InputFile& file)
   return list;
 }
 
+/// Channels of the scene, each with its unit.
+std::vector<ResultsLayout::Quantity> read_quantities(const hdf5::InputFile& file) {
+  const std::vector<std::string> words = names(file, "/channels/name");
+  std::vector<std::string> units = names(file, "/channels/unit");
+  units.resize(words.size());
+  std::vector<ResultsLayout::Quantity> list;
+  for (std::size_t i = 0; i < words.size(); ++i) list.push_back({words[i], units[i]});
+  return list;
+}
+
 /// Other names of nodes, each with the index of its node.
 std::vector<ResultsLayout::Alias> read_aliases(const hdf5::InputFile& file, std::size_t nodes) {
   const std::vector<std::string> words = names(file, "/nodes/alias");
@@ -123,6 +135,7 @@ ResultsLayout read_layout(const hdf5::InputFile& file) {
   l.treads = file.has("/tyres/deflection");
   l.switched = file.has("/energy/switched");
   l.loads = read_coordinates(file, "/forces/load_");
+  l.quantities = read_quantities(file);
   // Version 1.0 had one angle per joint, not-a-number where the joint has none.
   if (l.coordinates.empty() && file.text_attribute("/", "version") == "1.0")
     for (const std::string& joint : l.joints) l.coordinates.push_back({joint, false});
@@ -203,7 +216,8 @@ struct ResultsReader::Impl {
   std::uint64_t rows = 0;
   std::uint64_t modes = 0;
   std::vector<Channel> channels;
-  std::unordered_map<std::string, Place> place;
+  std::vector<Place> places;                                        ///< of the channels
+  mutable std::unordered_map<std::string_view, std::size_t> index;  ///< of the channels; made where one is asked for
 
   const Place& find(const std::string& channel) const;
   bool is_of_modes(std::size_t block) const { return block >= blocks_of_time; }
@@ -233,13 +247,18 @@ ResultsReader::Impl::Impl(const std::string& path) : file(existing_results(path)
     blocks.push_back(std::move(block));
   }
   if (blocks.size() == blocks_of_time) modes = 0;
+  std::size_t columns = 0;
+  for (const Block& block : blocks) columns += block.width();
+  channels.reserve(columns);
+  places.reserve(columns);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     if (b == blocks_of_time) add_aliases();
+    const std::string dataset = blocks[b].dataset.substr(1);
     for (std::size_t c = 0; c < blocks[b].width(); ++c) {
       const std::string& column = blocks[b].columns[c];
-      const std::string name = blocks[b].dataset.substr(1) + (column.empty() ? "" : "/" + column);
-      place.emplace(name, Place{b, c});
-      channels.push_back({name, blocks[b].units[c], is_of_modes(b) ? Rows::modes : Rows::instants, ""});
+      channels.push_back({column.empty() ? dataset : dataset + "/" + column, blocks[b].units[c],
+                          is_of_modes(b) ? Rows::modes : Rows::instants, ""});
+      places.push_back({b, c});
     }
   }
   if (modes == 0) add_aliases();
@@ -259,24 +278,32 @@ void ResultsReader::Impl::check_times() const {
 
 /// "nodes/position/rod/end/x" beside "nodes/position/rod/10/x".
 void ResultsReader::Impl::add_aliases() {
+  std::unordered_set<std::string_view> taken(layout.nodes.begin(), layout.nodes.end());
+  std::vector<const ResultsLayout::Alias*> aliases;
+  for (const ResultsLayout::Alias& alias : layout.node_aliases)
+    if (taken.insert(alias.name).second) aliases.push_back(&alias);
   for (std::size_t b = 0; b < blocks_of_time; ++b) {
     const Block& block = blocks[b];
     if (!block.dataset.starts_with("/nodes/")) continue;
     const std::size_t width = block.width() / layout.nodes.size();
-    for (const ResultsLayout::Alias& alias : layout.node_aliases)
+    for (const ResultsLayout::Alias* alias : aliases)
       for (std::size_t k = 0; k < width; ++k) {
-        const std::size_t column = static_cast<std::size_t>(alias.node) * width + k;
+        const std::size_t column = static_cast<std::size_t>(alias->node) * width + k;
         const std::string same = block.dataset.substr(1) + "/" + block.columns[column];
-        const std::string name = block.dataset.substr(1) + "/" + alias.name + same.substr(same.rfind('/'));
-        if (place.emplace(name, Place{b, column}).second)
-          channels.push_back({name, block.units[column], Rows::instants, same});
+        const std::string name = block.dataset.substr(1) + "/" + alias->name + same.substr(same.rfind('/'));
+        channels.push_back({name, block.units[column], Rows::instants, same});
+        places.push_back({b, column});
       }
   }
 }
 
 const ResultsReader::Impl::Place& ResultsReader::Impl::find(const std::string& channel) const {
-  const auto found = place.find(channel);
-  if (found != place.end()) return found->second;
+  if (!channels.empty() && channel == channels.front().name) return places.front();  // time
+  if (index.empty()) {
+    index.reserve(channels.size());
+    for (std::size_t i = 0; i < channels.size(); ++i) index.emplace(channels[i].name, i);
+  }
+  if (const auto found = index.find(channel); found != index.end()) return places[found->second];
   std::vector<std::string> known;
   for (const Channel& c : channels) known.push_back(c.name);
   const std::optional<std::string> near = nearest(channel, known);
@@ -311,7 +338,7 @@ std::string ResultsReader::run() const {
 std::size_t ResultsReader::rows() const { return impl_->rows; }
 std::size_t ResultsReader::modes() const { return impl_->modes; }
 std::vector<double> ResultsReader::time() const { return read("time"); }
-std::vector<Channel> ResultsReader::channels() const { return impl_->channels; }
+const std::vector<Channel>& ResultsReader::channels() const { return impl_->channels; }
 
 std::vector<double> ResultsReader::read(const std::string& channel) const {
   const Impl::Place& place = impl_->find(channel);
@@ -376,19 +403,20 @@ std::vector<Channel> select_channels(const std::vector<Channel>& channels, const
                                      const std::string& where) {
   if (selection.empty()) return channels;
   std::vector<bool> chosen(channels.size(), false);
-  std::vector<std::string> known;
-  for (const Channel& channel : channels) known.push_back(channel.name);
   for (const std::string& entry : selection) {
-    const std::string wanted = entry.starts_with("/") ? entry.substr(1) : entry;
-    const auto is_meant = [&wanted](const std::string& name) {
-      return name == wanted || name.starts_with(wanted + "/") || matches_wildcard(name, wanted);
+    const std::string wanted = entry.starts_with("/") ? entry.substr(1) : entry, group = wanted + "/";
+    const bool is_pattern = wanted.find('*') != std::string::npos;
+    const auto is_meant = [&](const std::string& name) {
+      return name == wanted || name.starts_with(group) || (is_pattern && matches_wildcard(name, wanted));
     };
     bool found = false;
-    for (std::size_t i = 0; i < known.size(); ++i) {
-      if (!is_meant(known[i]) || (!channels[i].same_as.empty() && is_meant(channels[i].same_as))) continue;
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      if (!is_meant(channels[i].name) || (!channels[i].same_as.empty() && is_meant(channels[i].same_as))) continue;
       chosen[i] = found = true;
     }
     if (found) continue;
+    std::vector<std::string> known;
+    for (const Channel& channel : channels) known.push_back(channel.name);
     const std::optional<std::string> near = nearest(wanted, with_groups(known));
     throw Error(fmt::format("has no channel '{}'", entry.substr(0, 200)), where,
                 near ? fmt::format("did you mean '{}'?", *near) : "`mechanism channels` lists all names");

@@ -55,6 +55,11 @@ struct ResultsLayout {
   bool strained = false;              ///< some superelements have second-order strain: y_strain
   bool treads = false;                ///< some tyres relax: deflections of their treads
   std::vector<Coordinate> loads;      ///< forces (length) and moments (angle)
+  struct Quantity {
+    std::string name;
+    std::string unit;
+  };
+  std::vector<Quantity> quantities;   ///< `channels` of the scene
   std::vector<std::string> channels;  ///< selection, as in OutputSpec; empty: all
   std::vector<std::string> superelement_content_ids;
   bool switched = false;  ///< the run switches effects: energy of its switches
@@ -99,6 +104,7 @@ struct ResultsRow {
   Eigen::Matrix2Xd tyre_deflection,
       tyre_deflection_rate;  ///< of the tread, along and across the wheel; 0 without relaxation
   Eigen::Matrix3Xd load;     ///< force or moment of each load, in its axes: those of the world or of its node
+  Eigen::VectorXd quantity;  ///< of layout.quantities
   double kinetic = 0.0, strain = 0.0, potential = 0.0, work = 0.0, dissipated = 0.0, total = 0.0, balance = 0.0;
   double switched = 0.0;  ///< energy that switches of effects have added
   double step = 0.0, iterations = 0.0, residual = 0.0, constraint = 0.0;
@@ -123,6 +129,9 @@ struct ResultsBeginning {
   std::string file;
   std::size_t rows = 0;
 };
+
+/// What one row of this layout takes in the file, with its selection.
+std::size_t bytes_of_row(const ResultsLayout& layout);
 
 /// Throws Error if a running program writes results under this name.
 void require_unheld_results(const std::string& path);
@@ -193,7 +202,7 @@ class ResultsReader {
   std::size_t modes() const;  ///< 0: the file holds none
   std::vector<double> time() const;
   /// Those over time, then other names of some of them, then those over modes.
-  std::vector<Channel> channels() const;
+  const std::vector<Channel>& channels() const;
   /// Values over time. Throws Error with the nearest channel names if there is none of that name.
   std::vector<double> read(const std::string& channel) const;
   /// Rows [first, first + count) of several channels, count x channels.size(); each dataset is read once.

@@ -102,7 +102,7 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
   hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
   if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
   hdf5::write_text_attribute(file.id(), "/", "format", "tisserand-results", where);
-  hdf5::write_text_attribute(file.id(), "/", "version", "1.11", where);
+  hdf5::write_text_attribute(file.id(), "/", "version", "1.12", where);
   hdf5::write_text_attribute(file.id(), "/", "run", run, where);
   hdf5::write_text_attribute(file.id(), "/", "scene", layout.scene, where);
   hdf5::write_text_attribute(file.id(), "/", "producer", layout.producer, where);

@@ -8,8 +8,10 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <iterator>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "common/error.hpp"
@@ -107,13 +109,14 @@ std::vector<formats::Channel> chosen_channels(const std::vector<formats::Channel
 void append_run(const std::string& file, const std::string& label, const std::vector<std::string>& patterns,
                 Misses& misses, std::vector<Series>& all) {
   const formats::ResultsReader reader(file);
-  const std::vector<formats::Channel> channels = reader.channels();
+  const std::vector<formats::Channel>& channels = reader.channels();
   std::string time_unit;
   for (const formats::Channel& channel : channels)
     if (channel.name == "time") time_unit = channel.unit;
   const std::vector<formats::Channel> meant = chosen_channels(channels, file, patterns, misses);
   std::vector<double> numbers(reader.modes());
   std::iota(numbers.begin(), numbers.end(), 1.0);
+  const std::vector<double> time = reader.time();
   for (const formats::Rows rows : {formats::Rows::instants, formats::Rows::modes}) {
     const bool of_modes = rows == formats::Rows::modes;
     std::vector<std::string> names;
@@ -127,7 +130,7 @@ void append_run(const std::string& file, const std::string& label, const std::ve
       series.unit = channel.unit;
       series.x_name = of_modes ? "mode" : "time";
       series.x_unit = of_modes ? "" : time_unit;
-      series.x = of_modes ? numbers : reader.time();
+      series.x = of_modes ? numbers : time;
       series.has_own_label = !label.empty();
       chosen.push_back(std::move(series));
     }
@@ -155,12 +158,22 @@ ReferenceColumn parse_reference(const std::string& text) {
   const auto second = first == std::string::npos ? first : text.find(':', first + 1);
   if (second == std::string::npos)
     throw Error("'" + text + "' does not name two columns of a CSV file", "--reference",
-                "write file.csv:x:y or file.csv:x:y:label, for example history.csv:t:wz_base:converged");
+                "write file.csv:x:y or file.csv:x:y:label, for example history.csv:t:wz_base:converged; or a results file");
   const auto third = text.find(':', second + 1);
   ReferenceColumn column{text.substr(0, first), text.substr(first + 1, second - first - 1),
                          text.substr(second + 1, third == std::string::npos ? third : third - second - 1), ""};
   column.label = third == std::string::npos ? stem(column.file) : text.substr(third + 1);
   return column;
+}
+
+std::optional<ComparedRun> parse_reference_run(const std::string& text) {
+  constexpr std::string_view ending = ".h5";
+  for (std::size_t at = text.find(ending); at != std::string::npos; at = text.find(ending, at + 1)) {
+    const std::size_t end = at + ending.size();
+    if (end == text.size()) return ComparedRun{text, stem(text)};
+    if (text[end] == ':') return ComparedRun{text.substr(0, end), text.substr(end + 1)};
+  }
+  return {};
 }
 
 Series read_reference(const ReferenceColumn& column) {
@@ -200,8 +213,30 @@ Series read_reference(const ReferenceColumn& column) {
   return series;
 }
 
+namespace {
+
+/// The channels of `runs` that the reference run has under the same names. Throws Error for one that it lacks.
+std::vector<Series> read_reference_run(const ComparedRun& reference, const std::vector<Series>& runs) {
+  std::set<std::string> known;
+  std::vector<std::string> names;
+  for (const Series& run : runs)
+    if (known.insert(run.channel).second) names.push_back(run.channel);
+  Misses misses;
+  std::vector<Series> all;
+  append_run(reference.file, reference.label, names, misses, all);
+  for (const auto& [pattern, error] : misses)
+    if (error) throw *error;
+  for (Series& one : all) {
+    one.kind = SeriesKind::reference;
+    one.is_of_run = true;
+  }
+  return all;
+}
+
+}  // namespace
+
 std::vector<Series> read_series(const SeriesRequest& request) {
-  if (request.files.empty() && request.references.empty())
+  if (request.files.empty() && (request.references.empty() || !request.reference_runs.empty()))
     throw Error("no file to read", "", "name a results file, or a CSV file with --reference file.csv:x:y");
   if (!request.files.empty() && request.channels.empty())
     throw Error("no channel chosen", request.files.front(),
@@ -215,6 +250,10 @@ std::vector<Series> read_series(const SeriesRequest& request) {
     append_run(request.files[i], i < request.labels.size() ? request.labels[i] : "", request.channels, misses, all);
   for (const auto& [pattern, error] : misses)
     if (error) throw *error;
+  std::vector<Series> others;
+  for (const ComparedRun& reference : request.reference_runs)
+    for (Series& one : read_reference_run(reference, all)) others.push_back(std::move(one));
+  all.insert(all.end(), std::make_move_iterator(others.begin()), std::make_move_iterator(others.end()));
   for (const ReferenceColumn& column : request.references) all.push_back(read_reference(column));
   return all;
 }

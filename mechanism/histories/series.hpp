@@ -1,6 +1,7 @@
 // Named histories from results files and CSV files: what `plot` and `compare` look at.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,15 @@ namespace tisserand::mechanism {
 enum class SeriesKind {
   run,
   reference,
+  difference,  ///< of a run from its reference
   front,     ///< a bound of others: wide and grey beneath them
   backdrop,  ///< others for comparison: small grey points beneath
   marks      ///< single events: crosses above
+};
+
+/// Sizes of a difference: max |y - y_ref|, sqrt(∫(y - y_ref)² dt / ∫dt), and the latter of y_ref alone.
+struct DifferenceNorms {
+  double largest = 0.0, rms = 0.0, reference_rms = 0.0;
 };
 
 /// One quantity over another, in the units of its file.
@@ -27,6 +34,8 @@ struct Series {
   std::vector<double> x;
   std::vector<double> y;
   bool has_own_label = false;  ///< `source` was chosen by the user
+  bool is_of_run = false;      ///< of a reference: a channel of a results file
+  DifferenceNorms norms;                 ///< of a difference
 };
 
 /// Two columns of a CSV file with a header line.
@@ -37,22 +46,33 @@ struct ReferenceColumn {
   std::string label;
 };
 
+/// A results file that others are compared with, channel by channel.
+struct ComparedRun {
+  std::string file;
+  std::string label;
+};
+
 struct SeriesRequest {
   std::vector<std::string> files;     ///< *.results.h5, also of interrupted runs
   std::vector<std::string> labels;    ///< of the files, in their order; fewer than files: the file names
   std::vector<std::string> channels;  ///< names, groups such as "nodes/position", or patterns with *
   std::vector<ReferenceColumn> references;
+  std::vector<ComparedRun> reference_runs = {};
 };
 
 /// "file.csv:x column:y column[:label]"; the label may hold colons. Throws Error with the form.
 ReferenceColumn parse_reference(const std::string& text);
+
+/// "other.results.h5[:label]"; nothing: the text does not name a results file.
+std::optional<ComparedRun> parse_reference_run(const std::string& text);
 
 /// Reads two columns; a header cell "name [unit]" is found by "name" as well, any by its number from 1. Rows in which
 /// either cell is empty or nan are left out. Throws Error with file:line:column, or with the names of the nearest
 /// columns.
 Series read_reference(const ReferenceColumn& column);
 
-/// All series of a request: files in order, in each its channels, then the references. A channel may be missing in some
+/// All series of a request: files in order, in each its channels, then the references: columns, and of reference runs the
+/// channels that were chosen. A channel may be missing in some
 /// of the files (a node has other names in other models), not in all of them, and no file may be without any. Throws
 /// Error otherwise, or if nothing is asked for.
 std::vector<Series> read_series(const SeriesRequest& request);

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "mechanism/histories/difference.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -90,13 +92,22 @@ Deviation deviation(const Series& series, const Series& reference, const TimeWin
 }
 
 std::vector<Deviation> compare(const SeriesRequest& request, const TimeWindow& window) {
-  if (request.references.size() != 1)
-    throw Error(fmt::format("{} references, one is needed", request.references.size()), "compare",
-                "name it with --reference file.csv:t:column");
+  const std::size_t references = request.references.size() + request.reference_runs.size();
+  if (references != 1)
+    throw Error(fmt::format("{} references, one is needed", references), "compare",
+                "name it with --reference file.csv:t:column, or --reference other.results.h5");
   const std::vector<Series> all = read_series(request);
   std::vector<Deviation> deviations;
+  std::map<std::string, const Series*> of_channel;
   for (const Series& series : all)
-    if (series.kind == SeriesKind::run) deviations.push_back(deviation(series, all.back(), window));
+    if (series.is_of_run) of_channel.emplace(series.channel, &series);
+  for (const Series& series : all) {
+    if (series.kind != SeriesKind::run) continue;
+    if (!of_channel.empty())
+      deviations.push_back(difference(series, *of_channel.at(series.channel), window).norms);
+    else
+      deviations.push_back(deviation(series, all.back(), window));
+  }
   return deviations;
 }
 
@@ -118,7 +129,7 @@ std::string deviations_table(const std::vector<Deviation>& deviations) {
   }
   if (!deviations.empty()) {
     const Deviation& d = deviations.front();
-    text += fmt::format("Compared at {} {} of the reference from {:g} to {:g}; its RMS is {:.3e}.\n", d.instants,
+    text += fmt::format("Compared at {} {} from {:g} to {:g}; the RMS of the reference is {:.3e}.\n", d.instants,
                         d.channel.starts_with("modes/") ? "modes" : "instants", d.from, d.to, d.reference_rms);
   }
   return text;

@@ -7,6 +7,49 @@ namespace tisserand::mechanism {
 
 using Eigen::Vector3d;
 using formats::ChannelKind;
+namespace {
+
+std::string tyre_unit(formats::TyreQuantity quantity, const Units& units) {
+  using enum formats::TyreQuantity;
+  switch (quantity) {
+    case load:
+    case force_x:
+    case force_y:
+      return unit_label(units, 1, 1, -2);
+    case moment_x:
+    case moment_y:
+    case moment_z:
+      return unit_label(units, 2, 1, -2);
+    case slip:
+      return "1";
+    case slip_angle:
+    case camber:
+      return "rad";
+    case penetration:
+    case rolling_radius:
+      break;
+  }
+  return unit_label(units, 1, 0, 0);
+}
+
+}  // namespace
+
+std::string channel_unit(const Channel& channel, bool is_angle, const Units& units) {
+  const std::string per_time = unit_label(units, 0, 0, -1);
+  switch (channel.kind) {
+    case ChannelKind::coordinate:
+    case ChannelKind::distance:
+    case ChannelKind::position:
+      return is_angle ? "rad" : unit_label(units, 1, 0, 0);
+    case ChannelKind::rate:
+    case ChannelKind::velocity:
+      if (is_angle) return per_time.empty() ? "" : "rad " + per_time;
+      return unit_label(units, 1, 0, -1);
+    case ChannelKind::tyre:
+      break;
+  }
+  return tyre_unit(channel.quantity, units);
+}
 
 double channel_value(const Channel& channel, const MarkerPair& pair, const CoordinateTerms* terms) {
   switch (channel.kind) {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "common/units.hpp"
 #include "formats/scene/scene.hpp"
 #include "mechanism/joints/coordinate.hpp"
 
@@ -21,6 +22,9 @@ struct Channel {
   int tyre = -1;                                     ///< row of Model::tyres
   formats::TyreQuantity quantity = formats::TyreQuantity::load;
 };
+
+/// Unit of its values; `is_angle`: of its coordinate, if it has one.
+std::string channel_unit(const Channel& channel, bool is_angle, const Units& units);
 
 /// Where a channel enters a force: the value of a component of a load, the force of a spring, or the factor of a part
 /// load.

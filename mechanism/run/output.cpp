@@ -9,6 +9,7 @@
 #include "mechanism/bodies/superelement/evaluate.hpp"
 #include "mechanism/equations/terms.hpp"
 #include "mechanism/model/node_coordinates.hpp"
+#include "mechanism/run/schedule.hpp"
 #include "mechanism/step/redundancy.hpp"
 
 namespace tisserand::mechanism {
@@ -349,9 +350,18 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
     if (coupling.motion >= 0)
       layout.motions.push_back({scene.motions.at(static_cast<std::size_t>(coupling.motion)).name, coupling.length});
   add_force_names(model, layout);
+  for (const Channel& channel : model.channels) {
+    const bool is_angle = channel.coordinate >= 0 && !is_length(model.coordinates[channel.coordinate].relation);
+    layout.quantities.push_back({channel.name, channel_unit(channel, is_angle, scene.units)});
+  }
   layout.channels = scene.output.channels;
   layout.superelement_content_ids = model.superelement_content_ids;
   return layout;
+}
+
+void note_large_output(const formats::Scene& scene, const Model& model, double time, std::vector<std::string>& notes) {
+  std::string large = large_output(scene, time, formats::bytes_of_row(results_layout(model, scene)));
+  if (!large.empty()) notes.push_back(std::move(large));
 }
 
 namespace {
@@ -391,6 +401,7 @@ void fill_actions(const Model& model, const State& state, Evaluation& evaluation
   fill_frictions(model, evaluation, row);
   fill_tyres(model, evaluation, row);
   fill_loads(model, evaluation, row);
+  row.quantity = evaluation.channels;
   const Energy energy = evaluate_energy(model, evaluation);
   row.kinetic = energy.kinetic;
   row.strain = energy.strain;

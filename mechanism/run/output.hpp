@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "formats/results/results.hpp"
 #include "formats/scene/scene.hpp"
@@ -16,6 +17,9 @@ namespace tisserand::mechanism {
 void keep_chosen_places(const formats::Scene& scene, Model& model);
 
 formats::ResultsLayout results_layout(const Model& model, const formats::Scene& scene);
+
+/// Adds large_output() of the rows from `time` on, if there is something to say.
+void note_large_output(const formats::Scene& scene, const Model& model, double time, std::vector<std::string>& notes);
 
 /// What a row tells of.
 struct RowSource {

@@ -353,6 +353,11 @@ formats::ResultsLayout begin_rows(Run& run, const BodyFiles& files) {
   keep_chosen_places(run.scene, run.whole().model);
   formats::ResultsLayout layout = results_layout(run.whole().model, run.scene);
   layout.switched = run.automatic != nullptr;
+  if (run.control.announce) {
+    std::vector<std::string> large;
+    note_large_output(run.scene, run.whole().model, run.built.state.time(), large);
+    for (const std::string& text : large) run.control.announce(text);
+  }
   layout.simulated = simulated_scene(run.scene, files, run.whole(), run.at_start);
   return layout;
 }

@@ -22,6 +22,7 @@ struct RunControl {
   std::function<bool()> interrupted;          ///< polled once per step
   std::function<void(double time)> progress;  ///< after every accepted step
   std::function<double()> clock;              ///< seconds, for the report
+  std::function<void(const std::string&)> announce = {};  ///< hears what a user should know before the steps
 };
 
 /// Hears of the rows of a run, and may add to its report.

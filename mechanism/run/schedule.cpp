@@ -147,6 +147,27 @@ void Schedule::restore(const std::vector<double>& memory) {
   retried_ = memory[6] != 0.0;
 }
 
+double rows_to_come(const formats::Scene& scene, double time) {
+  const formats::IntegratorSpec& integrator = scene.integrator;
+  using enum formats::AnalysisKind;
+  const bool moves = scene.analysis == dynamics || scene.analysis == kinematics || scene.analysis == inverse_dynamics;
+  const double span = integrator.end - std::max(time, scene.output.from);
+  if (!moves || !(span > 0.0)) return 1.0;
+  const bool fixed = !integrator.error_control.active && integrator.method != formats::Method::bdf;
+  const double step = (fixed ? integrator.step : greatest_step(integrator)) * scene.output.every;
+  return 1.0 + std::floor(span / (scene.output.interval ? std::max(*scene.output.interval, fixed ? step : 0.0) : step));
+}
+
+std::string large_output(const formats::Scene& scene, double time, std::size_t bytes) {
+  const double rows = rows_to_come(scene, time), size = rows * static_cast<double>(bytes);
+  constexpr double gigabyte = 1e9;
+  if (!(size > gigabyte)) return {};
+  return fmt::format(
+      "the results will take about {:.2g} GB: {:.3g} instants of {:.3g} kB; store fewer of them with `output: {{interval: "
+      "{:.3g}}}`, or what you need with `output: {{channels: [nodes/position, energy]}}`",
+      size / gigabyte, rows, 1e-3 * static_cast<double>(bytes), (scene.integrator.end - scene.integrator.start) / 2000.0);
+}
+
 void Schedule::skip_to(double time) {
   const auto passed = [&](double spacing) {
     return static_cast<long>(std::floor((time - integrator_.start + round_off_) / spacing)) + 1;

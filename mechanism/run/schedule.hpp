@@ -77,4 +77,11 @@ class Schedule {
   bool retried_ = false;   ///< the present step was shortened: the next one is no longer
 };
 
+/// How many rows of results the scene asks for from `time` on, at least: steps with error control are taken to be as long
+/// as they may.
+double rows_to_come(const formats::Scene& scene, double time);
+
+/// "about 2.9 GB of results .. : thin them with ..", of rows of `bytes`; empty below 1 GB.
+std::string large_output(const formats::Scene& scene, double time, std::size_t bytes);
+
 }  // namespace tisserand::mechanism

@@ -44,7 +44,7 @@ struct StoredRow {
     return read(dataset + "/" + item + "/", {"w", "x", "y", "z"});
   }
   double sum(const std::string& channel) const {
-    const auto channels = reader.channels();
+    const auto& channels = reader.channels();
     const bool stored = std::ranges::any_of(channels, [&](const auto& c) { return c.name == channel; });
     return stored ? reader.read_rows({channel}, row, 1)(0, 0) : 0.0;
   }

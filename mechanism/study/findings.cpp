@@ -88,6 +88,20 @@ std::vector<StudyLine> lines_of(const formats::Study& study, const std::vector<S
   return lines;
 }
 
+std::optional<std::size_t> plateau(const std::vector<StudyRow>& rows, const StudyLine& line, int quantity) {
+  constexpr double same = 0.05;
+  if (line.rows.size() < 2 || !rows[line.rows.back()].is_measured()) return {};
+  const double end = rows[line.rows.back()].errors[quantity];
+  std::size_t from = line.rows.size() - 1;
+  while (from > 0) {
+    const StudyRow& row = rows[line.rows[from - 1]];
+    if (!row.is_measured() || !(std::abs(row.errors[quantity] - end) <= same * end)) break;
+    --from;
+  }
+  if (from + 1 == line.rows.size()) return {};
+  return from;
+}
+
 std::optional<double> number_of(const std::string& value) {
   double number = 0.0;
   const auto [rest, code] = std::from_chars(value.data(), value.data() + value.size(), number);

@@ -47,6 +47,10 @@ std::vector<StudyLine> lines_along(const formats::Study& study, const std::vecto
 std::vector<std::optional<double>> observed_orders(const std::vector<StudyRow>& rows, const StudyLine& line,
                                                    int quantity);
 
+/// The place in a line behind which an error stays as it is, within 5 % of what it is at the end: further values of the
+/// axis change nothing. Nothing: the last value still changes it, or some of its settings were not measured.
+std::optional<std::size_t> plateau(const std::vector<StudyRow>& rows, const StudyLine& line, int quantity);
+
 /// The number that a value of an axis is, if it is one.
 std::optional<double> number_of(const std::string& value);
 

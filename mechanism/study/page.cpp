@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <string_view>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
@@ -19,12 +20,18 @@ namespace {
 constexpr std::size_t most_lines = 7;  // as many as the plotter has colours
 
 constexpr const char* page_head = R"html(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width,initial-scale=1">
 <style>
-body{font:16px/1.5 system-ui,sans-serif;max-width:70em;margin:2em auto;padding:0 1em;color:#222}
-svg{width:100%;height:auto}table{border-collapse:collapse;font-size:14px}
+:root{color-scheme:light dark}
+body{font:16px/1.5 system-ui,sans-serif;max-width:70em;margin:2em auto;padding:0 1em;color:#222;background:#fff}
+svg{display:block;width:100%;max-width:760px;height:auto}.wide{overflow-x:auto}
+table{border-collapse:collapse;font-size:14px}
 td,th{padding:.15em .7em;text-align:right;border-bottom:1px solid #ddd}td:first-child,th:first-child{text-align:left}
 .failed{color:#b00}
+@media (prefers-color-scheme:dark){
+body{color:#e6e6e6;background:#14171c}td,th{border-color:#3a3f47}.failed{color:#ff8a80}
+svg{filter:invert(1) hue-rotate(180deg)}
+}
 </style>
 )html";
 
@@ -65,6 +72,27 @@ void add_point(Series& series, double x, double y) {
   series.y.push_back(y);
 }
 
+/// The page's own background shows through, which is dark where the reader's is.
+std::string without_background(std::string svg) {
+  const std::string_view fill = "fill=\"#ffffff\"";
+  const std::size_t rectangle = svg.find("<rect"), at = svg.find(fill, std::min(rectangle, svg.size()));
+  if (at != std::string::npos && at < svg.find('>', rectangle)) svg.replace(at, fill.size(), "fill=\"none\"");
+  return svg;
+}
+
+/// Values at the end of a line along an axis that leave an error as it is, in a sentence; empty: there are none.
+std::string plateau_text(const formats::Study& study, const std::vector<StudyRow>& rows, const StudyLine& line, int q) {
+  const std::optional<std::size_t> from = plateau(rows, line, q);
+  if (!from) return {};
+  const auto value = [&](std::size_t k) { return rows[line.rows[k]].cell->values[line.axis]; };
+  std::vector<std::string> more;
+  for (std::size_t k = *from + 1; k < line.rows.size(); ++k) more.push_back(value(k));
+  const double error = rows[line.rows.back()].errors[q];
+  return fmt::format("{} {} {} nothing beyond {}: the error of {} stays at {:.2g} ({:.2g} %), which something else causes.",
+                     study.series[line.series].axes[line.axis].name, listed(more), more.size() > 1 ? "change" : "changes",
+                     value(*from), study.quantities[q].name, error, 100.0 * error);
+}
+
 struct Book {
   const formats::Study& study;
   const std::vector<StudyRow>& rows;
@@ -76,11 +104,14 @@ struct Book {
     std::erase_if(series, [](const Series& one) { return one.x.empty(); });
     if (series.empty()) return;
     options.output = fmt::format("{}/{}.svg", folder, name);
+    // 17.5 pixels of 620 are 10 pixels on a telephone of 390 pixels with its margins.
+    options.size = PictureSize{620.0, 420.0 + 24.0 * static_cast<double>(series.size()), false};
+    options.font.size = 17.5;
     try {
       plot(series, options);
       std::ifstream file(options.output);
       const std::string svg{std::istreambuf_iterator<char>(file), {}};
-      html += svg.substr(std::min(svg.find("<svg"), svg.size()));
+      html += without_background(svg.substr(std::min(svg.find("<svg"), svg.size())));
     } catch (const Error& error) {
       html += fmt::format("<p class=failed>{}</p>\n", escaped(error.what()));
     }
@@ -201,7 +232,7 @@ struct Book {
   }
 
   void table() {
-    html += "<h2>All settings</h2>\n<table><tr><th>setting<th>CPU time [s]<th>between<th>runs<th>steps<th>iterations";
+    html += "<h2>All settings</h2>\n<div class=wide><table><tr><th>setting<th>CPU time [s]<th>between<th>runs<th>steps<th>iterations";
     for (const formats::StudyQuantity& quantity : study.quantities)
       html += fmt::format("<th>error of {}<th>order", escaped(quantity.name));
     html += "</tr>\n";
@@ -211,7 +242,7 @@ struct Book {
         orders.push_back(observed_orders(rows, line, static_cast<int>(q)));
       for (std::size_t k = 0; k < line.rows.size(); ++k) table_row(rows[line.rows[k]], orders, k);
     }
-    html += "</table>\n";
+    html += "</table></div>\n";
   }
 
   void table_row(const StudyRow& row, const std::vector<std::vector<std::optional<double>>>& orders, std::size_t k) {
@@ -263,6 +294,10 @@ void write_page(const formats::Study& study, const std::vector<StudyRow>& rows, 
       const std::vector<StudyLine> lines = book.finest_lines(axis.name);
       if (lines.empty() || !done.insert(axis.name).second) continue;
       book.html += fmt::format("<h2>Along {}</h2>\n", escaped(axis.name));
+      for (const StudyLine& line : lines)
+        for (int q = 0; q < static_cast<int>(study.quantities.size()); ++q)
+          if (const std::string text = plateau_text(study, rows, line, q); !text.empty())
+            book.html += fmt::format("<p>{}{}</p>\n", escaped(lines.size() > 1 ? line.label + ": " : ""), escaped(text));
       book.along_axis(axis.name, lines);
     }
   book.table();

@@ -39,7 +39,7 @@ std::vector<Dataset> datasets_of(const formats::ResultsReader& reader) {
 
 /// What people look at first.
 std::size_t rank_of(const std::string& dataset) {
-  constexpr std::array<std::string_view, 12> first{"energy",         "solver",         "joints/coordinate",
+  constexpr std::array<std::string_view, 13> first{"channels",       "energy",         "solver",         "joints/coordinate",
                                                    "motions",        "couplings",      "joints",
                                                    "nodes/position", "forces",         "superelements/boundary_force",
                                                    "nodes/rotation", "nodes/velocity", "superelements"};

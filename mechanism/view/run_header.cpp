@@ -195,9 +195,12 @@ void add_arrow(const std::string& name, const char* kind, const Json& place, con
 void add_joint(const formats::SimulatedLink& link, Places& places, const PageChannels& channels, Json& json) {
   const Json place = places.at(link.ends[0]);
   Json coordinates = Json::array();
-  for (const auto& [path, index] : channels.index)
-    if (path == "joints/coordinate/" + link.name || path.starts_with("joints/coordinate/" + link.name + "/"))
-      coordinates.push_back(index);
+  const std::string path = "joints/coordinate/" + link.name;
+  if (const int index = channels.find(path); index >= 0) coordinates.push_back(index);
+  for (auto at = channels.index.lower_bound(path + "/"); at != channels.index.end(); ++at) {
+    if (!at->first.starts_with(path + "/")) break;
+    coordinates.push_back(at->second);
+  }
   json["joints"].push_back({{"name", link.name},
                             {"kind", link.kind.substr(link.kind.find('/') + 1)},
                             {"bodies", {places.body(link.ends[0]), places.body(link.ends[1])}},

@@ -141,9 +141,8 @@ void ModesOfBodies::reduce(int body, const FewModes& few, Index instants) {
   for (std::size_t mode = 0; mode < bodies_.size(); ++mode) {
     const Index row = instants + 2 * static_cast<Index>(mode);
     if (few.count() == 0 || row + 1 >= few.amplitudes.rows()) continue;
-    for (Json& one : bodies_[mode])
-      if (one["body"] == body)
-        one["amplitudes"] = {numbers(few.amplitudes.row(row)), numbers(few.amplitudes.row(row + 1))};
+    Json& one = bodies_[mode].at(static_cast<std::size_t>(body));  // take() was called for each body in order
+    one["amplitudes"] = {numbers(few.amplitudes.row(row)), numbers(few.amplitudes.row(row + 1))};
   }
 }
 

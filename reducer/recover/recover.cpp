@@ -76,6 +76,13 @@ std::string element_place(const Recovery& r, const BodyMotion& still, int elemen
   return element_text(r, element) + fmt::format(" ({:.4g}, {:.4g}, {:.4g})", middle.x(), middle.y(), middle.z());
 }
 
+/// "tip (0.3, 0, 0)", likewise.
+std::string node_place(const Recovery& r, const BodyMotion& still, int node) {
+  const Eigen::Vector3d place = still.to_scene.length * still.mirror.cwiseProduct(r.position.col(node));
+  return printable_line(r.node_label[static_cast<std::size_t>(node)], 60) +
+         fmt::format(" ({:.4g}, {:.4g}, {:.4g})", place.x(), place.y(), place.z());
+}
+
 std::string left_out_line(const Recovery& r, const LeftOutStress& stress, const BodyMotion& still) {
   if (!stress.known) return "";
   const std::string after = after_number(labels_of(still.scene_units).stress);
@@ -88,7 +95,7 @@ std::string left_out_line(const Recovery& r, const LeftOutStress& stress, const 
 std::string peaks_text(const Recovery& r, const MotionReader& motion, const Envelope& envelope) {
   const Labels labels = labels_of(motion.still().scene_units);
   const int beams = r.beams(), shells = beams + r.shells(), all = r.elements.count();
-  const auto node = [&r](int n) { return printable_line(r.node_label[static_cast<std::size_t>(n)], 60); };
+  const auto node = [&](int n) { return node_place(r, motion.still(), n); };
   const auto element = [&](int e) { return element_place(r, motion.still(), e); };
   const auto point = [&](int p) { return node(r.stress_node[static_cast<std::size_t>(p)]); };
   const auto placed = [&](const LargestOverTime& over_time) {

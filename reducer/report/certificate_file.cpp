@@ -12,6 +12,7 @@
 #include "common/text.hpp"
 #include "common/units.hpp"
 #include "reducer/report/certificate.hpp"
+#include "reducer/report/verdict.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -249,7 +250,7 @@ std::string frequency_table(const FileCertificate& file, const std::optional<Mod
   const std::vector<double> none;
   const std::vector<double>& full = model ? model->free_frequency : none;
   const std::vector<double>& estimate = model ? model->truncation_estimate : none;
-  const std::string unit = units.named() ? (units.time.factor == 1.0 ? "Hz" : "1/" + units.time.label) : "1/time";
+  const std::string unit = frequency_unit(units);
   // Behind the modes with the boundary held stand values that are no modes of the part.
   const std::size_t modes = !model ? count : model->free_modes ? 0 : static_cast<std::size_t>(model->mechanisms + model->modes_kept);
   std::string text = fmt::format("frequencies [{}]\n  {:>4} {:>16} {:>16} {:>16} {:>10} {:>10}\n", unit, "mode",
@@ -335,8 +336,8 @@ std::string assurance_text(const FileCertificate& file, const ModelCertificate& 
 std::string modal_body_text(const ModalBodyCertificate& c, double length, const Units& units) {
   std::vector<std::string> frequencies;
   for (const double value : c.frequency) frequencies.push_back(fmt::format("{:.6g}", value));
-  return fmt::format("{:<19}{} modes, {}: {} [1/time]\n", "modal body", c.frequency.size(), c.reference,
-                     listed(frequencies)) +
+  return fmt::format("{:<19}{} modes, {}: {} {}\n", "modal body", c.frequency.size(), c.reference,
+                     listed(frequencies), frequency_unit(units)) +
          (c.eigenvalue_solver.empty() ? "" : fmt::format("{:<19}its eigenvalues by {}\n", "", c.eigenvalue_solver)) +
          rigid_text("lumped masses", c.rigid, length, units);
 }
@@ -361,9 +362,9 @@ std::string contents_text(const ModelCertificate& c) {
 }
 
 /// Which vectors the inside moves by.
-std::string modes_text(const ModelCertificate& c) {
+std::string modes_text(const ModelCertificate& c, const std::string& unit) {
   const std::string first =
-      c.first_dropped_frequency ? fmt::format(" at {:.8g}", *c.first_dropped_frequency) : std::string();
+      c.first_dropped_frequency ? fmt::format(" at {:.8g} {}", *c.first_dropped_frequency, unit) : std::string();
   if (c.free_modes)
     return fmt::format("{:<19}{} of the free part, {} internal vectors; first with the boundary held{}\n", "modes",
                        *c.free_modes, c.modes_kept, first);
@@ -393,11 +394,11 @@ std::string mesh_text(const MeshCertificate& c) {
   return text;
 }
 
-std::string model_text(const ModelCertificate& c) {
+std::string model_text(const ModelCertificate& c, const Units& units) {
   std::string text = fmt::format("{:<19}{} nodes, {} elements, {} coordinates ({})\n", "full model", c.nodes,
                                  c.elements, c.coordinates, c.part);
   text += contents_text(c);
-  text += modes_text(c);
+  text += modes_text(c, frequency_unit(units));
   if (!c.eigenvalue_solver.empty())
     text += fmt::format("{:<19}{}, largest residual {:.1e}\n", "eigenvalues by", c.eigenvalue_solver, c.mode_residual);
   text += fmt::format("{:<19}rigid motion {:.1e} of boundary modes, {:.1e} of S; S_BI {:.1e}; M_II - 1 {:.1e}\n",
@@ -414,6 +415,7 @@ std::string model_text(const ModelCertificate& c) {
 std::string certificate_json(const formats::Superelement& element, const FileCertificate& file,
                              const ModelCertificate& model) {
   json j = base_json(element, file);
+  j["verdict"] = verdict(file, model, element.units);
   j["model"] = model_json(model);
   return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
@@ -442,13 +444,13 @@ std::optional<ModelCertificate> read_certificate(const std::string& superelement
 
 std::string certificate_text(const formats::Superelement& element, const FileCertificate& file,
                              const std::optional<ModelCertificate>& model) {
-  std::string text =
-      fmt::format("{:<19}{} ({}, by {})\n", "superelement", element.name, element.method, element.producer);
+  std::string text = fmt::format("{:<19}{}\n", "verdict", verdict(file, model, element.units));
+  text += fmt::format("{:<19}{} ({}, by {})\n", "superelement", element.name, element.method, element.producer);
   text += fmt::format("{:<19}{}\n", "content id", element.content_id.substr(0, 16));
   const auto internal = static_cast<Eigen::Index>(file.fixed_frequency.size());
   text += fmt::format("{:<19}{} ({} coordinates) and {} internal coordinates\n", "boundary nodes",
                       listed(element.node_name), element.size() - internal, internal);
-  if (model) text += model_text(*model);
+  if (model) text += model_text(*model, element.units);
   text += rigid_text("from reduced mass", file.rigid, file.characteristic_length, element.units);
   if (model) text += rigid_text("from the mesh", model->rigid, file.characteristic_length, element.units);
   text += fmt::format("{:<19}{:.1e}\n", "rigid motions S R", file.rigid_residual);

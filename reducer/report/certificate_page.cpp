@@ -12,17 +12,25 @@
 #include "common/error.hpp"
 #include "common/gnuplot.hpp"
 #include "common/text.hpp"
+#include "common/units.hpp"
+#include "reducer/report/verdict.hpp"
 
 namespace tisserand::reducer {
 namespace {
 
 constexpr const char* page_style = R"html(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width,initial-scale=1">
 <style>
-body{font:16px/1.5 system-ui,sans-serif;max-width:70em;margin:2em auto;padding:0 1em;color:#222}
-svg{width:100%;height:auto}table{border-collapse:collapse;font-size:14px}
+:root{color-scheme:light dark}
+body{font:16px/1.5 system-ui,sans-serif;max-width:70em;margin:2em auto;padding:0 1em;color:#222;background:#fff}
+svg{width:100%;max-width:760px;height:auto}table{border-collapse:collapse;font-size:14px}
 td,th{padding:.15em .7em;text-align:right;border-bottom:1px solid #ddd}td:first-child,th:first-child{text-align:left}
-.panels{display:grid;grid-template-columns:1fr 1fr 1fr}.warned{color:#b00}pre{font-size:13px;overflow-x:auto}
+.panels{display:grid;grid-template-columns:repeat(auto-fit,minmax(300px,1fr))}
+.verdict{font-weight:600}.warned{color:#b00}pre{font-size:13px;overflow-x:auto}
+@media (prefers-color-scheme:dark){
+body{color:#e6e6e6;background:#14171c}td,th{border-color:#3a3f47}.warned{color:#ff8a80}
+svg{filter:invert(1) hue-rotate(180deg)}
+}
 </style>
 )html";
 
@@ -47,7 +55,7 @@ std::string safe(const std::string& text) {
 std::string picture(int width, int height, const std::string& script) {
   try {
     const std::string text = gnuplot_picture(fmt::format(
-        "set terminal svg size {},{} font 'sans,15' linewidth 1.3 background 'white'\nset encoding utf8\n"
+        "set terminal svg size {},{} font 'sans,17' linewidth 1.3\nset encoding utf8\n"
         "set grid ytics lc rgb '#dddddd'\nset border 3\nset tics nomirror\n{}",
         width, height, script), "certificate");
     return text.substr(std::min(text.find("<svg"), text.size())) + "\n";
@@ -61,8 +69,12 @@ std::string data_block(const std::string& name, const std::vector<std::string>& 
   return fmt::format("${} << EOD\n{}\nEOD\n", name, join(rows, "\n"));
 }
 
+/// Numbers of modes, few enough that they do not touch.
+std::string mode_ticks(std::size_t modes) { return fmt::format("set xtics {}\n", std::max<std::size_t>(1, (modes + 5) / 6)); }
+
 /// Frequencies of the reduced part with the interval that holds the full part's, widened by the error of the mesh.
-std::string frequencies(const FileCertificate& file, const ModelCertificate& model) {
+std::string frequencies(const FileCertificate& file, const ModelCertificate& model, const std::string& unit) {
+  double most = 0.0;
   std::vector<std::string> rows, held;
   for (std::size_t k = 0; k < std::min(file.free_frequency.size(), model.truncation_lower.size()); ++k) {
     const double f = file.free_frequency[k];
@@ -71,15 +83,22 @@ std::string frequencies(const FileCertificate& file, const ModelCertificate& mod
     const double exact = std::isfinite(mesh) ? f / (1.0 + mesh) : f;
     rows.push_back(fmt::format("{} {} {} {}", k + 1, f, std::min({model.truncation_lower[k], exact, f}),
                                std::max({model.truncation_upper[k], exact, f})));
+    if (std::isfinite(model.truncation_upper[k])) most = std::max(most, model.truncation_upper[k]);
+    most = std::max(most, f);
   }
-  for (std::size_t k = 0; k < std::min<std::size_t>(file.fixed_frequency.size(), 20); ++k)
+  for (std::size_t k = 0; k < std::min<std::size_t>(file.fixed_frequency.size(), 20); ++k) {
     held.push_back(fmt::format("{} {}", k + 1, file.fixed_frequency[k]));
+    most = std::max(most, file.fixed_frequency[k]);
+  }
   if (rows.empty() || held.empty()) return "";
   return "<h2>Frequencies</h2>\n<p>Of the free reduced part; bars: what the full part and a finer mesh may "
          "have.</p>\n" +
-         picture(1200, 480,
+         picture(620, 420,
                  data_block("free", rows) + data_block("held", held) +
-                     "set key top left\nset xlabel 'mode'\nset ylabel 'frequency [1/time]'\nset xrange [0:*]\n"
+                     fmt::format("set key top left\nset xlabel 'mode'\nset ylabel 'frequency [{}]'\n"
+                                 "set xrange [0:{}]\nset yrange [0:{:.6g}]\n{}",
+                                 unit, std::max(rows.size(), held.size()) + 1, 1.08 * most,
+                                 mode_ticks(std::max(rows.size(), held.size()))) +
                      "plot $held using 1:2 with points pt 6 lc rgb '#999999' title 'boundary held', "
                      "$free using 1:2:3:4 with yerrorbars pt 7 ps 0.5 lc rgb '#0060ad' title 'free'\n");
 }
@@ -108,10 +127,10 @@ std::string errors(const ModelCertificate& model) {
              "<h2>Errors of the {} frequencies</h2>\n<p>Estimates: what a finer mesh, and what more internal modes, "
              "would change. Errors that are unknown have no point; the certificate below says why.</p>\n",
              model.mesh_error.boundary_held ? "fixed" : "free") +
-         picture(1200, 420,
+         picture(620, 420,
                  blocks +
                      "set logscale y\nset format y '%g'\nset xlabel 'mode'\nset ylabel 'error [%]'\n"
-                     "set xrange [0.5:*]\nset key outside right\nplot " +
+                     "set xrange [0.5:*]\nset key above left\nplot " +
                      join(plots, ", ") + "\n");
 }
 
@@ -134,6 +153,7 @@ std::string effective_masses(const FileCertificate& c) {
     pictures +=
         picture(400, 300,
                 data_block("mass", rows) +
+                    mode_ticks(rows.size()) +
                     fmt::format("set yrange [0:105]\nset style fill solid 0.8 noborder\nunset key\nset title '{}'\n"
                                 "set xlabel 'mode'\nset ylabel '%'\nplot $mass using 1:2 with boxes lc rgb "
                                 "'#0060ad', $mass using 1:3 with steps lw 2 lc rgb '#d95319'\n",
@@ -158,7 +178,7 @@ std::string assurance(const ModelCertificate& model) {
   return "<h2>Modal assurance</h2>\n<p>Free modes of the full model (up) and of the reduced part (right): 1 (dark) "
          "where they "
          "agree.</p>\n" +
-         picture(1200, 620,
+         picture(620, 620,
                  data_block("mac", rows) +
                      "set size square\nset palette defined (0 'white', 1 '#0060ad')\nset cbrange [0:1]\nset xlabel "
                      "'reduced part'\nset ylabel 'full model'\nunset grid\nunset key\n"
@@ -180,8 +200,13 @@ std::string certificate_page(const formats::Superelement& element, const FileCer
                              const std::optional<ModelCertificate>& model) {
   std::string html = page_style;
   html += fmt::format("<title>{0}</title></head><body>\n<h1>{0}</h1>\n", safe(element.name));
+  html += fmt::format("<p class=verdict>{}</p>\n", safe(verdict(file, model, element.units)));
+  const Eigen::Vector3d& c = file.rigid.center_of_mass;
+  html += fmt::format("<p>Mass {:.6g}{}, centre of mass ({:.6g}, {:.6g}, {:.6g}){}.</p>\n", file.rigid.mass,
+                      safe(after_number(unit_label(element.units, 0, 1, 0))), c.x(), c.y(), c.z(),
+                      safe(after_number(unit_label(element.units, 1, 0, 0))));
   html += warnings_of(file, model);
-  if (model) html += frequencies(file, *model) + errors(*model);
+  if (model) html += frequencies(file, *model, frequency_unit(element.units)) + errors(*model);
   html += effective_masses(file);
   if (model) html += assurance(*model);
   return html + fmt::format("<h2>Certificate</h2>\n<pre>{}</pre>\n</body></html>\n",

@@ -39,7 +39,7 @@ TEST_F(Outputs, InputsAndFilesOfOtherKindsAreNotReplaced) {
   expect_error(mechanism({"export", "arm.results.h5", "-o", "arm.results.h5"}), {"replace its own input"});
   expect_error(mechanism({"plot", "arm.results.h5", "-c", "energy/total", "-o", "none/x.png"}),
                {"none/", "No such file"});
-  expect_error(mechanism({"plot", "arm.results.h5", "-c", "energy/total", "-o", "x.pdf"}), {"x.pdf", ".png or .svg"});
+  expect_error(mechanism({"plot", "arm.results.h5", "-c", "energy/total", "-o", "x.bmp"}), {"x.bmp", ".pdf or .eps"});
   expect_error(mechanism({"export", "arm.results.h5", "-o", "none/x.csv"}), {"none/", "No such file"});
   EXPECT_EQ(mechanism({"channels", "arm.results.h5"}).code, 0);
 }
@@ -86,6 +86,10 @@ TEST_F(Outputs, ExportGoesToStandardOutput) {
   const Outcome outcome = mechanism({"export", "arm.results.h5", "-c", "energy/total", "-o", "/dev/stdout"});
   EXPECT_EQ(outcome.code, 0) << outcome.error;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("time [s],energy/total [J]\n"), HasSubstr("\n0.05,")));
+  const Outcome dash = mechanism({"export", "arm.results.h5", "-c", "energy/total", "-o", "-"});
+  EXPECT_EQ(dash.out, outcome.out);
+  EXPECT_FALSE(std::filesystem::exists(file("-")));
+  EXPECT_EQ(mechanism({"export", "arm.results.h5", "-c", "energy/total", "-o", "a.csv"}).out, "table: a.csv\n");
 }
 
 TEST_F(Outputs, ReaderThatLeavesEarlyIsNoError) {

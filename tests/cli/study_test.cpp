@@ -99,6 +99,7 @@ TEST_F(Study, FindsTheOrderOfAKnownMethod) {
   const std::string page = read_text(file("orders.study/index.html"));
   EXPECT_THAT(page, AllOf(HasSubstr("<svg"), HasSubstr("</html>"), HasSubstr("What accuracy costs: x")));
   EXPECT_THAT(page, Not(HasSubstr("<script src")));
+  EXPECT_THAT(page, AllOf(HasSubstr("prefers-color-scheme:dark"), Not(HasSubstr("fill=\"#ffffff\""))));
 }
 
 // Of the settings whose error is within the tolerance the one that took the least time: the coarser of two, unless the

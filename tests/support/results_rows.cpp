@@ -30,6 +30,7 @@ formats::ResultsLayout example_layout() {
   layout.bushings = {"mount", "pad"};
   layout.frictions = {"slide"};
   layout.tyres = {"front", "rear"};
+  layout.quantities = {{"speed", "m s^-1"}, {"corner/angle", "rad"}};
   layout.treads = layout.strained = true;
   layout.superelement_content_ids = {std::string(64, 'a'), std::string(64, 'b')};
   return layout;
@@ -83,6 +84,7 @@ void fill_row(int t, formats::ResultsRow& row) {
                                  &row.tyre_rolling_radius, &row.tyre_adhesion})
     fill(*block);
   for (Eigen::Matrix2Xd* block : {&row.tyre_deflection, &row.tyre_deflection_rate}) fill(*block);
+  fill(row.quantity);
   for (double* value : {&row.kinetic, &row.strain, &row.potential, &row.work, &row.dissipated, &row.total, &row.balance,
                         &row.step, &row.iterations, &row.residual, &row.constraint})
     *value = row_value(t, k++);

@@ -56,10 +56,12 @@ TEST(Results, EveryChannelComesBackBitEqual) {
   for (const Channel& channel : reader.channels()) unit[channel.name] = channel.unit;
   // 1 time, 3 nodes x (5 x 3 + 4), 2 frames x (7 + 9), 5 coordinates y with rates and strains, 2 of a modal body with
   // rates, 3 boundary nodes x 6, 2 joints x 8, 2 couplings x 2, 2 drives, 2 springs, 1 stop, 2 bushings x 6, friction x
-  // 6, 2 tyres x 18, 7 energies, 4 of solver.
-  EXPECT_EQ(unit.size(), 1u + 57 + 14 + 18 + 10 + 5 + 1 + 4 + 15 + 18 + 16 + 4 + 2 + 21 + 44 + 7 + 4);
+  // 6, 2 tyres x 18, 2 channels of the scene, 7 energies, 4 of solver.
+  EXPECT_EQ(unit.size(), 1u + 57 + 14 + 18 + 10 + 5 + 1 + 4 + 15 + 18 + 16 + 4 + 2 + 21 + 44 + 2 + 7 + 4);
   ResultsRow row;
   row.resize(layout);
+  EXPECT_EQ(unit.at("channels/value/speed"), "m s^-1");
+  EXPECT_EQ(unit.at("channels/value/corner/angle"), "rad");
   const std::map<std::string, std::function<double()>> expected{
       {"time", [&] { return row.time; }},
       {"nodes/position/beam/tip/y", [&] { return row.node_position(1, 1); }},
@@ -107,6 +109,8 @@ TEST(Results, EveryChannelComesBackBitEqual) {
       {"tyres/penetration/front", [&] { return row.tyre_penetration[0]; }},
       {"tyres/rolling_radius/rear", [&] { return row.tyre_rolling_radius[1]; }},
       {"tyres/adhesion/front", [&] { return row.tyre_adhesion[0]; }},
+      {"channels/value/speed", [&] { return row.quantity[0]; }},
+      {"channels/value/corner/angle", [&] { return row.quantity[1]; }},
       {"energy/kinetic", [&] { return row.kinetic; }},
       {"energy/balance", [&] { return row.balance; }},
       {"solver/step", [&] { return row.step; }},
@@ -177,7 +181,7 @@ TEST(Results, CoordinatesAreStoredWithTheirStrain) {
   write_rows(folder.file("a.h5"), layout, 3);
   const ResultsReader reader(folder.file("a.h5"));
   EXPECT_TRUE(reader.layout().strained);
-  EXPECT_EQ(reader.version(), "1.11");
+  EXPECT_EQ(reader.version(), "1.12");
   EXPECT_EQ(reader.channels().size(), 1u + 5 + 5 + 1);  // with the factor of a load case
   layout.strained = false;
   write_rows(folder.file("b.h5"), layout, 3);

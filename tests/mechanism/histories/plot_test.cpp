@@ -14,6 +14,7 @@
 
 #include "common/error.hpp"
 #include "common/gnuplot.hpp"
+#include "mechanism/histories/plot_script.hpp"
 #include "tests/support/thrown.hpp"
 
 namespace tisserand::mechanism::plot_test {
@@ -57,8 +58,9 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 TEST(GnuplotQuoted, ExpandsNothing) {
   EXPECT_EQ(gnuplot_quoted("a `rm` $x \"b\" \\n"), "'a `rm` $x \"b\" \\n'");
-  EXPECT_EQ(gnuplot_quoted("it's"), "'it''s'");
-  EXPECT_EQ(gnuplot_quoted("a\nsystem('x')\x01"), "'a system(''x'')\\x01'");
+  EXPECT_EQ(gnuplot_quoted("it's"), R"('it'."'".'s')");
+  EXPECT_EQ(gnuplot_quoted("'90s"), R"(''."'".'90s')");
+  EXPECT_EQ(gnuplot_quoted("a\nsystem('x')\x01"), R"('a system('."'".'x'."'".')\x01')");
 }
 
 TEST(GnuplotScript, KeepsForeignTextInsideQuotes) {
@@ -66,7 +68,7 @@ TEST(GnuplotScript, KeepsForeignTextInsideQuotes) {
   options.output = "|touch owned;.svg";
   options.title = "'; system('touch owned'); '";
   const std::string script = gnuplot_script({wave("run", "energy/total", "J", 5)}, options);
-  EXPECT_THAT(script, HasSubstr("set title '''; system(''touch owned''); '''"));
+  EXPECT_THAT(script, HasSubstr(R"(set title ''."'".'; system('."'".'touch owned'."'".'); '."'".'')"));
   EXPECT_THAT(script, Not(HasSubstr("set output")));
 }
 
@@ -165,6 +167,80 @@ TEST(GnuplotScript, LeavesGapsWhereThereIsNoNumber) {
   EXPECT_THAT(gnuplot_script({series}, into("a.png")), Not(HasSubstr("nan")));
 }
 
+// Long dashes hide an oscillation that is as long as they are: every line is solid, marks tell them apart.
+TEST(GnuplotScript, LinesAreSolidWithMarksAtPlacesOfTheirOwn) {
+  const Series a = wave("a", "energy/total", "J", 1000);
+  const std::string script = gnuplot_script({a, wave("b", "energy/total", "J", 1000)}, into("a.png"));
+  EXPECT_THAT(script, Not(HasSubstr(" dt ")));
+  EXPECT_EQ(count(script, "keyentry with linespoints"), 2u);
+  const auto block = [&](const std::string& name) {
+    const std::size_t begin = script.find("$" + name + " << EOD\n");
+    return script.substr(begin, script.find("EOD\n", begin + name.size() + 9) - begin);
+  };
+  EXPECT_EQ(count(block("m0"), "\n"), 1u + 9u);
+  EXPECT_EQ(count(block("m1"), "\n"), 1u + 9u);
+  EXPECT_NE(block("m0").substr(12, 12), block("m1").substr(12, 12));
+  EXPECT_THAT(gnuplot_script({a}, into("a.png")), Not(HasSubstr("with points")));  // nothing to tell it apart from
+}
+
+TEST(GnuplotScript, HasNoLegendOfHundredsOfNames) {
+  std::vector<Series> series;
+  for (int i = 0; i < 25; ++i) series.push_back(wave("a", "nodes/position/" + std::to_string(i) + "/x", "m", 5));
+  const std::string script = gnuplot_script(series, into("a.png"));
+  EXPECT_THAT(script, HasSubstr("unset key"));
+  EXPECT_THAT(script, HasSubstr("set ylabel '25 x position [m]'"));
+  series.pop_back();
+  EXPECT_THAT(gnuplot_script(series, into("a.png")), HasSubstr("set key above"));
+}
+
+TEST(GnuplotScript, LogarithmicAxesFitWhatTheyShow) {
+  Series series = wave("a", "error", "1", 3);
+  series.x = {0.11, 0.13, 0.3};
+  series.y = {0.1, 0.05, 0.02};
+  PlotOptions options = into("a.svg");
+  options.x_scale = options.y_scale = AxisScale::logarithmic;
+  const std::string script = gnuplot_script({series}, options);
+  EXPECT_THAT(script, HasSubstr("set ytics ('0.02' 0.02, '0.05' 0.05, '0.1' 0.1)"));
+  EXPECT_THAT(script, HasSubstr("set xtics ('0.1' 0.1, '0.2' 0.2)"));
+  EXPECT_THAT(script, HasSubstr("set xrange [0.09"));
+}
+
+TEST(GnuplotScript, DifferencesHaveAPanelOfTheirOwn) {
+  Series base = wave("fine", "energy/total", "J", 5);
+  base.kind = SeriesKind::reference;
+  base.is_of_run = true;
+  Series difference = wave("coarse", "energy/total", "J", 5);
+  difference.kind = SeriesKind::difference;
+  difference.norms = {0.25, 0.125, 1.0};
+  const std::string script =
+      gnuplot_script({wave("coarse", "energy/total", "J", 5), base, difference}, into("a.pdf"));
+  EXPECT_THAT(script, HasSubstr("set multiplot layout 2,1"));
+  EXPECT_THAT(script, HasSubstr("set ylabel 'difference of energy [J]'"));
+  EXPECT_THAT(script, HasSubstr("title 'total: largest 0.25, RMS 0.125'"));
+  EXPECT_THAT(script, HasSubstr("set terminal pdfcairo size 6.29921in,"));  // 160 mm
+}
+
+TEST(PictureSize, IsOfPixelsOrPaper) {
+  const PictureSize pixels = parse_picture_size("1400x800"), paper = parse_picture_size("16x10.5cm");
+  EXPECT_EQ(pixels.width, 1400.0);
+  EXPECT_FALSE(pixels.on_paper);
+  EXPECT_EQ(paper.width, 160.0);
+  EXPECT_EQ(paper.height, 105.0);
+  EXPECT_TRUE(paper.on_paper);
+  EXPECT_NEAR(parse_picture_size("4x3in").width, 101.6, 1e-9);
+  for (const char* bad : {"", "x", "160", "160xmm", "160x100m", "nanx100", "1x1", "1e9x5"})
+    EXPECT_THAT(error_of([&] { (void)parse_picture_size(bad); }), HasSubstr("--size")) << bad;
+}
+
+TEST(PictureFont, HasANameASizeOrBoth) {
+  EXPECT_EQ(parse_picture_font("9").size, 9.0);
+  EXPECT_EQ(parse_picture_font("DejaVu Sans").name, "DejaVu Sans");
+  EXPECT_FALSE(parse_picture_font("DejaVu Sans").size);
+  EXPECT_EQ(parse_picture_font("DejaVu Sans,9.5").size, 9.5);
+  for (const char* bad : {"", "Sans,", "Sans,big", "Sans,1e5", "a,b,9"})
+    EXPECT_THAT(error_of([&] { (void)parse_picture_font(bad); }), HasSubstr("--font")) << bad;
+}
+
 TEST(Superscripts, OfUnits) {
   EXPECT_EQ(with_superscripts("kg m s^-2"), "kg m s⁻²");
   EXPECT_EQ(with_superscripts("m^12/s"), "m¹²/s");
@@ -206,11 +282,30 @@ TEST_F(Picture, IsWrittenAsPngAndSvg) {
   EXPECT_EQ(files(), 2u);
 }
 
+TEST_F(Picture, IsWrittenForPrint) {
+  PlotOptions options;
+  options.size = parse_picture_size("80x60mm");
+  options.font = parse_picture_font("DejaVu Sans,8");
+  for (const auto& [ending, begin] : {std::pair{".pdf", "%PDF"}, {".eps", "%!PS"}}) {
+    options.output = path(std::string("a") + ending);
+    (void)plot({wave("a", "energy/total", "J", 50), wave("b", "energy/total", "J", 50)}, options);
+    std::ifstream file(options.output, std::ios::binary);
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    EXPECT_EQ(text.substr(0, 4), begin);
+    if (std::string(ending) == ".eps") EXPECT_THAT(text, HasSubstr("%%BoundingBox: 0 0 22"));  // 80 mm are 226.8 pt
+  }
+  options.output = path("a.png");
+  (void)plot({wave("a", "energy/total", "J", 50)}, options);
+  std::ifstream png(options.output, std::ios::binary);
+  const std::string head((std::istreambuf_iterator<char>(png)), {});
+  EXPECT_EQ(head.substr(16, 8), std::string("\0\0\x03\xb1\0\0\x02\xc5", 8));  // 80 x 60 mm at 300 per inch: 945 x 709
+}
+
 TEST_F(Picture, FaultsAreToldAndLeaveNothing) {
   const Series series = wave("a", "energy/total", "J", 5);
   PlotOptions options;
-  options.output = path("a.pdf");
-  EXPECT_THAT(error_of([&] { plot({series}, options); }), HasSubstr("neither a .png nor an .svg"));
+  options.output = path("a.bmp");
+  EXPECT_THAT(error_of([&] { plot({series}, options); }), HasSubstr("no .png, .svg, .pdf or .eps"));
   options.output = path("none/a.png");
   EXPECT_THAT(error_of([&] { plot({series}, options); }), HasSubstr("cannot create the file"));
   options.output = path("a.png");

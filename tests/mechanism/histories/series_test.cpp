@@ -53,6 +53,15 @@ TEST(Reference, IsNamedByFileAndColumns) {
   EXPECT_THAT(error_of([] { (void)parse_reference("history.csv:t"); }), HasSubstr("file.csv:x:y"));
 }
 
+TEST(Reference, IsARunWhereTheNameEndsSo) {
+  const auto run = parse_reference_run("a:b/fine.results.h5:the fine one");
+  ASSERT_TRUE(run);
+  EXPECT_EQ(run->file, "a:b/fine.results.h5");
+  EXPECT_EQ(run->label, "the fine one");
+  EXPECT_EQ(parse_reference_run("fine.results.h5")->label, "fine");
+  EXPECT_FALSE(parse_reference_run("fine.h5.csv:t:x"));
+}
+
 TEST_F(CsvFile, ColumnsAreFoundWithAndWithoutUnit) {
   const std::string path = write("time [s], \"wz [rad s^-1]\" ,x\r\n0,1e-3,5\r\n\r\n0.5,,6\n1.0,+2.5,nan\n");
   const Series wz = read_reference({path, "time", "wz", "exact"});
@@ -158,6 +167,20 @@ TEST_F(ResultsFile, IsComparedWithItsOwnExport) {
                 (void)compare({{a}, {}, {"energy/total"}, {}}, {});
               }),
               HasSubstr("0 references, one is needed"));
+}
+
+TEST_F(ResultsFile, AreComparedChannelByChannel) {
+  const std::string a = write_results("first.results.h5"), b = write_results("second.results.h5");
+  SeriesRequest request{{a}, {}, {"energy/total", "nodes/position/beam/tip"}, {}};
+  request.reference_runs = {{b, "second"}};
+  const std::vector<Series> series = read_series(request);
+  ASSERT_EQ(series.size(), 8u);
+  EXPECT_EQ(series[5].kind, SeriesKind::reference);
+  EXPECT_EQ(series[5].channel, series[1].channel);
+  EXPECT_EQ(series[5].source, "second");
+  const std::vector<Deviation> same = compare(request, {});
+  ASSERT_EQ(same.size(), 4u);
+  for (const Deviation& one : same) EXPECT_EQ(one.largest, 0.0);
 }
 
 TEST_F(ResultsFile, ModesAreListedAndReadOverTheirNumbers) {

@@ -68,6 +68,22 @@ TEST(Findings, FailuresLeaveOrdersOut) {
   EXPECT_FALSE(orders[3]);
 }
 
+// The slider-crank of a trial: 0, 1, 2 and 4 modes give errors of 5.7, 0.61, 0.61 and 0.61 %.
+TEST(Findings, ValuesThatChangeNothingAreFound) {
+  MadeUp table;
+  const auto lines = lines_of(table.study, table.rows);
+  EXPECT_FALSE(plateau(table.rows, lines[0], 0));  // errors fall to the last value
+  const double errors[] = {0.057, 0.0061, 0.00612, 0.00608};
+  for (int k = 0; k < 4; ++k) table.rows[k].errors = {errors[k]};
+  EXPECT_EQ(plateau(table.rows, lines[0], 0), 1u);
+  table.rows[0].errors = {0.0061};
+  EXPECT_EQ(plateau(table.rows, lines[0], 0), 0u);
+  table.rows[1].outcome = CellOutcome::failed;  // what was not measured proves nothing
+  EXPECT_EQ(plateau(table.rows, lines[0], 0), 2u);
+  table.rows[3].outcome = CellOutcome::failed;
+  EXPECT_FALSE(plateau(table.rows, lines[0], 0));
+}
+
 TEST(Findings, TheCheapestSettingIsFound) {
   MadeUp table;
   const auto lines = lines_of(table.study, table.rows);

@@ -113,8 +113,10 @@ TEST_F(Recover, CantileverHasTheStressAndDeflectionOfTheBeam) {
   RecoverRequest r = request();
   r.points = {"tip", "0,0,0"};
   const std::string text = reducer::recover(r);
-  EXPECT_THAT(text, AllOf(HasSubstr("body 'arm', 2 instants"), HasSubstr(" m at 0.1 s at tip\n"),
+  EXPECT_THAT(text, AllOf(HasSubstr("body 'arm', 2 instants"), HasSubstr(fmt::format(" m at 0.1 s at tip ({:.4g}, 0, 0)\n", length)),
                           HasSubstr(" Pa at 0.1 s at ")));
+  // The place of the largest stress has coordinates: the middle of the clamped element.
+  EXPECT_THAT(text, ::testing::ContainsRegex("largest stress of beams .*' .0[.][0-9]+, 0, 0.\n"));
   const std::vector<double> line = last_line(file("out/arm_points.csv"));
   ASSERT_EQ(line.size(), 15u);
   const double b = 0.02, h = 0.03, A = b * h;
