@@ -100,10 +100,10 @@ TEST_F(Histories, LargeResultsAreAnnounced) {
 TEST_F(Histories, UnknownOptionsNameTheNearest) {
   const Outcome outcome = mechanism({"run", "arm.scene.yaml", "--setx", "a=1"});
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_THAT(outcome.error, HasSubstr("there is no option '--setx'; did you mean '--set'?"));
+  EXPECT_THAT(outcome.error, HasSubstr("did you mean --set?"));
   const Outcome reducer = call({program("reducer"), "run", "a.part.yaml", "--sett", "a=1"}, where);
   EXPECT_EQ(reducer.code, 2);
-  EXPECT_THAT(reducer.error, HasSubstr("there is no option '--sett'; did you mean '--set'?"));
+  EXPECT_THAT(reducer.error, HasSubstr("did you mean --set?"));
 }
 
 }  // namespace
