@@ -70,10 +70,11 @@ std::string told(const std::vector<Series>& series, const PlotOptions& options) 
   std::string text;
   for (const Series& one : series)
     if (one.kind == SeriesKind::difference)
-      text += fmt::format("{}, {}: differs by at most {:.6g}{}, RMS {:.6g} ({:.3g} % of the RMS of the reference)\n",
-                          printable_line(one.source, 200), one.channel, one.norms.largest,
-                          one.unit.empty() ? "" : " " + one.unit, one.norms.rms,
-                          100.0 * one.norms.rms / one.norms.reference_rms);
+      text += fmt::format("{}, {}: differs by at most {:.6g}{}, RMS {:.6g}{}\n", printable_line(one.source, 200),
+                          one.channel, one.norms.largest, one.unit.empty() ? "" : " " + one.unit, one.norms.rms,
+                          one.norms.reference_rms > 0.0 ? fmt::format(" ({:.3g} % of the RMS of the reference)",
+                                                                      100.0 * one.norms.rms / one.norms.reference_rms)
+                                                        : "");
   return text + missing_legends(series, options);
 }
 

@@ -115,7 +115,7 @@ std::string deviations_table(const std::vector<Deviation>& deviations) {
   std::vector<std::array<std::string, 6>> rows = {{"run", "channel", "max error", "RMS error", "relative RMS", "unit"}};
   for (const Deviation& d : deviations)
     rows.push_back({d.label, d.channel, fmt::format("{:.3e}", d.largest), fmt::format("{:.3e}", d.rms),
-                    fmt::format("{:.2f} %", 100.0 * d.rms / d.reference_rms), d.unit});
+                    d.reference_rms > 0.0 ? fmt::format("{:.2f} %", 100.0 * d.rms / d.reference_rms) : "-", d.unit});
   std::array<std::size_t, 6> width{};
   for (const auto& row : rows)
     for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
