@@ -107,7 +107,7 @@ const std::array kLibraryRules = {
                 "SuiteSparse stays in four files of mechanism/solver and one of reducer/algebra"},
     LibraryRule{"^(cvode|nvector|sundials|sunlinsol|sunmatrix)/.*", "^mechanism/.*", 1,
                 "SUNDIALS stays in one file of mechanism"},
-    LibraryRule{"^CLI/.*", "^(reducer|mechanism)/(main\\.cpp|history_commands)", kAny, "only main.cpp sees the command-line parser, and history_commands"},
+    LibraryRule{"^CLI/.*", "^(reducer|mechanism)/(main\\.cpp|history_commands\\.[ch]pp)", kAny, "only main.cpp sees the command-line parser, and history_commands"},
     LibraryRule{"^(hdf5|H5).*\\.h.*", "^(tests/)?formats/.*", kAny, "HDF5 stays in formats"},
     LibraryRule{"^yaml-cpp/.*", "^(tests/)?formats/.*", kAny, "yaml-cpp stays in formats"},
     LibraryRule{"^nlohmann/.*", "^(tests/.*|(formats|reducer|mechanism)/.*)", kAny, "common reads and writes no JSON"},
