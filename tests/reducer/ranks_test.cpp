@@ -217,7 +217,7 @@ TEST_F(Ranks, SolveIsShared) {
   const auto table = [&](int ranks) {
     const Outcome run = call(ranks, part + (folder / std::to_string(ranks)).string());
     EXPECT_EQ(run.code, 0) << run.text;
-    std::stringstream lines(run.text.substr(0, run.text.find("\ntime ")));
+    std::stringstream lines(run.text.substr(0, run.text.find("\nwritten ")));
     std::string text, line;
     const std::regex varies("reaction|equilibrium|residual| \\.\\.\\. [0-9]+ s");
     while (std::getline(lines, line))
