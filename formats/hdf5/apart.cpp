@@ -104,7 +104,7 @@ bool close_door() {
   return filter.install();
 }
 
-/// Exit status of a child, as of any program of ours (report_short_memory).
+/// Exit status of a child without memory, the same as that of the programs (report_short_memory).
 constexpr int left_without_memory = 1;
 
 std::string pack_complaint(const Error& error) {

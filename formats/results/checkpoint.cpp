@@ -16,7 +16,7 @@ namespace {
 constexpr const char* format_name = "tisserand-checkpoint";
 constexpr std::uint64_t max_numbers = std::uint64_t{1} << 32;
 
-/// Of the numbers and the values of the scene, so that damage is seen.
+/// SHA-256 of the numbers and of the values of the scene, by which damage is found.
 std::string content_id(const Checkpoint& c) {
   Sha256 sha;
   sha.add(&c.time, sizeof c.time);

@@ -11,7 +11,7 @@ using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
 constexpr std::size_t most_instants = 50;
-/// Of the size at one instant: a rod that turns about its end fills 2.83 times its own diagonal.
+/// Limit, in sizes at one instant: a rod that turns about its end fills 2.83 times its own diagonal.
 constexpr double leaves_its_place = 3.0;
 
 /// Row of a track at row `t` of the run; of one that stands its only row.

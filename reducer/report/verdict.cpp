@@ -15,7 +15,7 @@ constexpr double tolerated = 0.05;
 
 std::string percent(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
 
-/// Of the free frequency k of the reduced part.
+/// Relative truncation error of the free frequency k of the reduced part.
 double dropped_error(const FileCertificate& file, const ModelCertificate& model, std::size_t k) {
   if (k >= file.free_frequency.size()) return std::numeric_limits<double>::quiet_NaN();
   const double f = file.free_frequency[k];

@@ -20,9 +20,9 @@ struct FrequencyError {
   double whole() const { return mesh + dropped; }
 };
 
-/// Of the free frequencies of the reduced part, or, where the mesh was judged with the boundary held, of those. Dropped
-/// modes: against the full model where that was solved, else the estimate, else its bound. Only modes whose error of
-/// the mesh was looked at.
+/// Errors of the free frequencies of the reduced part, or of the fixed ones where the mesh was judged with the boundary
+/// held. The truncation error is measured against the full model where that was solved; else it is the estimate, else
+/// its bound. Modes without an estimate of the discretisation error are omitted.
 std::vector<FrequencyError> frequency_errors(const FileCertificate& file, const ModelCertificate& model);
 
 /// A line without end: "good enough for vibrations up to 431 Hz: ...", "not good enough: ...", "not known: ...". The

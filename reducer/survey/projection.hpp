@@ -46,8 +46,8 @@ class Projection {
   /// From back to front by their middles; small, so that this is the order in which they hide one another. Facets are
   /// lit by mean normals, edges where surfaces end are dark.
   std::vector<PaintedPolygon> polygons() const;
-  /// Of each surface the place, among the middles of some of its cells, that nothing hides and that is farthest from
-  /// its edges and from places of it that are hidden.
+  /// A place on each surface for its label: the middle of a cell that nothing hides, as far as possible from the edges
+  /// of the surface and from its hidden places.
   std::vector<SeenPlace> seen_places() const;
   /// Whether a surface is seen there.
   bool covers(const Eigen::Vector2d& at) const;
