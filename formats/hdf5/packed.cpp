@@ -49,9 +49,10 @@ void write_all(Id file, const std::string& dataset, const Shape& shape, std::uin
                const void* values, const std::string& where) {
   const std::uint64_t row =
       std::max<std::uint64_t>(element * elements_of(shape) / std::max<std::uint64_t>(shape[0], 1), 1);
-  const Handle handle = packed_dataset(file, dataset, shape, packed_chunk_bytes / row, type, where);
+  Handle handle = packed_dataset(file, dataset, shape, packed_chunk_bytes / row, type, where);
   if (elements_of(shape) > 0 && H5Dwrite(handle.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
     throw last_error(fmt::format("cannot write dataset {}", dataset), where, packed_remedy);
+  close_packed(handle, dataset, where);
 }
 
 /// The box of rows [first, first + count) of `space`, selected; its number of values.
@@ -75,7 +76,8 @@ OutputFile::OutputFile(const std::string& path) : path_(path), temporary_(tempor
   H5Pset_file_locking(access.id(), false, true);
   H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
   H5Pset_obj_track_times(creation.id(), false);
-  file_ = Handle(H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
+  // Exclusive: a link that somebody has put in the place of the temporary file is not followed.
+  file_ = Handle(H5Fcreate(temporary_.c_str(), H5F_ACC_EXCL, creation.id(), access.id()), H5Fclose);
   if (file_.valid()) return;
   const Error error = last_error("cannot create the file", path, packed_remedy);
   ::unlink(temporary_.c_str());
@@ -110,6 +112,10 @@ void write_packed_rows(const Handle& dataset, std::uint64_t first, std::uint64_t
   const Handle memory(H5Screate_simple(1, &total, nullptr), H5Sclose);
   if (H5Dwrite(dataset.id(), H5T_NATIVE_FLOAT, memory.id(), space.id(), H5P_DEFAULT, values) < 0)
     throw last_error("cannot be written", where, packed_remedy);
+}
+
+void close_packed(Handle& handle, const std::string& dataset, const std::string& where) {
+  if (handle.reset() < 0) throw last_error(fmt::format("cannot write dataset {}", dataset), where, packed_remedy);
 }
 
 void write_packed(Id file, const std::string& dataset, const Shape& shape, const double* values,

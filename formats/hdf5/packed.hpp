@@ -34,6 +34,9 @@ Handle create_packed(Id file, const std::string& dataset, const Shape& shape, st
 void write_packed_rows(const Handle& dataset, std::uint64_t first, std::uint64_t count, const float* values,
                        const std::string& where);
 
+/// Closes the dataset, whose last values go to the disk only now. Throws Error if they do not.
+void close_packed(Handle& handle, const std::string& dataset, const std::string& where);
+
 /// All of a dataset of numbers or of strings, compressed.
 void write_packed(Id file, const std::string& dataset, const Shape& shape, const double* values,
                   const std::string& where);

@@ -191,7 +191,7 @@ struct RecoveryWriter::Impl {
   void close_fields() {
     for (Growing& growing : fields) {
       TISSERAND_ENSURE(growing.written == growing.set.items, "{} of {} items", growing.written, growing.set.items);
-      growing.dataset.reset();
+      hdf5::close_packed(growing.dataset, growing.set.dataset, file.path());
     }
   }
 

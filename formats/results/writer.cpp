@@ -99,7 +99,8 @@ hdf5::Handle access_properties() {
 void create_head(const std::string& path, const ResultsLayout& layout, const std::vector<Block>& blocks,
                  const std::string& run, const std::string& where) {
   const hdf5::Handle access = access_properties();  // lives on: closing it would forget why H5Fcreate failed
-  hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
+  // Exclusive: a link that somebody has put in the place of the temporary file is not followed.
+  hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access.id()), H5Fclose);
   if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
   hdf5::write_text_attribute(file.id(), "/", "format", "tisserand-results", where);
   hdf5::write_text_attribute(file.id(), "/", "version", "1.12", where);

@@ -155,6 +155,33 @@ TEST_P(ShortOfBoth, ReducerRun) {
   });
 }
 
+// The trial: a disk that was full after the superelement left it without its companion, and the next run was linear.
+TEST_F(ShortOf, DisksLeaveTheFilesOfOneRun) {
+  if (!fs::exists(program("reducer"))) GTEST_SKIP() << "built without the reducer";
+  take("stress_cantilever.part.yaml");
+  const auto reduce = [&](const char* modes) {
+    return std::vector<std::string>{program("reducer"), "run", "stress_cantilever.part.yaml", "--set", modes};
+  };
+  ASSERT_EQ(call(reduce("modes=8"), where).code, 0);
+  const std::map<std::string, std::string> other = contents();
+  ASSERT_EQ(call(reduce("modes=4"), where).code, 0);
+  const std::map<std::string, std::string> before = contents();
+  for (const char* length : {"once", "good"}) {
+    const Shortage shortage{"disk", "all", length};
+    ASSERT_EQ(call_short(reduce("modes=8"), shortage, 0).code, 0);
+    const long calls = std::atol(read_text(folder.file("count")).c_str());
+    const int places = test_support::trials(4);
+    for (int k = 0; k < places; ++k) {
+      restore(before);
+      const long at = 1 + calls * (2 * k + 1) / (2 * places);
+      const Outcome outcome = call_short(reduce("modes=8"), shortage, at);
+      const std::map<std::string, std::string> after = contents();
+      EXPECT_TRUE(after == before || after == other) << length << " at " << at << " of " << calls << outcome.error;
+      EXPECT_EQ(outcome.code, after == before ? 1 : 0) << outcome.error;
+    }
+  }
+}
+
 TEST_P(ShortOfBoth, ReducerRecover) {
   if (!fs::exists(program("reducer"))) GTEST_SKIP() << "built without the reducer";
   take("stress_cantilever.part.yaml");

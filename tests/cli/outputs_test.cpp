@@ -199,7 +199,8 @@ TEST_F(Outputs, NamesOfPicturesAreNoCommands) {
   EXPECT_TRUE(std::filesystem::exists(file(name)));
   EXPECT_FALSE(std::filesystem::exists(file("EXECUTED")));
   EXPECT_THAT(plot({"--range", "100", "200"}).error, HasSubstr("nothing between 100 and 200; the run has 0 to "));
-  EXPECT_EQ(plot({"--title", "it's\na `touch EXECUTED`"}).code, 0);
+  for (const char* title : {"it's\na `touch EXECUTED`", "'90s", "''"})  // the trial: gnuplot ended the text there
+    EXPECT_EQ(plot({"--title", title}).code, 0) << title;
   EXPECT_FALSE(std::filesystem::exists(file("EXECUTED")));
 }
 
