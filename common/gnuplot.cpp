@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "common/child.hpp"
 #include "common/error.hpp"
@@ -22,6 +26,18 @@ std::string gnuplot_quoted(const std::string& text) {
       quoted += c;
   }
   return quoted + "'";
+}
+
+std::string gnuplot_logarithmic_axis(const char* axis, double low, double high) {
+  std::string script = fmt::format("set {}range [{:.9g}:{:.9g}]\n", axis, low, high);
+  if (high > 300.0 * low) return script + fmt::format("set format {0} '10^{{%T}}'\nset {0}tics autofreq\n", axis);
+  std::vector<std::string> ticks;
+  for (int power = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, power) <= high; ++power)
+    for (const double lead : {1.0, 2.0, 5.0})
+      if (const double at = lead * std::pow(10.0, power); at >= low && at <= high)
+        ticks.push_back(fmt::format("'{0:.6g}' {0:.6g}", at));
+  return script + (ticks.size() < 2 ? fmt::format("set format {0} '%g'\nset {0}tics autofreq\n", axis)
+                                    : fmt::format("set {}tics ({})\n", axis, join(ticks, ", ")));
 }
 
 std::string gnuplot_picture(const std::string& script, const std::string& where) {

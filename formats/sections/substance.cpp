@@ -43,9 +43,11 @@ std::string substance_doubt(const Substance& s, const Units& units, const std::s
   const bool heavy = density < 10.0 || density > 30000.0, fast = s.modulus > 0.0 && (speed < 100.0 || speed > 20000.0);
   if (!heavy && !fast) return {};
   std::string text = fmt::format("{}: ", s.what);
-  if (heavy)
-    text += fmt::format("a density of {:.4g} {}/{}^3 is {:.3g} kg/m^3; usual are 10 to 30 000", s.density,
-                        units.mass.label, units.length.label, density);
+  if (heavy) {
+    const std::string own = fmt::format("{}/{}^3", units.mass.label, units.length.label), usual = "kg/m^3";
+    text += fmt::format("a density of {:.4g} {}{}; usual are 10 to 30 000 {}", s.density, own,
+                        own == usual ? "" : fmt::format(", that is {:.3g} {}", density, usual), usual);
+  }
   if (heavy && fast) text += "; ";
   if (fast)
     text += fmt::format(

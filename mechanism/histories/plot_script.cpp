@@ -103,19 +103,8 @@ std::optional<std::array<double, 2>> positive_range(const std::vector<Series>& s
   return std::array{low / margin, high * margin};
 }
 
-/// A logarithmic axis that fits what is drawn: ticks at 1, 2 and 5 times powers of ten where powers alone would be few.
 std::string logarithmic_axis(const char* axis, const std::optional<std::array<double, 2>>& range) {
-  if (!range) return {};
-  const auto [low, high] = *range;
-  std::string script = fmt::format("set {}range [{:.9g}:{:.9g}]\n", axis, low, high);
-  if (high > 300.0 * low) return script + fmt::format("set format {0} '10^{{%T}}'\nset {0}tics autofreq\n", axis);
-  std::vector<std::string> ticks;
-  for (int power = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, power) <= high; ++power)
-    for (const double lead : {1.0, 2.0, 5.0})
-      if (const double at = lead * std::pow(10.0, power); at >= low && at <= high)
-        ticks.push_back(fmt::format("'{0:.6g}' {0:.6g}", at));
-  return script + (ticks.size() < 2 ? fmt::format("set format {0} '%g'\nset {0}tics autofreq\n", axis)
-                                    : fmt::format("set {}tics ({})\n", axis, join(ticks, ", ")));
+  return range ? gnuplot_logarithmic_axis(axis, (*range)[0], (*range)[1]) : std::string();
 }
 
 bool is_crowd(const std::vector<Series>& series, const Panel& panel) {
@@ -211,6 +200,20 @@ void append_crowd(std::string& script, const Panel& panel, std::size_t number, P
   }
 }
 
+/// An axis on which the bars of modes stand on zero. Only values that are negative by more than round-off go below it.
+std::string axis_of_bars(const std::vector<Series>& series, const Panel& panel) {
+  constexpr double round_off = 1e-9, nothing = 1e-12;  // of the largest; of numbers without unit, as ratios of damping
+  double least = 0.0, largest = 0.0;
+  for (const std::size_t i : panel.members)
+    for (const double value : series[i].y) {
+      if (!std::isfinite(value)) continue;
+      least = std::min(least, value);
+      largest = std::max(largest, std::abs(value));
+    }
+  if (largest == 0.0 || (largest < nothing && series[panel.members.front()].unit == "1")) return "set yrange [0:1]\n";
+  return least < -round_off * largest ? "set yrange [*<0:0<*]\n" : "set yrange [0:*]\n";
+}
+
 void append_panel(std::string& script, const Panel& panel, std::size_t number, PanelScript&& own) {
   const std::string label =
       own.options.y_label.empty() || panel.of_differences ? y_label_of(own.series, panel) : own.options.y_label;
@@ -221,6 +224,7 @@ void append_panel(std::string& script, const Panel& panel, std::size_t number, P
   if (is_crowd(own.series, panel)) {
     append_crowd(script, panel, number, own);
   } else if (is_of_modes(own.series.front())) {
+    if (own.options.y_scale == AxisScale::linear && !own.options.y_range) script += axis_of_bars(own.series, panel);
     for (std::size_t rank = 0; rank < panel.members.size(); ++rank)
       own.commands.push_back(
           bars(panel.members[rank], rank, panel.members.size(), own.title(panel.members[rank], named)));
@@ -262,12 +266,11 @@ std::optional<std::array<double, 2>> range_of(const std::vector<Series>& series)
   return std::array{0.5, static_cast<double>(modes) + 0.5};
 }
 
-/// Filled bars that stand on zero, over whole numbers.
-std::string modes_axes(const std::vector<Series>& series, const PlotOptions& options) {
+/// Filled bars over whole numbers.
+std::string modes_axes(const std::vector<Series>& series) {
   std::size_t modes = 1;
   for (const Series& one : series) modes = std::max(modes, one.x.size());
-  return fmt::format("set style fill solid 0.8 noborder\nset xtics {}\n{}", (modes + 29) / 30,
-                     options.y_scale == AxisScale::linear ? "set yrange [*<0:0<*]\n" : "");
+  return fmt::format("set style fill solid 0.8 noborder\nset xtics {}\n", (modes + 29) / 30);
 }
 
 /// Panels with the columns of their legends, and what they are drawn on.
@@ -362,7 +365,7 @@ std::string gnuplot_script(const std::vector<Series>& series, const PlotOptions&
       "set rmargin 4\n";
   if (options.x_scale == AxisScale::logarithmic) script += "set logscale x\nset format x '10^{%T}'\n";
   if (options.y_scale == AxisScale::logarithmic) script += "set logscale y\nset format y '10^{%T}'\n";
-  if (is_of_modes(series.front())) script += modes_axes(series, options);
+  if (is_of_modes(series.front())) script += modes_axes(series);
   const bool may_start_at_zero = options.x_scale == AxisScale::linear;
   const auto whole_range = range_of(series);
   append_range(script, "x", options.x_range || !may_start_at_zero ? options.x_range : whole_range);

@@ -118,6 +118,9 @@ void write_certificate(const std::string& superelement_path, const formats::Supe
 /// The reduction's part of the JSON beside the file, if it exists and quotes the same content.
 std::optional<ModelCertificate> read_certificate(const std::string& superelement_path, const std::string& content_id);
 
+/// The centre of mass without round-off: coordinates below 1e-12 of the largest or of `length` are 0.
+Eigen::Vector3d shown_centre(const formats::RigidProperties& rigid, double length);
+
 /// For people; `model` may be absent.
 std::string certificate_text(const formats::Superelement& element, const FileCertificate& file,
                              const std::optional<ModelCertificate>& model);

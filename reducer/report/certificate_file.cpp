@@ -222,11 +222,9 @@ ModelCertificate model_from(const json& j) {
 double clean(double value, double largest) { return std::abs(value) < 1e-12 * largest ? 0.0 : value; }
 
 std::string rigid_text(const char* source, const formats::RigidProperties& rigid, double length, const Units& units) {
-  const Eigen::Vector3d& c = rigid.center_of_mass;
-  const double size = std::max(length, c.cwiseAbs().maxCoeff());
+  const Eigen::Vector3d c = shown_centre(rigid, length);
   std::string text = fmt::format("{:<19}mass {:.9g}{}, centre of mass ({:.9g}, {:.9g}, {:.9g}){}\n", source, rigid.mass,
-                                 after_number(unit_label(units, 0, 1, 0)), clean(c.x(), size), clean(c.y(), size),
-                                 clean(c.z(), size), after_number(unit_label(units, 1, 0, 0)));
+                                 after_number(unit_label(units, 0, 1, 0)), c.x(), c.y(), c.z(), after_number(unit_label(units, 1, 0, 0)));
   const double largest = rigid.inertia.cwiseAbs().maxCoeff();
   for (int i = 0; i < 3; ++i)
     text += fmt::format("{:<19}{} {:>16.9g} {:>16.9g} {:>16.9g}{}\n", "", i == 0 ? "inertia" : "       ",
@@ -440,6 +438,12 @@ std::optional<ModelCertificate> read_certificate(const std::string& superelement
   } catch (const json::exception&) {
     return std::nullopt;  // not a certificate of ours: the file alone is shown
   }
+}
+
+Eigen::Vector3d shown_centre(const formats::RigidProperties& rigid, double length) {
+  const Eigen::Vector3d& c = rigid.center_of_mass;
+  const double size = std::max(length, c.cwiseAbs().maxCoeff());
+  return {clean(c.x(), size), clean(c.y(), size), clean(c.z(), size)};
 }
 
 std::string certificate_text(const formats::Superelement& element, const FileCertificate& file,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -56,7 +57,7 @@ std::string picture(int width, int height, const std::string& script) {
   try {
     const std::string text = gnuplot_picture(fmt::format(
         "set terminal svg size {},{} font 'sans,17' linewidth 1.3\nset encoding utf8\n"
-        "set grid ytics lc rgb '#dddddd'\nset border 3\nset tics nomirror\n{}",
+        "set grid back lc rgb '#dddddd' lt 1 lw 0.7\nset border 3 lc rgb '#444444'\nset tics nomirror\n{}",
         width, height, script), "certificate");
     return text.substr(std::min(text.find("<svg"), text.size())) + "\n";
   } catch (const Error& error) {
@@ -69,8 +70,10 @@ std::string data_block(const std::string& name, const std::vector<std::string>& 
   return fmt::format("${} << EOD\n{}\nEOD\n", name, join(rows, "\n"));
 }
 
-/// Numbers of modes, few enough that they do not touch.
-std::string mode_ticks(std::size_t modes) { return fmt::format("set xtics {}\n", std::max<std::size_t>(1, (modes + 5) / 6)); }
+/// An axis of the modes 1 to `modes`, whose numbers are few enough that they do not touch.
+std::string mode_axis(std::size_t modes) {
+  return fmt::format("set xrange [0.5:{}.5]\nset xtics 1,{}\n", modes, std::max<std::size_t>(1, (modes + 5) / 6));
+}
 
 /// Frequencies of the reduced part with the interval that holds the full part's, widened by the error of the mesh.
 std::string frequencies(const FileCertificate& file, const ModelCertificate& model, const std::string& unit) {
@@ -96,9 +99,8 @@ std::string frequencies(const FileCertificate& file, const ModelCertificate& mod
          picture(620, 420,
                  data_block("free", rows) + data_block("held", held) +
                      fmt::format("set key top left\nset xlabel 'mode'\nset ylabel 'frequency [{}]'\n"
-                                 "set xrange [0:{}]\nset yrange [0:{:.6g}]\n{}",
-                                 unit, std::max(rows.size(), held.size()) + 1, 1.08 * most,
-                                 mode_ticks(std::max(rows.size(), held.size()))) +
+                                 "set yrange [0:{:.6g}]\n{}",
+                                 unit, 1.08 * most, mode_axis(std::max(rows.size(), held.size()))) +
                      "plot $held using 1:2 with points pt 6 lc rgb '#999999' title 'boundary held', "
                      "$free using 1:2:3:4 with yerrorbars pt 7 ps 0.5 lc rgb '#0060ad' title 'free'\n");
 }
@@ -106,9 +108,17 @@ std::string frequencies(const FileCertificate& file, const ModelCertificate& mod
 /// Errors by the mesh and by dropped modes, one above the other on one scale.
 std::string errors(const ModelCertificate& model) {
   std::vector<std::string> dropped, mesh;
-  const auto add = [](const std::vector<double>& values, std::vector<std::string>& rows) {
-    for (std::size_t k = 0; k < values.size(); ++k)
-      if (std::abs(values[k]) > 0.0) rows.push_back(fmt::format("{} {}", k + 1, 100.0 * std::abs(values[k])));
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  std::size_t modes = 0;
+  const auto add = [&](const std::vector<double>& values, std::vector<std::string>& rows) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const double error = 100.0 * std::abs(values[k]);
+      if (!(error > 0.0) || !std::isfinite(error)) continue;
+      rows.push_back(fmt::format("{} {}", k + 1, error));
+      least = std::min(least, error);
+      most = std::max(most, error);
+      modes = std::max(modes, k + 1);
+    }
   };
   add(model.truncation_estimate, dropped);
   add(model.mesh_error.error, mesh);
@@ -129,8 +139,8 @@ std::string errors(const ModelCertificate& model) {
              model.mesh_error.boundary_held ? "fixed" : "free") +
          picture(620, 420,
                  blocks +
-                     "set logscale y\nset format y '%g'\nset xlabel 'mode'\nset ylabel 'error [%]'\n"
-                     "set xrange [0.5:*]\nset key above left\nplot " +
+                     "set logscale y\nset xlabel 'mode'\nset ylabel 'error [%]'\nset key above left\n" +
+                     gnuplot_logarithmic_axis("y", least / 1.5, 1.5 * most) + mode_axis(modes) + "plot " +
                      join(plots, ", ") + "\n");
 }
 
@@ -153,7 +163,7 @@ std::string effective_masses(const FileCertificate& c) {
     pictures +=
         picture(400, 300,
                 data_block("mass", rows) +
-                    mode_ticks(rows.size()) +
+                    mode_axis(rows.size()) +
                     fmt::format("set yrange [0:105]\nset style fill solid 0.8 noborder\nunset key\nset title '{}'\n"
                                 "set xlabel 'mode'\nset ylabel '%'\nplot $mass using 1:2 with boxes lc rgb "
                                 "'#0060ad', $mass using 1:3 with steps lw 2 lc rgb '#d95319'\n",
@@ -201,7 +211,7 @@ std::string certificate_page(const formats::Superelement& element, const FileCer
   std::string html = page_style;
   html += fmt::format("<title>{0}</title></head><body>\n<h1>{0}</h1>\n", safe(element.name));
   html += fmt::format("<p class=verdict>{}</p>\n", safe(verdict(file, model, element.units)));
-  const Eigen::Vector3d& c = file.rigid.center_of_mass;
+  const Eigen::Vector3d c = shown_centre(file.rigid, file.characteristic_length);
   html += fmt::format("<p>Mass {:.6g}{}, centre of mass ({:.6g}, {:.6g}, {:.6g}){}.</p>\n", file.rigid.mass,
                       safe(after_number(unit_label(element.units, 0, 1, 0))), c.x(), c.y(), c.z(),
                       safe(after_number(unit_label(element.units, 1, 0, 0))));

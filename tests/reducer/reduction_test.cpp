@@ -259,6 +259,7 @@ TEST(Reduction, CertificateAsAPage) {
     EXPECT_THAT(page, HasSubstr(std::string("<h2>") + heading));
   EXPECT_THAT(page, ::testing::AllOf(HasSubstr("<h1>&lt;b&gt;&amp;</h1>"), ::testing::EndsWith("</html>\n"),
                                      ::testing::Not(HasSubstr("<b>"))));
+  EXPECT_THAT(page, HasSubstr("centre of mass (0.85, 0, 0)"));  // round-off across the beam is 0
   std::size_t pictures = 0;
   for (std::size_t at = page.find("<svg"); at != std::string::npos; at = page.find("<svg", at + 1)) ++pictures;
   EXPECT_EQ(pictures, is_program("gnuplot") ? 9u : 0u);  // frequencies, errors, six directions, assurance

@@ -139,6 +139,20 @@ TEST(GnuplotScript, DrawsModesAsBarsBesideOneAnother) {
   EXPECT_THAT(script, HasSubstr("$d1 using ($1+0.2):2:(0.38) with boxes"));
   EXPECT_THAT(script, HasSubstr("set xrange [0.5:5.5]"));
   EXPECT_THAT(script, HasSubstr("set xlabel 'mode'"));
+  // Bars stand on zero; what round-off makes negative does not lower the axis, as of the damping of undamped modes.
+  const auto axis_of = [&](const std::vector<double>& values, const char* unit) {
+    Series damping = series.front();
+    damping.unit = unit;
+    damping.y = values;
+    const std::string text = gnuplot_script({damping}, into("a.svg"));
+    const std::size_t at = text.find("set yrange ");
+    return text.substr(at, text.find('\n', at) - at);
+  };
+  EXPECT_EQ(axis_of({0.1, 0.02, 0.3, 1, 0}, "1"), "set yrange [0:*]");
+  EXPECT_EQ(axis_of({0.1, -1e-14, 0.3, 1, 0}, "1"), "set yrange [0:*]");
+  EXPECT_EQ(axis_of({0.1, -0.02, 0.3, 1, 0}, "1"), "set yrange [*<0:0<*]");
+  EXPECT_EQ(axis_of({1e-17, -1e-17, 0, 0, 0}, "1"), "set yrange [0:1]");
+  EXPECT_EQ(axis_of({0, 0, 0, 0, 0}, "Hz"), "set yrange [0:1]");
   series.push_back(wave("a", "energy/total", "J", 5));
   EXPECT_THAT(error_of([&] { plot(series, {}); }),
               HasSubstr("'modes/frequency' is over modes, 'energy/total' over time"));
@@ -316,6 +330,12 @@ TEST_F(Picture, FaultsAreToldAndLeaveNothing) {
               plot({series, empty}, options);
             }),
             "a: channel 'nodes/rotation/beam/tip/w' holds no finite value; choose another channel");
+  Series negative = series;
+  negative.y.assign(negative.y.size(), -1.0);
+  options.y_scale = AxisScale::logarithmic;
+  EXPECT_THAT(error_of([&] { plot({negative}, options); }),
+              HasSubstr("'energy/total' has no positive values, which a logarithmic axis needs"));
+  options.y_scale = AxisScale::linear;
   options.x_range = {1.0, 1.0};
   options.y_range = {5.0, 5.0};
   EXPECT_THAT(error_of([&] { plot({series}, options); }), HasSubstr("range"));
