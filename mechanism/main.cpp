@@ -86,9 +86,15 @@ int exit_code(const mechanism::RunReport& report) {
   return report.outcome == interrupted ? exit_interrupted : report.outcome == not_converged ? exit_not_converged : 0;
 }
 
-/// Runs one analysis and prints its report; doubts about the scene only where no analysis before has `told` any.
+/// What the reports of a command have said of the scene, which its analyses share.
+struct Told {
+  bool doubts = false;
+  std::vector<std::string> notes;
+};
+
+/// Runs one analysis and prints its report without what is `told`.
 mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunRequest& request, const std::string& name,
-                          bool& told) {
+                          Told& told) {
   const double start = request.scene.integrator.start;
   Progress progress(name.empty() ? "simulating" : name, request.scene.integrator.end - start);
   mechanism::RunControl control;
@@ -99,8 +105,9 @@ mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunReq
   mechanism::RunEnd end = request.scene.integrator.accuracy ? mechanism::simulate_to_accuracy(request, control)
                                                             : mechanism::simulate(request, control);
   if (end.report.outcome != mechanism::RunOutcome::interrupted) progress.finish();
-  if (told) end.report.preflight = {};
-  told = told || !mechanism::preflight_doubts(end.report.preflight, request.scene.units).empty();
+  if (told.doubts) end.report.preflight = {};
+  told.doubts = told.doubts || !mechanism::preflight_doubts(end.report.preflight, request.scene.units).empty();
+  mechanism::drop_told_notes(end.report, told.notes);
   say(fmt::format("{}: {}{}\n{}  {:<16} {}\n", arguments.scene, request.scene.name,
                   name.empty() ? "" : fmt::format(": {}", name),
                   mechanism::report_text(end.report, request.scene.units), "results", end.report.results));
@@ -149,7 +156,7 @@ int run(const RunArguments& arguments) {
   listen_for_interrupts();
   const mechanism::BodyFiles files = mechanism::read_body_files(scene);
   std::map<std::string, mechanism::State> ends;
-  bool told = false;
+  Told told;
   for (const mechanism::PlannedAnalysis& one : planned) {
     std::optional<mechanism::State> begin;
     if (!one.from.empty()) begin = ends.at(one.from);
@@ -167,9 +174,11 @@ int run(const RunArguments& arguments) {
 
 int check(const RunArguments& arguments) {
   const formats::Scene scene = read(arguments);
+  std::vector<std::string> told;
   for (const mechanism::PlannedAnalysis& one : mechanism::plan(scene, "", {})) {
     if (!one.from.empty()) continue;  // starts where another one ends
-    const mechanism::RunReport report = mechanism::inspect(one.scene, {});
+    mechanism::RunReport report = mechanism::inspect(one.scene, {});
+    mechanism::drop_told_notes(report, told);
     say(fmt::format("{}: {}{}: no errors found\n{}", arguments.scene, scene.name,
                     one.name.empty() ? "" : fmt::format(": {}", one.name),
                     mechanism::report_text(report, scene.units)));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <variant>
 
@@ -26,6 +27,10 @@ constexpr double most_damping = 2.0;                          // dampers in cars
 constexpr double most_gyration = 100.0;  // of the extents of body and scene: a flywheel on a short bearing has some 20
 constexpr double most_section = 5.0;     // radius of gyration of a section, over the length of the beam
 constexpr double most_free_length = 100.0;  // of a spring, over its length at the start
+/// A uniform rod has its ends at 1.73 radii of gyration. A ball on a thin rod has them further away, the lighter the rod:
+/// at 5 radii it weighs an eighth. A compact body is taken for a weight on an arm without mass.
+constexpr double most_reach = 5.0;
+constexpr double most_slender = 0.1;  // least over largest principal moment of inertia
 
 constexpr int most_told = 3;  // of one kind: the rest is counted
 
@@ -170,6 +175,38 @@ void doubt_free_lengths(const Model& model, const Evaluation& now, Doubts& doubt
 }
 
 }  // namespace
+
+std::string far_centres(const Model& model) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::vector<double> nearest(model.nodes.size(), none);  // the node of a rigid body is at its centre of mass
+  const auto hold = [&](const Marker& marker) {
+    if (marker.node >= 0) nearest[marker.node] = std::min(nearest[marker.node], marker.p.norm());
+  };
+  const auto hold_both = [&](const auto& pool) {
+    for (const auto& one : pool) {
+      hold(one.a);
+      hold(one.b);
+    }
+  };
+  hold_both(model.joints);
+  hold_both(model.ties);
+  hold_both(model.coordinates);
+  hold_both(model.bushings);
+  for (const Tyre& tyre : model.tyres) hold(tyre.wheel);
+  std::vector<std::string> texts;
+  for (const RigidBody& body : model.rigid_bodies) {
+    const double distance = nearest[body.node];
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(body.inertia, Eigen::EigenvaluesOnly);
+    const Vector3d moments = principal.eigenvalues();
+    const double gyration = std::sqrt(moments[2] / body.mass);
+    if (distance == none || moments[0] > most_slender * moments[2] || distance <= most_reach * gyration) continue;
+    texts.push_back(fmt::format("'{}' {:.4g}{} (radius of gyration {:.3g})", body.name, distance,
+                                after_number(unit_label(model.units, 1, 0, 0)), gyration));
+  }
+  if (texts.empty()) return {};
+  return "slender bodies with a centre of mass far from their joints and springs: " + listed(texts) +
+         ". That fits a weight on a light arm; else check `center_of_mass` and `inertia`";
+}
 
 std::vector<std::string> number_doubts(const formats::Scene& scene, const Model& model, const Evaluation& now) {
   Doubts doubts(scene);

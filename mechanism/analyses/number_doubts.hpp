@@ -14,4 +14,8 @@ namespace tisserand::mechanism {
 /// on units is not judged where they have no names.
 std::vector<std::string> number_doubts(const formats::Scene& scene, const Model& model, const Evaluation& now);
 
+/// A note on rigid bodies whose centre of mass is far from all that holds them, against their radius of gyration; empty
+/// if there is none. A weight on a light arm is like that, and a centre of mass in other units too.
+std::string far_centres(const Model& model);
+
 }  // namespace tisserand::mechanism

@@ -360,7 +360,8 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
 }
 
 void note_large_output(const formats::Scene& scene, const Model& model, double time, std::vector<std::string>& notes) {
-  std::string large = large_output(scene, time, formats::bytes_of_row(results_layout(model, scene)));
+  std::string large =
+      large_output(scene, rows_to_come(scene, time), formats::bytes_of_row(results_layout(model, scene)));
   if (!large.empty()) notes.push_back(std::move(large));
 }
 

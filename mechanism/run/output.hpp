@@ -18,7 +18,7 @@ void keep_chosen_places(const formats::Scene& scene, Model& model);
 
 formats::ResultsLayout results_layout(const Model& model, const formats::Scene& scene);
 
-/// Adds large_output() of the rows from `time` on, if there is something to say.
+/// Adds large_output() of rows_to_come() from `time` on, if there is something to say.
 void note_large_output(const formats::Scene& scene, const Model& model, double time, std::vector<std::string>& notes);
 
 /// What a row tells of.

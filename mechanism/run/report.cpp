@@ -186,4 +186,13 @@ std::string report_text(const RunReport& report, const Units& units) {
   return text;
 }
 
+void drop_told_notes(RunReport& report, std::vector<std::string>& told) {
+  const std::vector<std::string> before = told;
+  for (const std::string& note : report.scene_notes)
+    if (std::ranges::find(before, note) == before.end())
+      told.push_back(note);
+    else
+      std::erase(report.notes, note);
+}
+
 }  // namespace tisserand::mechanism

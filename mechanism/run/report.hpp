@@ -54,6 +54,7 @@ struct RunReport {
   std::string table_title;  ///< of the lines that only this analysis has: poses, modes
   std::vector<std::string> table;
   std::vector<std::string> notes;
+  std::vector<std::string> scene_notes;  ///< those of `notes` that the scene gives, not the analysis
   std::vector<std::string> doubts;   ///< of the results, measured while it ran
   std::vector<std::string> effects;  ///< what the model contains: pools and terms that are on
   std::string switches;              ///< optional effects that it has, and those that the scene switches off
@@ -69,5 +70,9 @@ struct RunReport {
 /// As JSON (stored in the results file) and as the lines that the command prints.
 std::string report_json(const RunReport& report);
 std::string report_text(const RunReport& report, const Units& units);
+
+/// Removes the notes on the scene that a report before has had, `told`, and adds the others to it: analyses of one
+/// command have the same scene.
+void drop_told_notes(RunReport& report, std::vector<std::string>& told);
 
 }  // namespace tisserand::mechanism

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "mechanism/analyses/kinematics.hpp"
+#include "mechanism/analyses/number_doubts.hpp"
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/analyses/steady_rotation.hpp"
 #include "mechanism/build/effects.hpp"
@@ -16,6 +18,7 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/model/bodies.hpp"
 #include "mechanism/run/output.hpp"
+#include "mechanism/run/schedule.hpp"
 #include "mechanism/run/simulated_scene.hpp"
 #include "mechanism/step/redundancy.hpp"
 #include "mechanism/switching/constraint_stress.hpp"
@@ -175,6 +178,16 @@ void note_locked(Run& run) {
       listed(locked)));
 }
 
+/// Notes on the scene that follow from its constraints and forces.
+void note_mechanism(Run& run) {
+  const auto before = static_cast<std::ptrdiff_t>(run.report.notes.size());
+  note_redundancy(run);
+  note_resting(run);
+  note_locked(run);
+  std::ranges::copy(run.report.notes.begin() + before, run.report.notes.end(),
+                    std::back_inserter(run.report.scene_notes));
+}
+
 std::string quoted(std::vector<std::string> names) {
   for (std::string& name : names) name = fmt::format("'{}'", name);
   return listed(names);
@@ -230,6 +243,8 @@ Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunCo
       values(scene_values(scene_to_run, files)) {
   report.analysis = scene.analysis;
   report.notes = merged(built.notes);
+  if (std::string far = far_centres(built.model); !far.empty()) report.notes.push_back(std::move(far));
+  report.scene_notes = report.notes;
   report.solver = describe(built.model.solver);
   report.unknowns = built.model.pattern->size();
   report.nonzeros = built.model.pattern->nonzeros();
@@ -338,9 +353,7 @@ void start(Run& run) {
   run.report.projection = report.projection;
   note_start(report, run);
   find_freedoms(run.built.model, run.built.state, run.workspace.now, run.report.mobility);
-  note_redundancy(run);
-  note_resting(run);
-  note_locked(run);
+  note_mechanism(run);
   run.massless = report.massless;
   if (report.massless)
     run.report.notes.push_back(
@@ -357,10 +370,29 @@ formats::ResultsLayout begin_rows(Run& run, const BodyFiles& files) {
     std::vector<std::string> large;
     note_large_output(run.scene, run.whole().model, run.built.state.time(), large);
     for (const std::string& text : large) run.control.announce(text);
+    if (large.empty() && run.scene.analysis == formats::AnalysisKind::dynamics && !knows_rows(run.scene))
+      run.forecast = {formats::bytes_of_row(layout), std::max(run.built.state.time(), run.scene.output.from), 0.0};
   }
   layout.simulated = simulated_scene(run.scene, files, run.whole(), run.at_start);
   return layout;
 }
+
+namespace {
+
+/// After the row of `time`: once enough is stored, says what the whole will take if its steps stay as they are.
+void foretell_size(double time, Run& run) {
+  constexpr double enough = 1e7;  // bytes: a hundredth of what is worth a word
+  OutputForecast& forecast = run.forecast;
+  if (forecast.bytes == 0) return;
+  forecast.rows += 1.0;
+  const double gone = time - forecast.from, whole = run.scene.integrator.end - forecast.from;
+  if (forecast.rows * static_cast<double>(forecast.bytes) < enough || !(gone > 0.0)) return;
+  const std::string text = large_output(run.scene, forecast.rows * whole / gone, forecast.bytes);
+  if (!text.empty()) run.control.announce(text);
+  forecast.bytes = 0;
+}
+
+}  // namespace
 
 void tell_doubts(Run& run) {
   std::vector<std::string>& doubts = run.report.doubts;
@@ -397,6 +429,7 @@ void write_row(Run& run, const StepReport& step, double size, RowWriter& out, co
   RunReport& report = run.report;
   if (report.analysis == formats::AnalysisKind::dynamics) run.doubts.at_row(run.built.model, run.built.state, run.workspace.now, row);
   ++report.rows;
+  foretell_size(row.time, run);
   report.balance = row.balance;
   report.largest_balance = std::max(report.largest_balance, std::abs(row.balance));
   report.energy_reference = run.doubts.energy_moved();

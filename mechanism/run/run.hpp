@@ -37,6 +37,13 @@ class RunListener {
   virtual void end(RunReport& report) = 0;
 };
 
+/// Foretells the size of results from those that are stored, where nothing else tells how many rows there will be.
+struct OutputForecast {
+  std::size_t bytes = 0;  ///< of a row; 0: nothing is to be told
+  double from = 0.0;      ///< instant from which rows are stored
+  double rows = 0.0;      ///< since then
+};
+
 struct Run {
   std::optional<formats::Scene> switched;  ///< where the scene switches effects: what is left of it
   const formats::Scene& scene;
@@ -53,6 +60,7 @@ struct Run {
   std::vector<double> schedule_memory;                 ///< of a run that goes on from a file; empty: it begins
   std::optional<formats::ResultsBeginning> beginning;  ///< rows of the run that this one is appended to
   std::unique_ptr<AutomaticEffects> automatic;         ///< null: nothing is; set for dynamics alone
+  OutputForecast forecast;
 
   Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunControl& run_control);
   double seconds() const { return control.clock ? control.clock() : 0.0; }

@@ -147,19 +147,31 @@ void Schedule::restore(const std::vector<double>& memory) {
   retried_ = memory[6] != 0.0;
 }
 
+namespace {
+
+bool has_fixed_steps(const formats::IntegratorSpec& integrator) {
+  return !integrator.error_control.active && integrator.method != formats::Method::bdf;
+}
+
+}  // namespace
+
+bool knows_rows(const formats::Scene& scene) {
+  return has_fixed_steps(scene.integrator) || scene.output.interval.has_value();
+}
+
 double rows_to_come(const formats::Scene& scene, double time) {
   const formats::IntegratorSpec& integrator = scene.integrator;
   using enum formats::AnalysisKind;
   const bool moves = scene.analysis == dynamics || scene.analysis == kinematics || scene.analysis == inverse_dynamics;
   const double span = integrator.end - std::max(time, scene.output.from);
   if (!moves || !(span > 0.0)) return 1.0;
-  const bool fixed = !integrator.error_control.active && integrator.method != formats::Method::bdf;
+  const bool fixed = has_fixed_steps(integrator);
   const double step = (fixed ? integrator.step : greatest_step(integrator)) * scene.output.every;
   return 1.0 + std::floor(span / (scene.output.interval ? std::max(*scene.output.interval, fixed ? step : 0.0) : step));
 }
 
-std::string large_output(const formats::Scene& scene, double time, std::size_t bytes) {
-  const double rows = rows_to_come(scene, time), size = rows * static_cast<double>(bytes);
+std::string large_output(const formats::Scene& scene, double rows, std::size_t bytes) {
+  const double size = rows * static_cast<double>(bytes);
   constexpr double gigabyte = 1e9;
   if (!(size > gigabyte)) return {};
   return fmt::format(

@@ -81,7 +81,10 @@ class Schedule {
 /// as they may.
 double rows_to_come(const formats::Scene& scene, double time);
 
+/// Whether rows_to_come() is the number itself: it is not where the run chooses its steps and stores each of them.
+bool knows_rows(const formats::Scene& scene);
+
 /// "about 2.9 GB of results .. : thin them with ..", of rows of `bytes`; empty below 1 GB.
-std::string large_output(const formats::Scene& scene, double time, std::size_t bytes);
+std::string large_output(const formats::Scene& scene, double rows, std::size_t bytes);
 
 }  // namespace tisserand::mechanism

@@ -229,9 +229,8 @@ void add_load(const formats::SimulatedLink& link, Places& places, const PageChan
 }
 
 /// What the road exerts, at the contact centre.
-void add_tyre(const ViewedRun& run, const formats::SimulatedLink& link, const PageChannels& channels,
+void add_tyre(const Track& contact, const formats::SimulatedLink& link, const PageChannels& channels,
               PageBlocks& blocks, Json& json) {
-  const Track contact = contact_of(run, link);
   if (!contact.has_position()) return;
   const Json place{{"position", blocks.add_track(contact.position)},
                    {"rotation", blocks.add_rotations(contact.rotation)}};
@@ -242,6 +241,7 @@ void add_tyre(const ViewedRun& run, const formats::SimulatedLink& link, const Pa
 void add_links(const ViewedRun& run, Places& places, const PageChannels& channels, PageBlocks& blocks, Json& json) {
   json["joints"] = json["springs"] = json["arrows"] = Json::array();
   std::vector<std::string> unseen;
+  const TyreContacts contacts = tyre_contacts(run);
   for (const formats::SimulatedLink& link : run.layout().simulated.links) {
     const bool is_load = link.kind.starts_with("load/");
     const bool is_tyre = link.kind == "tyre";
@@ -252,7 +252,7 @@ void add_links(const ViewedRun& run, Places& places, const PageChannels& channel
     } else if (is_load) {
       add_load(link, places, channels, json);
     } else if (is_tyre) {
-      add_tyre(run, link, channels, blocks, json);
+      add_tyre(contact_of(run, contacts, link), link, channels, blocks, json);
     } else {
       add_spring(link, places, channels, json);
     }

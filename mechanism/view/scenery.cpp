@@ -119,12 +119,16 @@ Track at_rest(const Vector3d& position, const Matrix3d& rotation) {
 
 }  // namespace
 
-Track contact_of(const ViewedRun& run, const SimulatedLink& tyre) {
+TyreContacts tyre_contacts(const ViewedRun& run) {
+  if (run.layout().tyres.empty()) return {};
+  return {run.reader->read_dataset("tyres/contact", run.rows), run.reader->read_dataset("tyres/normal", run.rows)};
+}
+
+Track contact_of(const ViewedRun& run, const TyreContacts& contacts, const SimulatedLink& tyre) {
   const auto& names = run.layout().tyres;
   const auto found = std::ranges::find(names, tyre.name);
   Track track = wheel_of(run, tyre);
-  const Eigen::MatrixXd contact = run.reader->read_dataset("tyres/contact", run.rows),
-                        normal = run.reader->read_dataset("tyres/normal", run.rows);
+  const Eigen::MatrixXd &contact = contacts.centre, &normal = contacts.normal;
   if (found == names.end() || !track.has_position() || contact.cols() == 0 || normal.cols() == 0) return {};
   const Index first = 3 * (found - names.begin());
   for (Index t = 0; t < track.position.rows(); ++t) {

@@ -94,7 +94,7 @@ const Fault faults[] = {
     {"NoRows", {"output.every=0"}, {"every 0 must be 1 or more"}},
     {"TwoRhythms", {"output={every: 2, interval: 0.1}"}, {"both 'every' and 'interval'"}},
     {"ExpressionSyntax", {"loads.push.value.2=\"sin(t\""}, {"'sin(t'", "arenthesis", "write a formula in t"}},
-    {"ExpressionName", {"loads.push.value.2=\"foo(t)\""}, {"\"foo\"", "write a formula in t"}},
+    {"ExpressionName", {"loads.push.value.2=\"foo(t)\""}, {"there is no function 'foo'; known are abs, acos, ", "write a formula in t"}},
     {"ExpressionAtStart", {"loads.push.value.2=\"1/t\""}, {"load 'push', z component '1/t'", "t = 0 is inf"}},
     {"EndBeforeStart", {"integrator.end=-1"}, {"end -1 must be later than start 0"}},
 };

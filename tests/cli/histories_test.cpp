@@ -1,6 +1,8 @@
 // What people look at from the command line: plots against a reference run, units, channels of the scene, large
 // outputs.
+#include <chrono>
 #include <sstream>
+#include <thread>
 
 #include "common/child.hpp"
 #include "tests/cli/scenes.hpp"
@@ -95,6 +97,26 @@ TEST_F(Histories, LargeResultsAreAnnounced) {
                                HasSubstr("output: {interval: 500}")));
   EXPECT_THAT(with("check", {"integrator.end=1e6", "output={interval: 1e4}"}).out, Not(HasSubstr("will take about")));
   EXPECT_THAT(with("check", {}).out, Not(HasSubstr("will take about")));
+}
+
+// Nobody knows beforehand how many steps error control takes: it is said once there are 10 MB.
+TEST_F(Histories, LargeResultsOfChosenStepsAreAnnouncedWhileTheyGrow) {
+  std::filesystem::copy_file(TISSERAND_SOURCE_DIR "/tests/verification/references/trials/restart_changed.scene.yaml",
+                             file("long.scene.yaml"));
+  const pid_t child = start({program("mechanism"), "run", "long.scene.yaml", "--set", "integrator.end=1e5", "--set",
+                             "integrator.error_control={tolerance: 1e-5}", "--set", "checkpoint.every=100000"},
+                            where);
+  const auto runs = [&] {
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0;
+  };
+  const auto said = [&] { return read_text(file(".err")).find("the results will take about") != std::string::npos; };
+  while (runs() && !said()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  ::kill(child, SIGINT);
+  const Outcome outcome = finish(child, where);
+  EXPECT_EQ(outcome.code, 130) << outcome.error;
+  EXPECT_THAT(outcome.error, AllOf(HasSubstr("the results will take about"), HasSubstr("output: {interval: 50}")));
+  EXPECT_GT(std::filesystem::file_size(file("long.results.h5")), 5'000'000U) << "it is no guess";
 }
 
 TEST_F(Histories, UnknownOptionsNameTheNearest) {

@@ -12,6 +12,7 @@
 #include <muParser.h>
 
 #include "common/error.hpp"
+#include "common/text.hpp"
 #include "formats/scene/expand/steps.hpp"
 
 namespace tisserand::formats {
@@ -164,6 +165,20 @@ std::vector<double> comparison_instants(const std::string& formula) {
   return instants;
 }
 
+/// The first call of a function that does not exist.
+std::string call_fault(const std::string& formula) {
+  static const std::vector<std::string> known = formula_functions();
+  std::string fault;
+  for_each_word(formula, [&](std::size_t begin, std::size_t end) {
+    const std::size_t next = formula.find_first_not_of(' ', end);
+    if (!fault.empty() || !starts_name(formula[begin]) || next == std::string::npos || formula[next] != '(') return;
+    const std::string name = formula.substr(begin, end - begin);
+    if (std::ranges::find(known, name) == known.end())
+      fault = fmt::format("there is no function '{}'; known are {}", name, join(known, ", "));
+  });
+  return fault;
+}
+
 /// Of the first smooth step whose constant times or share are out of range.
 std::string step_fault(const std::string& formula) {
   if (formula.find("step") == std::string::npos) return {};
@@ -218,7 +233,16 @@ std::string formula_fault(const std::string& formula) {
     if (c == '=' && !compares) return "'=' assigns nothing here; compare with ==, or write the value alone";
     if (c != ' ' && c != '\t') before = c;
   }
-  return step_fault(formula);
+  const std::string fault = call_fault(formula);
+  return fault.empty() ? step_fault(formula) : fault;
+}
+
+std::vector<std::string> formula_functions() {
+  mu::Parser parser;
+  steps::define(parser);
+  std::vector<std::string> names;
+  for (const auto& [name, function] : parser.GetFunDef()) names.push_back(name);
+  return names;
 }
 
 std::string with_names(const std::string& formula, const std::function<std::string(const std::string&)>& replacement) {

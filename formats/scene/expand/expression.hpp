@@ -17,11 +17,13 @@ using NamedValues = std::function<std::optional<double>(const std::string& name)
 /// exponents of its numbers (1e5).
 std::set<std::string> names_of(const std::string& formula);
 
-/// What muParser would take in silence: an assignment ("t=5" is 5), and a comma that separates no arguments of a
-/// function
-/// ("2,5*t" is 5*t), and smooth steps (steps.hpp) whose constant arguments are none. Empty: neither. A sentence with
-/// the remedy.
+/// What muParser would take in silence: an assignment ("t=5" is 5), a comma that separates no arguments of a function
+/// ("2,5*t" is 5*t), and smooth steps (steps.hpp) whose constant arguments are none; and calls of functions that do not
+/// exist, which it reports without those that do. A sentence with the remedy, or empty.
 std::string formula_fault(const std::string& formula);
+
+/// Names of all functions that formulas may call.
+std::vector<std::string> formula_functions();
 
 /// Instants at which a formula of time jumps or has a corner: where smooth steps in `t` with constant times begin, end, or
 /// change between acceleration and constant rate, where a comparison of what is linear in `t` changes (t > 1, t - 2 <= 0.5),

@@ -86,6 +86,31 @@ TEST(NumberDoubts, AreSilentAboutImbalanceAndConstantTables) {
               IsEmpty());
 }
 
+// The trial: a rod of 1 m whose centre of mass is 2.5 m from its only hinge. sqrt(0.17/2) = 0.2915 m.
+TEST(NumberDoubts, NoteSlenderBodiesFarFromWhatHoldsThem) {
+  const auto note_with = [](const std::string& numbers, const std::string& joints) {
+    const test_support::TemporaryFolder folder;
+    write_text_file(folder.file("a.scene.yaml"), "scene: pendulum\nbodies: {arm: {type: rigid, mass: 2, " + numbers +
+                                                     "}}\njoints: {" + joints +
+                                                     "}\nintegrator: {step: 0.01, end: 1}\n");
+    const formats::Scene scene = formats::read_scene(folder.file("a.scene.yaml"), {});
+    return mechanism::far_centres(mechanism::build_model(scene, {}).model);
+  };
+  const std::string rod = "inertia: [0.17, 0.17, 0.002], center_of_mass: ";
+  const std::string hinge = "hinge: {type: revolute, a: ground, b: arm, axis: [0, 1, 0]";
+  EXPECT_EQ(note_with(rod + "[0, 0, -0.5]", hinge + "}"), "");
+  EXPECT_THAT(note_with(rod + "[0, 0, -2.5]", hinge + "}"),
+              ::testing::AllOf(HasSubstr("'arm' 2.5 m (radius of gyration 0.292)"), HasSubstr("`center_of_mass`")));
+  // Limits at both sides: 1.45 and 1.47 m are 4.97 and 5.04 radii.
+  EXPECT_EQ(note_with(rod + "[0, 0, -1.45]", hinge + "}"), "");
+  EXPECT_NE(note_with(rod + "[0, 0, -1.47]", hinge + "}"), "");
+  // A part frame far away is none: the hinge is where it is, and without hinge nothing holds the rod.
+  EXPECT_EQ(note_with(rod + "[0, 0, -2.5]", hinge + ", position: [0, 0, -2]}"), "");
+  EXPECT_EQ(note_with(rod + "[0, 0, -2.5]", ""), "");
+  // A ball on an arm without mass is a usual model.
+  EXPECT_EQ(note_with("inertia: [1e-4, 1e-4, 1e-4], center_of_mass: [0, 0, -2.5]", hinge + "}"), "");
+}
+
 TEST(NumberDoubts, CountWhatIsAlike) {
   std::string springs = "springs={";
   for (int k = 0; k < 9; ++k)

@@ -2,11 +2,14 @@
 #include "mechanism/forces/time_function.hpp"
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
+#include "formats/scene/expand/expression.hpp"
 #include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::mechanism::time_function_test {
@@ -36,9 +39,21 @@ TEST(TimeFunction, WhatLooksLikeAnotherFormulaIsAnError) {
                                               ::testing::HasSubstr("scene.yaml:7:3")));
   for (const std::string text : {"t=5", "t = 5", "2*(t=1)"})
     EXPECT_THAT(error(text), ::testing::HasSubstr("expression '" + text + "': '='"));
+  // The trial: clamp() is of other languages, and the message lists what there is.
+  EXPECT_THAT(error("2 * clamp(t, 0, 1)"),
+              ::testing::AllOf(::testing::HasSubstr("there is no function 'clamp'; known are abs, "),
+                               ::testing::HasSubstr(" max, min, "), ::testing::HasSubstr(" step_trapezoid, ")));
   for (const std::string text : {"max(1, 2.5)*t", "t <= 1 ? 2 : 3", "t == 1 ? 2 : 3", "min(max(t, 1), 2)",
                                  "t != 0 ? 1 : 0", "t >= 1 ? 2 : sum(1, (2 + t) * 3, 4)"})
     EXPECT_EQ(error(text), "");
+}
+
+TEST(TimeFunction, AllFunctionsStandInTheDocumentation) {
+  std::ifstream file(TISSERAND_SOURCE_DIR "/formats/SCENE.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  for (const std::string& name : formats::formula_functions())
+    EXPECT_TRUE(page.find("`" + name + "`") != std::string::npos || page.find("`" + name + "(") != std::string::npos)
+        << name << " is missing in formats/SCENE.md";
 }
 
 TEST(TimeFunction, TableIsLinearBetweenPointsAndConstantOutside) {
