@@ -24,7 +24,9 @@ splot lines using 1:2:($4 == 3 ? $3 : NaN) with lines lc rgb '#AAAAAA' lw 0.8, \
 set origin 0.5, 0.0
 set size 0.5, 1.0
 set border 3 lc rgb '#444444'
-set tics nomirror
+set xtics nomirror
+set ytics nomirror
+set format '%h'
 set grid back lc rgb '#DDDDDD' lt 1 lw 0.7
 set key bottom left samplen 2 font 'sans,10'
 set datafile separator ','

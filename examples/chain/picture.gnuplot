@@ -5,6 +5,7 @@ set output picture
 set encoding utf8
 set border 3 lc rgb '#444444'
 set tics nomirror
+set format '%h'
 set grid back lc rgb '#DDDDDD' lt 1 lw 0.7
 set multiplot layout 1,2
 set title 'Forty rigid links falling, every 0.1 s'

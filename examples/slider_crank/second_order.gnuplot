@@ -5,6 +5,7 @@ set datafile separator ','
 set encoding utf8
 set border 3 lc rgb '#444444'
 set tics nomirror
+set format '%h'
 set grid back lc rgb '#DDDDDD' lt 1 lw 0.7
 set title 'Deflection of the middle of the rod over its length, one superelement'
 set xlabel 'time [s]'

@@ -361,6 +361,7 @@ std::string gnuplot_script(const std::vector<Series>& series, const PlotOptions&
       "set grid back lc rgb '#DDDDDD' lt 1 lw 0.7\n"
       "set border 3 lc rgb '#444444'\n"
       "set tics nomirror\n"
+      "set format '%h'\n"  // gnuplot's own begins with a blank, which pushes labels to the right of their ticks
       "set lmargin 12\n"
       "set rmargin 4\n";
   if (options.x_scale == AxisScale::logarithmic) script += "set logscale x\nset format x '10^{%T}'\n";

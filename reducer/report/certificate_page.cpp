@@ -57,7 +57,7 @@ std::string picture(int width, int height, const std::string& script) {
   try {
     const std::string text = gnuplot_picture(fmt::format(
         "set terminal svg size {},{} font 'sans,17' linewidth 1.3\nset encoding utf8\n"
-        "set grid back lc rgb '#dddddd' lt 1 lw 0.7\nset border 3 lc rgb '#444444'\nset tics nomirror\n{}",
+        "set grid back lc rgb '#dddddd' lt 1 lw 0.7\nset border 3 lc rgb '#444444'\nset tics nomirror\nset format '%h'\n{}",
         width, height, script), "certificate");
     return text.substr(std::min(text.find("<svg"), text.size())) + "\n";
   } catch (const Error& error) {
