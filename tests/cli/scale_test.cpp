@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "common/child.hpp"
 #include "tests/cli/scenes.hpp"
 

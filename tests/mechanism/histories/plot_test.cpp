@@ -306,7 +306,9 @@ TEST_F(Picture, IsWrittenForPrint) {
     std::ifstream file(options.output, std::ios::binary);
     const std::string text((std::istreambuf_iterator<char>(file)), {});
     EXPECT_EQ(text.substr(0, 4), begin);
-    if (std::string(ending) == ".eps") EXPECT_THAT(text, HasSubstr("%%BoundingBox: 0 0 22"));  // 80 mm are 226.8 pt
+    if (std::string(ending) == ".eps") {
+      EXPECT_THAT(text, HasSubstr("%%BoundingBox: 0 0 22"));  // 80 mm are 226.8 pt
+    }
   }
   options.output = path("a.png");
   (void)plot({wave("a", "energy/total", "J", 50)}, options);
