@@ -356,6 +356,11 @@ test("the viewer", async (suite) => {
     const page = await open("modes", { change: (header) => Object.assign(header.runs[0].modes[1], { frequency: 0.162472, damping: 1 }) });
     assert.match(await page.evaluate("document.querySelector('.modes').textContent"), /pole \[1\/s\]/);
     assert.match(await page.evaluate("document.querySelector('.modes').textContent"), /-1\.021/);
+    for (let i = 0; i < 4 && (await state(page)).settings.colouring !== "displacement"; ++i) await page.key("c");
+    const { legend } = await state(page);
+    assert.equal(legend.title, "displacement", "a mode has no size, so that its scale has no unit");
+    near([legend.range[1]], [1], 1e-9, "relative to the largest");
+    assert.match(legend.notes.join(" "), /a mode has no size/);
     await quiet(page);
   });
 
