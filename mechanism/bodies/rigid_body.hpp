@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "common/math/rotation.hpp"
-#include "mechanism/frames/motion.hpp"
+#include "mechanism/frames/space.hpp"
 
 namespace tisserand::mechanism {
 
@@ -23,19 +23,17 @@ struct RigidBody {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// Newton and Euler: r = [m (ẍ − g); J Ω̇ + Ω × J Ω], force in world axes, moment in body axes.
-inline void residual(const RigidBody& body, const NodeMotion& n, const Eigen::Vector3d& gravity, Vector6d& r) {
-  r.head<3>() = body.mass * (n.xdd - gravity);
-  if (body.gyroscopic)
-    r.tail<3>() = body.inertia * n.Omegad + n.Omega.cross(body.inertia * n.Omega);
-  else
-    r.tail<3>() = body.inertia * n.Omegad;
-}
-
-/// The same in a planar model, [force x y; moment about z], which its inertia does not leave.
-inline Eigen::Vector3d residual_in_plane(const RigidBody& body, const NodeMotion& n, const Eigen::Vector3d& gravity) {
-  return {body.mass * (n.xdd.x() - gravity.x()), body.mass * (n.xdd.y() - gravity.y()),
-          body.inertia(2, 2) * n.Omegad.z()};
+/// Newton and Euler: r = [m (ẍ − g); J Ω̇ + Ω × J Ω], force in world axes, moment in body axes. J does not leave the
+/// plane of a planar model.
+template <int D>
+CarrierVector<D> residual(const RigidBody& body, const NodeMotion& n, const Eigen::Vector3d& gravity) {
+  constexpr int turns = Space<D>::turns;
+  CarrierVector<D> r;
+  r.template head<D>() = body.mass * Space<D>::part(n.xdd - gravity);
+  r.template tail<turns>() = body.inertia.bottomRightCorner<turns, turns>() * n.Omegad.tail<turns>();
+  if constexpr (D == 3)
+    if (body.gyroscopic) r.template tail<3>() += n.Omega.cross(body.inertia * n.Omega);
+  return r;
 }
 
 /// c_m ∂r/∂v̇ + c_c ∂r/∂v; the stiffness is zero.

@@ -215,11 +215,14 @@ void PlanarCheck::reduce(Joint& joint) const {
   }
   int kept = 0;
   for (int k = 0; k < joint.relation_count; ++k)
-    if (relation_stays(name, joint.relations[k], joint.constant, joint.a, joint.b))
-      joint.relations[kept++] = joint.relations[k];
+    if (relation_stays(name, joint.relations[k], joint.constant, joint.a, joint.b)) {
+      joint.relations[kept] = joint.relations[k];
+      joint.relations[kept++].planar = true;
+    }
   joint.relation_count = kept;
   joint.planar = true;
-  TISSERAND_ENSURE(joint.size() <= planar_rows, "{} equations in the plane of {}", joint.size(), name);
+  TISSERAND_ENSURE(joint.size() <= CarrierVector<2>::SizeAtCompileTime, "{} equations in the plane of {}", joint.size(),
+                   name);
 }
 
 bool PlanarCheck::stays(const Coordinate& one) const {
@@ -453,7 +456,7 @@ void make_planar(const std::vector<CoordinateStart>& initial, Construction& c) {
   for (Joint& joint : c.model.joints) check.reduce(joint);
   check.forces();
   for (Tyre& tyre : c.model.tyres) tyre.planar = true;
-  for (Coordinate& coordinate : c.model.coordinates) coordinate.planar = check.stays(coordinate);
+  for (Coordinate& coordinate : c.model.coordinates) coordinate.relation.planar = check.stays(coordinate);
   c.model.planar = true;
   number_coordinates(c);
   c.notes.push_back(fmt::format("planar: motion in the plane normal to {}, two translations and one rotation per node",

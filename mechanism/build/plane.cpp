@@ -33,9 +33,9 @@ Matrix3d turn_about_z(const Matrix3d& R) {
 }
 
 /// Into the axes of the model and of its nodes.
-class Turn {
+class PlaneTurn {
  public:
-  Turn(const Matrix3d& axes, double length, const std::vector<NodeMotion>& start) : axes_(axes), length_(length) {
+  PlaneTurn(const Matrix3d& axes, double length, const std::vector<NodeMotion>& start) : axes_(axes), length_(length) {
     for (const NodeMotion& node : start) own_.push_back(axes_with_z(node.R.transpose() * axes.col(2)));
   }
 
@@ -63,7 +63,7 @@ class Turn {
   std::vector<Matrix3d> own_;
 };
 
-void turn_markers(const Turn& turn, Construction& c) {
+void turn_markers(const PlaneTurn& turn, Construction& c) {
   Model& model = c.model;
   const auto pairs = [&turn](auto& pool) {
     for (auto& item : pool) {
@@ -87,7 +87,7 @@ void turn_markers(const Turn& turn, Construction& c) {
 }
 
 template <int N>
-void turn_beams(const Turn& turn, Pool<BeamElement<N>>& pool) {
+void turn_beams(const PlaneTurn& turn, Pool<BeamElement<N>>& pool) {
   for (BeamElement<N>& beam : pool)
     for (int k = 0; k < N; ++k) {
       beam.section[k] = (turn.own(beam.nodes[k]).transpose() * beam.section[k]).eval();
@@ -95,7 +95,7 @@ void turn_beams(const Turn& turn, Pool<BeamElement<N>>& pool) {
     }
 }
 
-void turn_bodies(const Turn& turn, Construction& c) {
+void turn_bodies(const PlaneTurn& turn, Construction& c) {
   Model& model = c.model;
   turn_beams(turn, model.beams2);
   turn_beams(turn, model.beams3);
@@ -114,7 +114,7 @@ void turn_bodies(const Turn& turn, Construction& c) {
   gravity(model.modal_bodies);
 }
 
-void turn_forces(const Turn& turn, Construction& c) {
+void turn_forces(const PlaneTurn& turn, Construction& c) {
   for (Load& load : c.model.loads)
     if (load.axes == formats::LoadAxes::world) load.turn = c.model.axes.transpose();
   for (PartLoad& load : c.model.part_loads) {
@@ -169,7 +169,7 @@ Matrix3d axes_with_z(const Vector3d& z) {
 
 std::vector<Matrix3d> turn_into_plane(const Vector3d& normal, Construction& c) {
   c.model.axes = axes_with_z(normal);
-  const Turn turn(c.model.axes, c.model.length, c.markers.start);
+  const PlaneTurn turn(c.model.axes, c.model.length, c.markers.start);
   turn_markers(turn, c);
   turn_bodies(turn, c);
   turn_forces(turn, c);

@@ -163,7 +163,7 @@ double ModalRange::first_frequency(const Model& model, double from) const {
   for (std::size_t i = 0; i < held.size(); ++i) {
     ModalNodeTerms terms = make_terms(model.modal_nodes[held[i]]);
     NodeMotion motion;
-    update_node(model.modal_nodes[held[i]], scratch, rest, motion, terms);
+    update_node<3>(model.modal_nodes[held[i]], scratch, rest, motion, terms);
     G.middleRows(rows * static_cast<Eigen::Index>(i), rows) = terms.T.topRows(rows);
   }
   const MatrixXd free = G.fullPivLu().kernel();

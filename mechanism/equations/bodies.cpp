@@ -99,22 +99,15 @@ void add_forces(const Model&, const State&, const Pool<BeamElement3>& pool, Eval
 }
 
 void add_forces(const Model& model, const State&, const Pool<RigidBody>& pool, Evaluation& evaluation) {
-  Vector6d r;
-  for (std::size_t i = 0; i < pool.size(); ++i) {
-    const RigidBody& body = pool[i];
-    if (model.planar) {
-      const std::vector<int>& own = pool.maps[i].coordinates;
-      const Vector3d planar =
-          residual_in_plane(body, motion_of(evaluation, body.node), evaluation.load_factor * body.gravity);
-      for (int k = 0; k < 3; ++k)
-        if (const int at = own[k < 2 ? k : 5]; at >= 0) evaluation.residual[at] += planar[k];
-      note_scale_in_plane(planar, evaluation);
-      continue;
+  in_space(model.planar, [&]<int D>() {
+    for (std::size_t i = 0; i < pool.size(); ++i) {
+      const RigidBody& body = pool[i];
+      const CarrierVector<D> r =
+          residual<D>(body, motion_of(evaluation, body.node), evaluation.load_factor * body.gravity);
+      scatter_carrier<D>(pool.maps[i].coordinates.data(), r, evaluation.residual);
+      note_scale(r, evaluation);
     }
-    residual(body, motion_of(evaluation, body.node), evaluation.load_factor * body.gravity, r);
-    scatter(pool.maps[i], r, evaluation.residual);
-    note_scale(r, evaluation);
-  }
+  });
 }
 
 void add_forces(const Model&, const State&, const Pool<ModalBody>& pool, Evaluation& evaluation) {

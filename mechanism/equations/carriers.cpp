@@ -32,9 +32,21 @@ void for_each_carrier(const Model& model, const ElementMap& map, Visit visit) {
 
 const ModalNodeTerms& terms_of(const Evaluation& evaluation, int modal) { return evaluation.modal_nodes[modal]; }
 
-/// Rows x, y, Θ of a column of T.
-Vector3d rows_in_plane(const Eigen::Matrix<double, 6, Eigen::Dynamic>& T, Index column) {
-  return {T(0, column), T(1, column), T(5, column)};
+/// Where the coordinates of the carrier begin whose columns begin at `first` of local vectors.
+Index first_coordinate(const Model& model, const ElementMap& map, int first) {
+  if (map.carriers.empty()) return first;
+  Index coordinate = 0;
+  for (int carrier = 0; carrier < first / 6; ++carrier) coordinate += width_of(model, map.carriers[carrier]);
+  return coordinate;
+}
+
+/// Material increment T(θ) d of a node's rotation for an increment d of the rotation vector θ of the step.
+Vector3d turn_increment(const Model& model, const Evaluation& evaluation, int node, const Vector3d& d) {
+  if (node < 0 || model.nodes[node].rotation < 0) return d;
+  const Vector3d theta = evaluation.displacement.segment<3>(model.nodes[node].rotation);
+  const AngleFunctions<double> f(theta.squaredNorm());
+  const Vector3d across = theta.cross(d);
+  return d - f.c * across + f.d * theta.cross(across);
 }
 
 }  // namespace
@@ -53,23 +65,9 @@ CarrierScratch make_carrier_scratch(const Model& model) {
   return scratch;
 }
 
-void scatter_pulled(const Model& model, const ElementMap& map, const double* force, const Evaluation& evaluation,
-                    Eigen::VectorXd& result) {
-  for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
-    const Eigen::Map<const Vector6d> f(force + local);
-    for (Index j = 0; j < width; ++j) {
-      const int coordinate = map.coordinates[first + j];
-      if (coordinate < 0) continue;
-      result[coordinate] += modal < 0 ? f[j] : terms_of(evaluation, modal).T.col(j).dot(f);
-    }
-  });
-}
-
 void add_pulled_force(const Model& model, const ElementMap& map, const double* force, Evaluation& evaluation) {
-  scatter_pulled(model, map, force, evaluation, evaluation.residual);
-  for (std::size_t c = 0; c < map.carriers.size(); ++c)
-    if (const int modal = modal_node(model, map.carriers[c]); modal >= 0)
-      evaluation.modal_forces[modal] += Eigen::Map<const Vector6d>(force + 6 * c);
+  for (int first = 0; first < 6 * static_cast<int>(map.carriers.size()); first += 6)
+    add_carrier_force<3>(model, map, first, Eigen::Map<const Vector6d>(force + first), evaluation);
 }
 
 CarrierMatrix pulled_rows(const Model& model, const ElementMap& map, const LocalMatrix& B, const Evaluation& evaluation,
@@ -128,56 +126,49 @@ void carrier_bias(const Model& model, const ElementMap& map, const Evaluation& e
   });
 }
 
-void pushed_increment(const Model& model, const ElementMap& map, const Evaluation& evaluation, const Eigen::VectorXd& d,
-                      double* local_increment) {
-  for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
-    const auto at = [&](Index j) {
-      const int coordinate = map.coordinates[first + j];
-      return coordinate < 0 ? 0.0 : d[coordinate];
-    };
-    const int node = map.carriers[local / 6];
-    const Vector3d move(at(0), at(1), at(2));
-    const Vector3d turn = step_tangent(model, evaluation, node) * Vector3d(at(3), at(4), at(5));
-    Eigen::Map<Vector6d> increment(local_increment + local);
-    increment << move, turn;
-    if (modal < 0) return;
-    const auto& T = terms_of(evaluation, modal).T;
-    increment = (T.leftCols<6>() * increment).eval();
-    for (Index j = 6; j < width; ++j) increment += at(j) * T.col(j);
-  });
+template <int D>
+CarrierVector<D> pushed(const Model& model, const ElementMap& map, int node, int first, const Evaluation& evaluation,
+                        const Eigen::VectorXd& d) {
+  constexpr int turns = Space<D>::turns, turn = Space<D>::first_turn;
+  const int* const at = map.coordinates.data() + first_coordinate(model, map, first);
+  CarrierVector<D> own = gather_carrier<D>(at, d);
+  const int modal = modal_node(model, node);
+  if constexpr (D == 3)  // T(θ) d = d for parallel vectors
+    own.template tail<3>() =
+        turn_increment(model, evaluation, modal < 0 ? node : modal_body_of(model, modal).node, own.template tail<3>());
+  if (modal < 0) return own;
+  const auto& T = terms_of(evaluation, modal).T;
+  const TurnOf<D> turned = own.template tail<turns>();
+  own.template head<D>() += T.block<D, turns>(0, turn) * turned;
+  own.template tail<turns>() = T.block<turns, turns>(turn, turn) * turned;
+  for (Index j = 6; j < T.cols(); ++j) own += carrier_part<D>(T.col(j), 0) * d[at[j]];
+  return own;
 }
+template CarrierVector<2> pushed<2>(const Model&, const ElementMap&, int, int, const Evaluation&,
+                                    const Eigen::VectorXd&);
+template CarrierVector<3> pushed<3>(const Model&, const ElementMap&, int, int, const Evaluation&,
+                                    const Eigen::VectorXd&);
 
-PlanarVector pushed_through_carriers(const Model& model, const ElementMap& map, const Evaluation& evaluation,
-                                     const Eigen::VectorXd& d) {
-  PlanarVector local;
-  for_each_carrier(model, map, [&](Index six, Index first, int modal, Index width) {
-    const int* const at = map.coordinates.data() + first;
-    Vector3d own = Vector3d::Zero();
-    for (int c = 0; c < 3; ++c)
-      if (at[planar_columns[c]] >= 0) own[c] = d[at[planar_columns[c]]];
-    if (modal >= 0) {
-      const auto& T = terms_of(evaluation, modal).T;
-      own.head<2>() += T.col(5).head<2>() * own[2];
-      for (Index j = 6; j < width; ++j) own += rows_in_plane(T, j) * d[at[j]];
-    }
-    local.segment<3>(six / 2) = own;
-  });
-  return local;
-}
-
-void scatter_through_carrier(const Model& model, const ElementMap& map, int carrier, const Vector3d& force,
-                             const Evaluation& evaluation, Eigen::VectorXd& result) {
-  const int modal = modal_node(model, map.carriers[carrier / 3]);
-  const int* const at = map.coordinates.data() + (carrier == 0 ? 0 : width_of(model, map.carriers[0]));
-  Vector3d own = force;
+template <int D>
+void scatter_through(const Model& model, const ElementMap& map, int first, const CarrierVector<D>& force,
+                     const Evaluation& evaluation, Eigen::VectorXd& result) {
+  constexpr int turns = Space<D>::turns, turn = Space<D>::first_turn;
+  const int modal = modal_node(model, map.carriers[first / 6]);
+  const int* const at = map.coordinates.data() + first_coordinate(model, map, first);
+  CarrierVector<D> own = force;
   if (modal >= 0) {
     const auto& T = terms_of(evaluation, modal).T;
-    own[2] += T.col(5).head<2>().dot(force.head<2>());
-    for (Index j = 6; j < 6 + modal_body_of(model, modal).modes; ++j) result[at[j]] += rows_in_plane(T, j).dot(force);
+    const TurnOf<D> moment = force.template tail<turns>();
+    own.template tail<turns>() = T.block<D, turns>(0, turn).transpose() * force.template head<D>() +
+                                 T.block<turns, turns>(turn, turn).transpose() * moment;
+    for (Index j = 6; j < T.cols(); ++j) result[at[j]] += carrier_part<D>(T.col(j), 0).dot(force);
   }
-  for (int c = 0; c < 3; ++c)
-    if (at[planar_columns[c]] >= 0) result[at[planar_columns[c]]] += own[c];
+  scatter_carrier<D>(at, own, result);
 }
+template void scatter_through<2>(const Model&, const ElementMap&, int, const CarrierVector<2>&, const Evaluation&,
+                                 Eigen::VectorXd&);
+template void scatter_through<3>(const Model&, const ElementMap&, int, const CarrierVector<3>&, const Evaluation&,
+                                 Eigen::VectorXd&);
 
 void turn_columns(const Model& model, const ElementMap& map, const Evaluation& evaluation, CarrierMatrix& rows) {
   for_each_carrier(model, map, [&](Index local, Index first, int, Index) {

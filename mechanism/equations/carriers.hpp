@@ -26,11 +26,7 @@ LocalMatrix local_view(const Matrix& m) {
 // For maps that list carriers; local matrices have six columns (and rows) per carrier, results n = size of
 // map.coordinates.
 
-/// result += Tᵀ force; six numbers per carrier. `result`: at least the boundary coordinates.
-void scatter_pulled(const Model& model, const ElementMap& map, const double* force, const Evaluation& evaluation,
-                    Eigen::VectorXd& result);
-
-/// The same onto the residual; modal nodes keep what they got (Evaluation::modal_forces).
+/// Adds Tᵀ force to the residual, six numbers per carrier; modal nodes keep what they got (Evaluation::modal_forces).
 void add_pulled_force(const Model& model, const ElementMap& map, const double* force, Evaluation& evaluation);
 
 /// Tᵀ K T + ∂(Tᵀ force)/∂q, n x n: the tangent of a force that the carriers receive.
@@ -48,38 +44,33 @@ CarrierMatrix pulled_rate_gradient(const Model& model, const ElementMap& map, co
 /// Ṫ v, six numbers per carrier: what the carriers' accelerations have besides T v̇.
 void carrier_bias(const Model& model, const ElementMap& map, const Evaluation& evaluation, double* bias);
 
+// For all maps, and of the carrier alone whose columns begin at `first` of local vectors:
+
 /// T d for the increments d of all coordinates, turns as increments of the rotation vectors of the step.
-void pushed_increment(const Model& model, const ElementMap& map, const Evaluation& evaluation, const Eigen::VectorXd& d,
-                      double* local);
+template <int D>
+CarrierVector<D> pushed(const Model& model, const ElementMap& map, int node, int first, const Evaluation& evaluation,
+                        const Eigen::VectorXd& d);
 
-// Of planar models: three numbers per carrier, [x y Θ]. For maps that list carriers:
-PlanarVector pushed_through_carriers(const Model& model, const ElementMap& map, const Evaluation& evaluation,
-                                     const Eigen::VectorXd& d);
-void scatter_through_carrier(const Model& model, const ElementMap& map, int carrier, const Eigen::Vector3d& force,
-                             const Evaluation& evaluation, Eigen::VectorXd& result);
-
-// And for all maps.
-
-/// T d of two carriers, [x_A y_A Θ_A x_B y_B Θ_B].
-inline PlanarVector pushed_in_plane(const Model& model, const ElementMap& map, const Evaluation& evaluation,
-                                    const Eigen::VectorXd& d) {
-  return map.carriers.empty() ? gather_in_plane(map, d) : pushed_through_carriers(model, map, evaluation, d);
-}
-/// result += Tᵀ force of the carrier whose columns begin at `carrier`: 0 (A) or 3 (B).
-inline void scatter_in_plane(const Model& model, const ElementMap& map, int carrier, const Eigen::Vector3d& force,
-                             const Evaluation& evaluation, Eigen::VectorXd& result) {
+template <int D>
+void scatter_through(const Model& model, const ElementMap& map, int first, const CarrierVector<D>& force,
+                     const Evaluation& evaluation, Eigen::VectorXd& result);
+/// result += Tᵀ force.
+template <int D>
+void scatter_pulled(const Model& model, const ElementMap& map, int first, const CarrierVector<D>& force,
+                    const Evaluation& evaluation, Eigen::VectorXd& result) {
   if (map.carriers.empty())
-    scatter_in_plane(map, carrier, force, result);
+    scatter_carrier<D>(map.coordinates.data() + first, force, result);
   else
-    scatter_through_carrier(model, map, carrier, force, evaluation, result);
+    scatter_through<D>(model, map, first, force, evaluation, result);
 }
 /// The same onto the residual; modal nodes keep what they got (Evaluation::modal_forces).
-inline void add_force_in_plane(const Model& model, const ElementMap& map, int carrier, const Eigen::Vector3d& force,
-                               Evaluation& evaluation) {
-  scatter_in_plane(model, map, carrier, force, evaluation, evaluation.residual);
+template <int D>
+void add_carrier_force(const Model& model, const ElementMap& map, int first, const CarrierVector<D>& force,
+                       Evaluation& evaluation) {
+  scatter_pulled<D>(model, map, first, force, evaluation, evaluation.residual);
   if (map.carriers.empty()) return;
-  if (const int modal = modal_node(model, map.carriers[carrier / 3]); modal >= 0)
-    for (int c = 0; c < 3; ++c) evaluation.modal_forces[modal][planar_columns[c]] += force[c];
+  if (const int modal = modal_node(model, map.carriers[first / 6]); modal >= 0)
+    for (int c = 0; c < force.size(); ++c) evaluation.modal_forces[modal][Space<D>::columns[c]] += force[c];
 }
 
 /// Multiplies the columns of turns with T(displacement of the step): rows for increments of rotation vectors.

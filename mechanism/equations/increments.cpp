@@ -22,58 +22,31 @@ Eigen::Quaterniond exp_quaternion(const Eigen::Vector3d& turn) {
   return q;
 }
 
-/// Material increment T(θ) d of a node's rotation for an increment d of the rotation vector θ of the step.
-Eigen::Vector3d turn_increment(const Model& model, const Evaluation& evaluation, int node, const Eigen::Vector3d& d) {
-  if (node < 0 || model.nodes[node].rotation < 0 || model.planar) return d;  // T(θ) d = d for parallel vectors
-  const Eigen::Vector3d theta = evaluation.displacement.segment<3>(model.nodes[node].rotation);
-  const AngleFunctions<double> f(theta.squaredNorm());
-  const Eigen::Vector3d across = theta.cross(d);
-  return d - f.c * across + f.d * theta.cross(across);
-}
-
 }  // namespace
 
 void apply_jacobian(const Model& model, const Evaluation& evaluation, const Eigen::VectorXd& d,
                     Eigen::Ref<Eigen::VectorXd> rows) {
-  Eigen::Matrix<double, 12, 1> local;
-  const auto gather_local = [&](const ElementMap& map, const auto& pair) {
-    if (!map.carriers.empty()) {
-      pushed_increment(model, map, evaluation, d, local.data());
-      return;
-    }
-    for (int k = 0; k < 12; ++k) {
-      const int coordinate = map.coordinates[k];
-      local[k] = coordinate < 0 ? 0.0 : d[coordinate];
-    }
-    local.segment<3>(3) = turn_increment(model, evaluation, pair.a.node, local.segment<3>(3));
-    local.segment<3>(9) = turn_increment(model, evaluation, pair.b.node, local.segment<3>(9));
-  };
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
-    const ElementMap& map = model.joints.maps[i];
-    if (joint.planar) {
-      const Eigen::Vector3d product =
-          rows_times_in_plane(joint, evaluation.joints[i], pushed_in_plane(model, map, evaluation, d));
+    in_space(joint.planar, [&]<int D>() {
+      const ElementMap& map = model.joints.maps[i];
+      const auto product =
+          rows_times<D>(joint, evaluation.joints[i], pushed<D>(model, map, joint.a.node, 0, evaluation, d),
+                        pushed<D>(model, map, joint.b.node, 6, evaluation, d));
       for (int k = 0; k < joint.size(); ++k) rows[joint.row + k] = product[k];
-      continue;
-    }
-    gather_local(map, joint);
-    const Vector6d product = rows_times(evaluation.joints[i], local);
-    for (int k = 0; k < joint.size(); ++k) rows[joint.row + k] = product[k];
+    });
   }
   for (const Coupling& coupling : model.couplings) {
     double sum = 0.0;
     for (const CouplingTerm& term : coupling.terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
+      const Coordinate& coordinate = model.coordinates[at];
       const ElementMap& map = model.coordinates.maps[at];
       const Row12& G = evaluation.coordinates[at].G;
-      if (model.coordinates[at].planar) {
-        const PlanarVector own = pushed_in_plane(model, map, evaluation, d);
-        sum += term.factor * (in_plane(G, 0).dot(own.head<3>()) + in_plane(G, 3).dot(own.tail<3>()));
-        continue;
-      }
-      gather_local(map, model.coordinates[at]);
-      sum += term.factor * G.dot(local);
+      sum += term.factor * in_space(coordinate.relation.planar, [&]<int D>() {
+               return carrier_part<D>(G, 0).dot(pushed<D>(model, map, coordinate.a.node, 0, evaluation, d)) +
+                      carrier_part<D>(G, 6).dot(pushed<D>(model, map, coordinate.b.node, 6, evaluation, d));
+             });
     }
     rows[coupling.row] = sum;
   }
@@ -82,38 +55,24 @@ void apply_jacobian(const Model& model, const Evaluation& evaluation, const Eige
 void apply_transposed_jacobian(const Model& model, const Evaluation& evaluation, const Eigen::VectorXd& mu,
                                Eigen::VectorXd& result) {
   result.setZero();
-  const auto add = [&](const ElementMap& map, const Eigen::Matrix<double, 12, 1>& local) {
-    if (!map.carriers.empty()) {
-      scatter_pulled(model, map, local.data(), evaluation, result);
-      return;
-    }
-    for (int k = 0; k < 12; ++k)
-      if (map.coordinates[k] >= 0) result[map.coordinates[k]] += local[k];
-  };
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
-    const ElementMap& map = model.joints.maps[i];
-    const double* own = mu.data() + joint.row;
-    if (joint.planar) {
-      for (const auto& [marker, carrier] : {std::pair(&joint.a, 0), std::pair(&joint.b, 3)})
-        if (marker->node >= 0)
-          scatter_in_plane(model, map, carrier, transposed_times_in_plane(joint, evaluation.joints[i], own, carrier),
-                           evaluation, result);
-      continue;
-    }
-    add(map, transposed_times(joint, evaluation.joints[i], own));
+    in_space(joint.planar, [&]<int D>() {
+      for (const int first : {0, 6})
+        scatter_pulled<D>(model, model.joints.maps[i], first,
+                          transposed_times<D>(joint, evaluation.joints[i], mu.data() + joint.row, first), evaluation,
+                          result);
+    });
   }
   for (const Coupling& coupling : model.couplings)
     for (const CouplingTerm& term : coupling.terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
-      const ElementMap& map = model.coordinates.maps[at];
       const double own = term.factor * mu[coupling.row];
-      const Row12& G = evaluation.coordinates[at].G;
-      if (model.coordinates[at].planar)
-        for (const int carrier : {0, 3})
-          scatter_in_plane(model, map, carrier, own * in_plane(G, carrier), evaluation, result);
-      else
-        add(map, own * G.transpose());
+      in_space(model.coordinates[at].relation.planar, [&]<int D>() {
+        for (const int first : {0, 6})
+          scatter_pulled<D>(model, model.coordinates.maps[at], first,
+                            own * carrier_part<D>(evaluation.coordinates[at].G, first), evaluation, result);
+      });
     }
 }
 

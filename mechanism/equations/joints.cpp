@@ -10,48 +10,16 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-Vector12 velocity_of(const MarkerPair& pair) {
-  Vector12 v;
-  v.segment<3>(0) = pair.node_a.xd;
-  v.segment<3>(3) = pair.node_a.Omega;
-  v.segment<3>(6) = pair.node_b.xd;
-  v.segment<3>(9) = pair.node_b.Omega;
-  return v;
-}
-
-PlanarVector velocity_in_plane(const MarkerPair& pair) {
-  PlanarVector v;
-  v << pair.node_a.xd.head<2>(), pair.node_a.Omega.z(), pair.node_b.xd.head<2>(), pair.node_b.Omega.z();
-  return v;
-}
-
-RelationTerms terms_of(const Coordinate& coordinate, const MarkerPair& pair) {
-  return coordinate.planar ? evaluate_in_plane(coordinate.relation, pair) : evaluate(coordinate.relation, pair);
-}
-
-double rate_of(const Coordinate& coordinate, const Row12& G, const MarkerPair& pair) {
-  if (!coordinate.planar) return G * velocity_of(pair);
-  const PlanarVector v = velocity_in_plane(pair);
-  return in_plane(G, 0).dot(v.head<3>()) + in_plane(G, 3).dot(v.tail<3>());
-}
-
-Row12 rate_gradient_of(const Coordinate& coordinate, const MarkerPair& pair) {
-  return coordinate.planar ? rate_gradient_in_plane(coordinate.relation, pair)
-                           : rate_gradient(coordinate.relation, pair);
-}
-
-void add_stiffness_of(const Coordinate& coordinate, const MarkerPair& pair, double weight, Square12& K) {
-  coordinate.planar ? add_stiffness_in_plane(coordinate.relation, pair, weight, K)
-                    : add_stiffness(coordinate.relation, pair, weight, K);
-}
-
 void evaluate_coordinate(const Coordinate& coordinate, const State& state, const Evaluation& evaluation,
                          CoordinateTerms& terms) {
   const MarkerPair pair = markers_of(coordinate, evaluation);
-  const RelationTerms relation = terms_of(coordinate, pair);
+  const RelationTerms relation = evaluate(coordinate.relation, pair);
   terms.value = coordinate.turn < 0 ? relation.value : unwrapped(relation.value, state.hinges()[coordinate.turn]);
   terms.G = relation.G;
-  terms.rate = rate_of(coordinate, relation.G, pair);
+  terms.rate = in_space(coordinate.relation.planar, [&]<int D>() {
+    return carrier_part<D>(relation.G, 0).dot(velocity_of<D>(pair.node_a)) +
+           carrier_part<D>(relation.G, 6).dot(velocity_of<D>(pair.node_b));
+  });
 }
 
 /// Turns the columns of B into those of the iteration matrix; `gradient`: ∂(B v)/∂q, asked for only if needed.
@@ -109,26 +77,31 @@ void add_constraint_rows(const Model& model, const Pair& item, const ElementMap&
            target.values);
 }
 
+/// Adds what `force_on(first)` gives for each carrier of a pair, whose columns begin at `first`: 0 (A) or 6 (B).
+template <int D, class Force>
+void add_forces(const Model& model, const ElementMap& map, Evaluation& evaluation, Force force_on) {
+  for (const int first : {0, 6}) {
+    const CarrierVector<D> force = force_on(first);
+    add_carrier_force<D>(model, map, first, force, evaluation);
+    note_scale(force, evaluation);
+  }
+}
+
 /// Adds Gᵀ Q of coordinate `at`.
 void add_along(const Model& model, std::size_t at, double Q, Evaluation& evaluation) {
-  const ElementMap& map = model.coordinates.maps[at];
-  const Row12& G = evaluation.coordinates[at].G;
-  if (model.coordinates[at].planar) {
-    for (const int carrier : {0, 3}) {
-      const Vector3d force = Q * in_plane(G, carrier);
-      add_force_in_plane(model, map, carrier, force, evaluation);
-      note_scale_in_plane(force, evaluation);
-    }
-    return;
-  }
-  const Vector12 force = Q * G.transpose();
-  add_force(model, map, force, evaluation);
-  note_scale(force, evaluation);
+  in_space(model.coordinates[at].relation.planar, [&]<int D>() {
+    add_forces<D>(model, model.coordinates.maps[at], evaluation, [&](int first) {
+      return CarrierVector<D>(Q * carrier_part<D>(evaluation.coordinates[at].G, first));
+    });
+  });
 }
 
 /// Bᵀλ of a joint.
 Vector12 joint_force(const Joint& joint, const JointTerms& terms, const State& state) {
-  return transposed_times(joint, terms, state.lambda().data() + joint.row);
+  Vector12 force;
+  for (const int first : {0, 6})
+    force.segment<6>(first) = transposed_times<3>(joint, terms, state.lambda().data() + joint.row, first);
+  return force;
 }
 
 }  // namespace
@@ -145,13 +118,10 @@ void update_joints(const Model& model, Evaluation& evaluation) {
     JointTerms& terms = evaluation.joints[i];
     joint_constraints(joint, pair.node_a, pair.node_b, terms);
     for (int k = 0; k < size; ++k) evaluation.constraint[joint.row + k] = terms.phi[k];
-    if (joint.planar) {
-      const Vector3d rate = rows_times_in_plane(joint, terms, velocity_in_plane(pair));
+    in_space(joint.planar, [&]<int D>() {
+      const auto rate = rows_times<D>(joint, terms, velocity_of<D>(pair.node_a), velocity_of<D>(pair.node_b));
       for (int k = 0; k < size; ++k) evaluation.constraint_rate[joint.row + k] = rate[k];
-      continue;
-    }
-    const Vector6d rate = rows_times(terms, velocity_of(pair));
-    for (int k = 0; k < size; ++k) evaluation.constraint_rate[joint.row + k] = rate[k];
+    });
   }
 }
 
@@ -183,18 +153,11 @@ void update_couplings(const Model& model, const State& state, Evaluation& evalua
 void add_joints(const Model& model, const State& state, Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
-    if (joint.planar) {
-      for (const int carrier : {0, 3}) {
-        const Vector3d force =
-            transposed_times_in_plane(joint, evaluation.joints[i], state.lambda().data() + joint.row, carrier);
-        add_force_in_plane(model, model.joints.maps[i], carrier, force, evaluation);
-        note_scale_in_plane(force, evaluation);
-      }
-      continue;
-    }
-    const Vector12 force = joint_force(joint, evaluation.joints[i], state);
-    add_force(model, model.joints.maps[i], force, evaluation);
-    note_scale(force, evaluation);
+    in_space(joint.planar, [&]<int D>() {
+      add_forces<D>(model, model.joints.maps[i], evaluation, [&](int first) {
+        return transposed_times<D>(joint, evaluation.joints[i], state.lambda().data() + joint.row, first);
+      });
+    });
   }
 }
 
@@ -317,13 +280,13 @@ void add_coordinate_tangents(const Model& model, const State& state, Evaluation&
       const Coordinate& c = model.coordinates[at];
       const MarkerPair pair = markers_of(c, evaluation);
       K.setZero();
-      add_stiffness_of(c, pair, term.factor * state.lambda()[coupling.row], K);
+      add_stiffness(c.relation, pair, term.factor * state.lambda()[coupling.row], K);
       const Row12 B = term.factor * evaluation.coordinates[at].G;
       const ElementMap& columns = model.coordinates.maps[at];
       add_matrix(model, columns, K, coefficients.stiffness * target.factor, evaluation, target.values,
                  [&] { return Vector12(state.lambda()[coupling.row] * B.transpose()); });
       add_constraint_rows(model, c, columns, B, 1, map, slot, target, evaluation,
-                          [&] { return Row12(term.factor * rate_gradient_of(c, pair)); });
+                          [&] { return Row12(term.factor * rate_gradient(c.relation, pair)); });
       slot += columns.coordinates.size();
     }
   }
@@ -340,8 +303,8 @@ void add_coordinate_tangents(const Model& model, const State& state, Evaluation&
       continue;
     }
     K.noalias() = -(coefficients.stiffness * f.dQ_dq + coefficients.damping * f.dQ_dqd) * G.transpose() * G;
-    K.noalias() -= (coefficients.stiffness * f.dQ_dqd) * G.transpose() * rate_gradient_of(c, pair);
-    add_stiffness_of(c, pair, -coefficients.stiffness * f.Q, K);
+    K.noalias() -= (coefficients.stiffness * f.dQ_dqd) * G.transpose() * rate_gradient(c.relation, pair);
+    add_stiffness(c.relation, pair, -coefficients.stiffness * f.Q, K);
     scatter_matrix(model.coordinates.maps[at], K, target.factor, target.values);
   }
 }
@@ -350,7 +313,7 @@ void unwrap_hinges(const Model& model, const Evaluation& evaluation, State& stat
   for (const Coordinate& coordinate : model.coordinates) {
     if (coordinate.turn < 0) continue;
     double& angle = state.hinges()[coordinate.turn];
-    angle = unwrapped(terms_of(coordinate, markers_of(coordinate, evaluation)).value, angle);
+    angle = unwrapped(evaluate(coordinate.relation, markers_of(coordinate, evaluation)).value, angle);
   }
 }
 

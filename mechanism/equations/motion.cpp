@@ -1,7 +1,6 @@
 // Stage motion: what nodes and modes do at a state.
 #include "mechanism/equations/terms.hpp"
 
-#include "mechanism/bodies/modal/in_plane.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
@@ -12,10 +11,9 @@ void update_modal_node(const Model& model, std::size_t i, Evaluation& evaluation
   const auto body = static_cast<std::size_t>(node.body);
   const ModalScratch& scratch = evaluation.modal_bodies[body];
   const NodeMotion& frame = motion_of(evaluation, model.modal_bodies[body].node);
-  if (model.planar && node.x.z() == 0.0)
-    update_node_in_plane(node, scratch, frame, evaluation.motion[node.node], evaluation.modal_nodes[i]);
-  else
-    update_node(node, scratch, frame, evaluation.motion[node.node], evaluation.modal_nodes[i]);
+  in_space(model.planar && node.x.z() == 0.0, [&]<int D>() {
+    update_node<D>(node, scratch, frame, evaluation.motion[node.node], evaluation.modal_nodes[i]);
+  });
 }
 
 }  // namespace

@@ -91,8 +91,8 @@ void note_scale(const Vector& local, Evaluation& evaluation) {
   }
 }
 
-/// The same of a node with three, [x y Θ].
-inline void note_scale_in_plane(const Eigen::Vector3d& local, Evaluation& evaluation) {
+/// The same of a carrier in the plane.
+inline void note_scale(const CarrierVector<2>& local, Evaluation& evaluation) {
   double &force = evaluation.force_scale[0], &moment = evaluation.force_scale[1];
   force = std::max({force, std::abs(local[0]), std::abs(local[1])});
   moment = std::max(moment, std::abs(local[2]));

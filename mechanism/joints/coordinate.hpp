@@ -15,7 +15,6 @@ struct Coordinate {
   Marker b;
   Relation relation;
   int turn = -1;        ///< angles: index of the unwrapped value in the state
-  bool planar = false;  ///< in planar models: its axes lie in the plane
   bool active = false;  ///< used by a coupling, a motion or a spring: evaluated in every step
 };
 

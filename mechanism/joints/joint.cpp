@@ -7,13 +7,11 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
-#include "common/math/rotation.hpp"
 
 namespace tisserand::mechanism {
 namespace {
 
 using Eigen::Matrix3d;
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 const Relation& relation_of(const Joint& joint, int equation) {
@@ -118,49 +116,50 @@ std::string joint_equation_name(const Joint& joint, int equation) {
 }
 
 namespace {
-/// Φ in x and y, and what of B is not zero; two rows at a time, as they are read soon after (a load of two numbers waits
-/// for two stores of one).
-void coincidence_in_plane(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms) {
-  const Vector2d arm_a = in_plane(a.R, joint.a.p), arm_b = in_plane(b.R, joint.b.p);
-  terms.phi.head<2>() = (b.x - a.x).head<2>() + arm_b - arm_a;
-  const auto column = [&terms](int c) { return terms.B.col(c).head<2>(); };
-  column(0) = -Vector2d::UnitX();
-  column(1) = -Vector2d::UnitY();
-  column(5) = Vector2d(arm_a.y(), -arm_a.x());
-  column(6) = Vector2d::UnitX();
-  column(7) = Vector2d::UnitY();
-  column(11) = Vector2d(-arm_b.y(), arm_b.x());
-  if (joint.a.p.z() == 0.0 && joint.b.p.z() == 0.0) return;
-  for (int k = 0; k < 2; ++k) {
-    terms.B.row(k).segment<2>(3).setZero();
-    terms.B.row(k).segment<2>(9).setZero();
-    add_height(terms.B.row(k).segment<2>(3), a.R, joint.a.p.z(), -Vector2d::Unit(k));
-    add_height(terms.B.row(k).segment<2>(9), b.R, joint.b.p.z(), Vector2d::Unit(k));
+/// Φ = X_B − X_A and B of origins that are kept together.
+template <int D>
+void keep_together(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms) {
+  constexpr int turns = Space<D>::turns, first = Space<D>::first_turn;
+  const Vector3d arm_a = Space<D>::rotated(a.R, joint.a.p), arm_b = Space<D>::rotated(b.R, joint.b.p);
+  terms.phi.head<D>() = Space<D>::part(b.x + arm_b - a.x - arm_a);
+  terms.B.block<D, D>(0, 0) = -Eigen::Matrix<double, D, D>::Identity();
+  terms.B.block<D, turns>(0, first) = -Space<D>::turning(a.R, Space<D>::part(arm_a));
+  terms.B.block<D, D>(0, 6).setIdentity();
+  terms.B.block<D, turns>(0, 6 + first) = Space<D>::turning(b.R, Space<D>::part(arm_b));
+  if (D == 3 || (arm_a.z() == 0.0 && arm_b.z() == 0.0)) return;
+  for (int k = 0; k < D; ++k) {
+    terms.B.row(k).segment<3>(3) = -Space<D>::moment(a.R, arm_a, VectorOf<D>::Unit(k));
+    terms.B.row(k).segment<3>(9) = Space<D>::moment(b.R, arm_b, VectorOf<D>::Unit(k));
   }
+}
+
+/// ∂(B v)/∂q of them.
+template <int D>
+void keep_together_rate(const Joint& joint, const NodeMotion& a, const NodeMotion& b, Eigen::Matrix<double, 6, 12>& N) {
+  constexpr int turns = Space<D>::turns, first = Space<D>::first_turn;
+  const VectorOf<D> arm_a = Space<D>::part(Space<D>::rotated(a.R, joint.a.p));
+  const VectorOf<D> arm_b = Space<D>::part(Space<D>::rotated(b.R, joint.b.p));
+  N.block<D, turns>(0, first) = -Space<D>::turning(a.R, Space<D>::across(Space<D>::spin(a), arm_a));
+  N.block<D, turns>(0, 6 + first) = Space<D>::turning(b.R, Space<D>::across(Space<D>::spin(b), arm_b));
+}
+
+/// ∂(Bᵀλ)/∂q of them.
+template <int D>
+void keep_together_stiffness(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda,
+                             Square12& K) {
+  constexpr int turns = Space<D>::turns, first = Space<D>::first_turn;
+  const VectorOf<D> force = Eigen::Map<const VectorOf<D>>(lambda);
+  const VectorOf<D> arm_a = Space<D>::part(Space<D>::rotated(a.R, joint.a.p));
+  const VectorOf<D> arm_b = Space<D>::part(Space<D>::rotated(b.R, joint.b.p));
+  K.block<turns, turns>(first, first) = Space<D>::turning_product(a.R, arm_a, force);
+  K.block<turns, turns>(6 + first, 6 + first) = -Space<D>::turning_product(b.R, arm_b, force);
 }
 }  // namespace
 
 void joint_constraints(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms) {
+  if (joint.coincident) joint.planar ? keep_together<2>(joint, a, b, terms) : keep_together<3>(joint, a, b, terms);
   const MarkerPair pair{joint.a, joint.b, a, b};
-  int row = 0;
-  if (joint.planar) {
-    if (joint.coincident) coincidence_in_plane(joint, a, b, terms);
-    row = joint.coincident_rows();
-    for (int k = 0; k < joint.relation_count; ++k, ++row) {
-      const RelationTerms relation = evaluate_in_plane(joint.relations[k], pair);
-      terms.phi[row] = relation.value - joint.constant;
-      terms.B.row(row) = relation.G;
-    }
-    return;
-  }
-  if (joint.coincident) {
-    terms.phi.head<3>() = marker_position(joint.b, b) - marker_position(joint.a, a);
-    terms.B.block<3, 3>(0, 0) = -Matrix3d::Identity();
-    terms.B.block<3, 3>(0, 3).noalias() = a.R * skew<double>(joint.a.p);
-    terms.B.block<3, 3>(0, 6).setIdentity();
-    terms.B.block<3, 3>(0, 9).noalias() = -b.R * skew<double>(joint.b.p);
-    row = joint.coincident_rows();
-  }
+  int row = joint.coincident_rows();
   for (int k = 0; k < joint.relation_count; ++k, ++row) {
     const RelationTerms relation = evaluate(joint.relations[k], pair);
     terms.phi[row] = relation.value - joint.constant;
@@ -168,62 +167,29 @@ void joint_constraints(const Joint& joint, const NodeMotion& a, const NodeMotion
   }
 }
 
-Eigen::Matrix<double, 6, 1> rows_times(const JointTerms& terms, const Vector12& d) { return terms.B.lazyProduct(d); }
-
-Vector12 transposed_times(const Joint& joint, const JointTerms& terms, const double* lambda) {
-  Eigen::Matrix<double, 6, 1> own = Eigen::Matrix<double, 6, 1>::Zero();
-  for (int k = 0; k < joint.size(); ++k) own[k] = lambda[k];
-  return terms.B.transpose().lazyProduct(own);
-}
-
 void joint_bias(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms) {
-  int row = 0;
-  if (joint.coincident) {
-    terms.bias.head<3>() =
-        b.R * b.Omega.cross(b.Omega.cross(joint.b.p)) - a.R * a.Omega.cross(a.Omega.cross(joint.a.p));
-    row = joint.coincident_rows();
-  }
-  const MarkerPair pair{joint.a, joint.b, a, b};
-  for (int k = 0; k < joint.relation_count; ++k, ++row) terms.bias[row] = bias(joint.relations[k], pair);
+  Eigen::Matrix<double, 6, 12> N;
+  joint_rate_gradient(joint, a, b, N);
+  terms.bias = N.leftCols<6>() * velocity_of<3>(a) + N.rightCols<6>() * velocity_of<3>(b);
 }
 
 void joint_rate_gradient(const Joint& joint, const NodeMotion& a, const NodeMotion& b,
                          Eigen::Matrix<double, 6, 12>& N) {
   N.setZero();
-  int row = 0;
-  if (joint.coincident && joint.planar) {
-    N.block<2, 1>(0, 5) = a.Omega.z() * in_plane(a.R, joint.a.p);
-    N.block<2, 1>(0, 11) = -b.Omega.z() * in_plane(b.R, joint.b.p);
-    row = joint.coincident_rows();
-  } else if (joint.coincident) {
-    N.block<3, 3>(0, 3).noalias() = a.R * skew<double>(a.Omega.cross(joint.a.p));
-    N.block<3, 3>(0, 9).noalias() = -b.R * skew<double>(b.Omega.cross(joint.b.p));
-    row = joint.coincident_rows();
-  }
+  if (joint.coincident) joint.planar ? keep_together_rate<2>(joint, a, b, N) : keep_together_rate<3>(joint, a, b, N);
   const MarkerPair pair{joint.a, joint.b, a, b};
-  for (int k = 0; k < joint.relation_count; ++k, ++row)
-    N.row(row) =
-        joint.planar ? rate_gradient_in_plane(joint.relations[k], pair) : rate_gradient(joint.relations[k], pair);
+  int row = joint.coincident_rows();
+  for (int k = 0; k < joint.relation_count; ++k, ++row) N.row(row) = rate_gradient(joint.relations[k], pair);
 }
 
 void joint_stiffness(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda, Square12& K) {
   K.setZero();
-  int row = 0;
-  if (joint.coincident) row = joint.coincident_rows();
-  if (joint.coincident && joint.planar) {
-    const Vector2d f(lambda[0], lambda[1]);
-    K(5, 5) = in_plane(a.R, joint.a.p).dot(f);
-    K(11, 11) = -in_plane(b.R, joint.b.p).dot(f);
-  } else if (joint.coincident) {
-    const Vector3d f(lambda[0], lambda[1], lambda[2]);
-    // Rows Θ of Bᵀλ: −p_A~ R_Aᵀ f for A and +p_B~ R_Bᵀ f for B; δ(Rᵀ f) = (Rᵀ f)~ δΘ.
-    K.block<3, 3>(3, 3) = -skew<double>(joint.a.p) * skew<double>(a.R.transpose() * f);
-    K.block<3, 3>(9, 9) = skew<double>(joint.b.p) * skew<double>(b.R.transpose() * f);
-  }
+  if (joint.coincident)
+    joint.planar ? keep_together_stiffness<2>(joint, a, b, lambda, K)
+                 : keep_together_stiffness<3>(joint, a, b, lambda, K);
   const MarkerPair pair{joint.a, joint.b, a, b};
-  for (int k = 0; k < joint.relation_count; ++k, ++row)
-    joint.planar ? add_stiffness_in_plane(joint.relations[k], pair, lambda[row], K)
-                 : add_stiffness(joint.relations[k], pair, lambda[row], K);
+  int row = joint.coincident_rows();
+  for (int k = 0; k < joint.relation_count; ++k, ++row) add_stiffness(joint.relations[k], pair, lambda[row], K);
 }
 
 JointReaction reaction_of(const Row12& pulled_back, const MarkerPair& pair) {

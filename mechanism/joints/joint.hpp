@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "formats/scene/scene.hpp"
+#include "mechanism/frames/space.hpp"
 #include "mechanism/joints/joint_laws.hpp"
 #include "mechanism/joints/relation.hpp"
 
@@ -72,36 +73,30 @@ struct JointTerms {
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 
-/// Equations of planar joints: not more than the three motions that they leave a body.
-constexpr int planar_rows = 3;
-
-/// B d; the first size() rows count.
-Eigen::Matrix<double, 6, 1> rows_times(const JointTerms& terms, const Vector12& d);
-/// Bᵀ λ of the joint's own rows.
-Vector12 transposed_times(const Joint& joint, const JointTerms& terms, const double* lambda);
-
-/// The same of a planar joint, on [x_A y_A Θ_A x_B y_B Θ_B], its planar_columns: a carrier at a time, the ground (d =
-/// 0) left out. Rows behind the joint's are zero, so that loops have constant bounds.
-using PlanarVector = Eigen::Matrix<double, 6, 1>;
-inline Eigen::Vector3d rows_times_in_plane(const Joint& joint, const JointTerms& terms, const PlanarVector& d) {
-  Eigen::Vector3d product = Eigen::Vector3d::Zero();
-  const auto add = [&](int carrier) {
-    for (int c = carrier; c < carrier + 3; ++c)
-      for (int k = 0; k < planar_rows; ++k) product[k] += terms.B(k, planar_columns[c]) * d[c];
+/// B d for increments of both carriers; the ground (d = 0) is left out. Rows behind the joint's are zero, so that loops
+/// have constant bounds: a joint has no more equations than a carrier has columns.
+template <int D>
+CarrierVector<D> rows_times(const Joint& joint, const JointTerms& terms, const CarrierVector<D>& a,
+                            const CarrierVector<D>& b) {
+  constexpr int turns = Space<D>::turns, rows = D + turns;
+  CarrierVector<D> product = CarrierVector<D>::Zero();
+  const auto add = [&](int first, const CarrierVector<D>& d) {
+    product += terms.B.block<rows, D>(0, first).lazyProduct(d.template head<D>());
+    product += terms.B.block<rows, turns>(0, first + Space<D>::first_turn).lazyProduct(d.template tail<turns>());
   };
-  if (joint.a.node >= 0) add(0);
-  if (joint.b.node >= 0) add(3);
+  if (joint.a.node >= 0) add(0, a);
+  if (joint.b.node >= 0) add(6, b);
   return product;
 }
-/// Of the carrier whose columns begin at `carrier`: 0 (A) or 3 (B).
-inline Eigen::Vector3d transposed_times_in_plane(const Joint& joint, const JointTerms& terms, const double* lambda,
-                                                 int carrier) {
-  const int size = joint.size();
-  Eigen::Vector3d product = Eigen::Vector3d::Zero();
-  for (int k = 0; k < planar_rows; ++k) {
-    const double own = k < size ? lambda[k] : 0.0;
-    for (int c = 0; c < 3; ++c) product[c] += terms.B(k, planar_columns[carrier + c]) * own;
-  }
+/// Bᵀ λ of the joint's own rows, of the carrier whose columns begin at `first`: 0 (A) or 6 (B).
+template <int D>
+CarrierVector<D> transposed_times(const Joint& joint, const JointTerms& terms, const double* lambda, int first) {
+  constexpr int turns = Space<D>::turns, rows = D + turns;
+  CarrierVector<D> own = CarrierVector<D>::Zero(), product;
+  for (int k = 0; k < joint.size(); ++k) own[k] = lambda[k];
+  product.template head<D>() = terms.B.block<rows, D>(0, first).transpose().lazyProduct(own);
+  product.template tail<turns>() =
+      terms.B.block<rows, turns>(0, first + Space<D>::first_turn).transpose().lazyProduct(own);
   return product;
 }
 

@@ -24,6 +24,7 @@ struct Relation {
   RelationKind kind = RelationKind::along;
   std::uint8_t i = 0;
   std::uint8_t j = 0;
+  bool planar = false;  ///< in planar models: its axes lie in the plane, and it has the columns of Space<2>
 };
 
 /// Whether its value is a length (or a number of order one: an angle or a product of unit vectors).
@@ -78,29 +79,8 @@ struct RelationTerms {
 };
 RelationTerms evaluate(const Relation& relation, const MarkerPair& pair);
 
-/// The columns [x y θ] of both carriers that planar models have.
-constexpr std::array<int, 6> planar_columns{0, 1, 5, 6, 7, 11};
-/// Of a row those of the carrier whose columns begin there at `carrier`: 0 (A) or 3 (B).
-inline Eigen::Vector3d in_plane(const Row12& row, int carrier) {
-  return {row[planar_columns[carrier]], row[planar_columns[carrier + 1]], row[planar_columns[carrier + 2]]};
-}
 /// Whether the axes that the relation uses lie in the plane z = 0 of both carriers.
 bool has_planar_axes(const Relation& relation, const Marker& a, const Marker& b);
-/// Adds the moment across z, material axes, of a force `x` (world) that acts `height` along z from the carrier's
-/// origin: what a carrier in the plane does not feel, but what is reported of the ground.
-template <class Moment>
-void add_height(Moment&& moment, const Eigen::Matrix3d& R, double height, const Eigen::Vector2d& x) {
-  if (height == 0.0) return;
-  moment[0] -= height * (R(0, 1) * x.x() + R(1, 1) * x.y());
-  moment[1] += height * (R(0, 0) * x.x() + R(1, 0) * x.y());
-}
-/// evaluate() where carriers turn about z alone, of a relation with planar axes.
-RelationTerms evaluate_in_plane(const Relation& relation, const MarkerPair& pair);
-/// K += weight ∂²(value)/∂q², columns and rows planar_columns: symmetric, since turns about one axis add up.
-void add_stiffness_in_plane(const Relation& relation, const MarkerPair& pair, double weight, Square12& K);
-/// ∂(G v)/∂q = vᵀ ∂²(value)/∂q².
-Row12 rate_gradient_in_plane(const Relation& relation, const MarkerPair& pair);
-
 /// Ġ v: the second derivative of the value is G v̇ + Ġ v.
 double bias(const Relation& relation, const MarkerPair& pair);
 

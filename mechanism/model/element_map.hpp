@@ -18,20 +18,21 @@ inline const ModalBody& modal_body_of(const Model& model, int modal) {
 /// Appends the coordinates of a node: six (−1 where it owns none; ground: all −1), or 6 + m of the body it follows.
 void append_carrier(const Model& model, int node, std::vector<int>& coordinates);
 
-/// Of two carriers in a planar model that own their coordinates: those at [x_A y_A Θ_A x_B y_B Θ_B].
-inline PlanarVector gather_in_plane(const ElementMap& map, const Eigen::VectorXd& global) {
-  PlanarVector local;
-  for (int c = 0; c < 6; ++c) {
-    const int coordinate = map.coordinates[planar_columns[c]];
+/// Of a carrier that owns its coordinates, or of ground: what `global` has at its columns, 0 where there is none.
+template <int D>
+CarrierVector<D> gather_carrier(const int* coordinates, const Eigen::VectorXd& global) {
+  CarrierVector<D> local;
+  for (int c = 0; c < local.size(); ++c) {
+    const int coordinate = coordinates[Space<D>::columns[c]];
     local[c] = coordinate < 0 ? 0.0 : global[coordinate];
   }
   return local;
 }
-/// Adds what the carrier gets whose columns begin at `carrier`: 0 or 3.
-inline void scatter_in_plane(const ElementMap& map, int carrier, const Eigen::Vector3d& local,
-                             Eigen::VectorXd& global) {
-  for (int c = 0; c < 3; ++c)
-    if (const int at = map.coordinates[planar_columns[carrier + c]]; at >= 0) global[at] += local[c];
+/// Adds to them.
+template <int D>
+void scatter_carrier(const int* coordinates, const CarrierVector<D>& local, Eigen::VectorXd& global) {
+  for (int c = 0; c < local.size(); ++c)
+    if (const int at = coordinates[Space<D>::columns[c]]; at >= 0) global[at] += local[c];
 }
 
 /// The map of an element on `nodes`: their coordinates one after the other, and the nodes if one follows a modal body.

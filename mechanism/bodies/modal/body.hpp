@@ -26,17 +26,17 @@ struct ModalBody {
   Eigen::Vector3d c0 = Eigen::Vector3d::Zero();  ///< Σ m_k x_k
   Eigen::Matrix3Xd C1;                           ///< Σ m_k Xd_k
   Eigen::Matrix3d P0 = Eigen::Matrix3d::Zero();  ///< Σ m_k x_k x_kᵀ
-  /// 9 m: Σ m_k x_k Xd_kjᵀ, column by column, for each j. Of planar bodies 2 m: the traces of all, then their spins xy
-  /// − yx, all that a turn in the plane meets; so do P2, S, Sd and Sdd.
+  /// 9 m: Σ m_k x_k Xd_kjᵀ, column by column, for each j. Of planar bodies 2 m: its trace and its spin xy − yx, all
+  /// that a turn in the plane meets; so do P2, S, Sd, Sdd and D.
   Eigen::VectorXd P1;
-  Eigen::MatrixXd P2;                                 ///< 9 m x m: column i holds Σ m_k Xd_ki Xd_kjᵀ for each j
-  Eigen::Matrix3d J_mu = Eigen::Matrix3d::Zero();     ///< Σ μ_k
-  Eigen::Matrix3Xd N_mu;                              ///< Σ μ_k Xt_k
-  Eigen::VectorXd stiffness;                          ///< ω_j²
-  Eigen::VectorXd damping;                            ///< 2 ζ_j ω_j, and mass- and stiffness-proportional parts
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< for the caller to scale and pass on
+  Eigen::MatrixXd P2;                                  ///< 9 m x m: column i holds Σ m_k Xd_ki Xd_kjᵀ for each j
+  Eigen::Matrix3d J_mu = Eigen::Matrix3d::Zero();      ///< Σ μ_k
+  Eigen::Matrix3Xd N_mu;                               ///< Σ μ_k Xt_k
+  Eigen::VectorXd stiffness;                           ///< ω_j²
+  Eigen::VectorXd damping;                             ///< 2 ζ_j ω_j, and mass- and stiffness-proportional parts
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();   ///< for the caller to scale and pass on
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of the frame in axes of the part
-  bool planar = false;                                ///< of make_planar(), with sums and kernels of the plane
+  bool planar = false;                                 ///< of make_planar(), with sums of the plane
   Eigen::MatrixXd lift;  ///< of planar bodies: w of the body in space = lift w, of orthonormal columns, maybe none
 
   int modes_in_space() const { return planar ? static_cast<int>(lift.rows()) : modes; }
@@ -49,10 +49,10 @@ struct ModalScratch {
   Eigen::Vector3d c, cd;    ///< c0 + C1 w and its rate
   Eigen::Matrix3d A;        ///< of the frame
   Eigen::Matrix3d J;        ///< inertia about the frame's origin
-  Eigen::Matrix3d D;        ///< Σ ẇ_j S_j
   Eigen::Matrix3Xd N;       ///< coupling of ω and ẇ: vee(S_j) + N_mu_j
   Eigen::VectorXd w, wd, wdd;
   Eigen::VectorXd S, Sd, Sdd;  ///< 9 m: S_j = P1_j + Σ_i w_i P2_ij; Σ_i ẇ_i P2_ij; Σ_i ẅ_i P2_ij
+  Eigen::VectorXd D;           ///< 9: Σ ẇ_j S_j
   Eigen::VectorXd r;           ///< 6 + m
   Eigen::MatrixXd tangent;     ///< (6 + m) x (6 + m)
 };

@@ -1,7 +1,7 @@
 // Kinematics of nodes of modal bodies and its derivatives.
 #include "mechanism/bodies/modal/node.hpp"
 
-#include "common/math/rotation.hpp"
+#include "mechanism/frames/space.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -40,37 +40,57 @@ ModalNodeTerms make_terms(const ModalNode& node) {
   return terms;
 }
 
+template <int D>
 void update_node(const ModalNode& node, const ModalScratch& body, const NodeMotion& frame, NodeMotion& motion,
                  ModalNodeTerms& t) {
-  const Index m = node.Xd.cols();
-  t.b = node.x + node.Xd.lazyProduct(body.w);
-  t.theta = node.Xt.lazyProduct(body.w);
-  t.rate = node.Xt.lazyProduct(body.wd);
-  t.om = frame.Omega;
-  t.A = frame.R;
-  t.E = exp_so3<double>(t.theta);
-  const Matrix3d T = tangent_so3<double>(t.theta);
-  t.L = T.transpose();
-  t.T.block<3, 3>(0, 3).noalias() = -t.A * skew<double>(t.b);
-  t.T.block<3, 3>(3, 3) = t.E.transpose();
-  for (Index j = 0; j < m; ++j) {
-    t.T.col(6 + j).head<3>() = t.A * node.Xd.col(j);
-    t.T.col(6 + j).tail<3>() = T * node.Xt.col(j);
+  constexpr int turns = Space<D>::turns, turn = Space<D>::first_turn;
+  using Vector = VectorOf<D>;
+  using Turns = TurnOf<D>;
+  const Eigen::Matrix<double, D, D> A = frame.R.topLeftCorner<D, D>();
+  Vector b = node.x.head<D>(), moved = Vector::Zero(), pushed = Vector::Zero();
+  Turns theta = Turns::Zero(), rate = Turns::Zero(), second = Turns::Zero();  // θ, θ̇, θ̈
+  for (Index j = 0; j < node.Xd.cols(); ++j) {
+    const Vector X = node.Xd.col(j).head<D>();
+    const Turns turned = node.Xt.col(j).tail<turns>();
+    b += X * body.w[j];
+    moved += X * body.wd[j];
+    pushed += X * body.wdd[j];
+    theta += turned * body.w[j];
+    rate += turned * body.wd[j];
+    second += turned * body.wdd[j];
+    t.T.col(6 + j).head<D>() = A * X;
+    t.T.col(6 + j).segment<turns>(turn) = turned;
   }
-  const Vector3d moved = node.Xd.lazyProduct(body.wd), carried = t.E.transpose() * t.om, own = T * t.rate;
-  t.bias.head<3>() = t.A * (t.om.cross(t.om.cross(t.b)) + 2.0 * t.om.cross(moved));
-  t.bias.tail<3>() = carried.cross(own) + tangent_derivative(t.theta, t.rate) * t.rate;
+  const Turns om = frame.Omega.tail<turns>(), omd = frame.Omegad.tail<turns>();
+  t.b.head<D>() = b;
+  t.theta.tail<turns>() = theta;
+  t.rate.tail<turns>() = rate;
+  t.om.tail<turns>() = om;
+  t.A = frame.R;
+  Space<D>::set_exponential(t.theta, t.E);
+  t.T.block<D, turns>(0, turn) = A * Space<D>::turning(b);
+  t.T.block<turns, turns>(turn, turn) = Space<D>::material_map(t.E);
+  const Turns carried = Space<D>::material(t.E, om);
+  t.bias.head<D>() = A * Space<D>::across(om, Space<D>::across(om, b) + 2.0 * moved);
+  if constexpr (D == 3) {  // in the plane rotations add up
+    const Matrix3d T = tangent_so3<double>(theta);
+    t.L = T.transpose();
+    for (Index j = 0; j < node.Xd.cols(); ++j) t.T.col(6 + j).tail<3>() = T * node.Xt.col(j);
+    t.bias.tail<3>() = carried.cross(T * rate) + tangent_derivative(theta, rate) * rate;
+    rate = (T * rate).eval();
+    second = (T * second).eval();
+  }
 
-  motion.x = frame.x + t.A * t.b;
-  motion.R = t.A * t.E;
-  motion.xd = frame.xd + t.A * (t.om.cross(t.b) + moved);
-  motion.Omega = carried + own;
-  const auto modal = t.T.rightCols(m);
-  motion.xdd = frame.xdd + t.T.block<3, 3>(0, 3) * frame.Omegad + t.bias.head<3>();
-  motion.xdd += modal.topRows<3>().lazyProduct(body.wdd);
-  motion.Omegad = t.E.transpose() * frame.Omegad + t.bias.tail<3>();
-  motion.Omegad += modal.bottomRows<3>().lazyProduct(body.wdd);
+  motion.x = frame.x;
+  motion.x.head<D>() += A * b;
+  motion.R.topLeftCorner<D, D>() = A * t.E.topLeftCorner<D, D>();
+  motion.xd.head<D>() = frame.xd.head<D>() + A * (Space<D>::across(om, b) + moved);
+  motion.Omega.tail<turns>() = carried + rate;
+  motion.xdd.head<D>() = frame.xdd.head<D>() + A * (Space<D>::across(omd, b) + pushed) + t.bias.head<D>();
+  motion.Omegad.tail<turns>() = Space<D>::material(t.E, omd) + second + t.bias.tail<turns>();
 }
+template void update_node<2>(const ModalNode&, const ModalScratch&, const NodeMotion&, NodeMotion&, ModalNodeTerms&);
+template void update_node<3>(const ModalNode&, const ModalScratch&, const NodeMotion&, NodeMotion&, ModalNodeTerms&);
 
 void rate_gradient(const ModalNode& node, const ModalScratch& body, const ModalNodeTerms& t,
                    Eigen::Ref<Eigen::MatrixXd> Z) {

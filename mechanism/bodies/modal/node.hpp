@@ -35,7 +35,9 @@ struct ModalNodeTerms {
 
 ModalNodeTerms make_terms(const ModalNode& node);
 
-/// Motion of the node and what its derivatives need; `frame` is the motion of the body's frame.
+/// Motion of the node and what its derivatives need; `frame` is the motion of the body's frame. In the plane of planar
+/// bodies, D = 2, what leaves it stays as make_terms() leaves it.
+template <int D>
 void update_node(const ModalNode& node, const ModalScratch& body, const NodeMotion& frame, NodeMotion& motion,
                  ModalNodeTerms& terms);
 

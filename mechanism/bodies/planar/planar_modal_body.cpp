@@ -116,13 +116,13 @@ void keep_modes(const MatrixXd& W, ModalBody& body) {
   body.planar = true;
 }
 
-/// Traces and spins of blocks (9 rows each, one below the other), all traces first.
+/// Trace and spin of each of the blocks (9 rows each, one below the other).
 MatrixXd traces_and_spins(const MatrixXd& blocks) {
   const Index m = blocks.rows() / 9;
   MatrixXd out(2 * m, blocks.cols());
   for (Index j = 0; j < m; ++j) {
-    out.row(j) = blocks.row(9 * j) + blocks.row(9 * j + 4);
-    out.row(m + j) = blocks.row(9 * j + 3) - blocks.row(9 * j + 1);
+    out.row(2 * j) = blocks.row(9 * j) + blocks.row(9 * j + 4);
+    out.row(2 * j + 1) = blocks.row(9 * j + 3) - blocks.row(9 * j + 1);
   }
   return out;
 }

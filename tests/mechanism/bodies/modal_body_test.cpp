@@ -247,7 +247,7 @@ struct Follower {
 
   Follower() : terms(make_terms(c.built.nodes[4])) {
     c.residual(Vector3d::Zero());
-    update_node(c.built.nodes[4], c.scratch, c.state.frame, motion, terms);
+    update_node<3>(c.built.nodes[4], c.scratch, c.state.frame, motion, terms);
     p = to_vector(c.answers.at("follower").at("p"));
     D = to_matrix(c.answers.at("follower").at("D"));
   }
@@ -305,7 +305,7 @@ TEST(ModalNode, RateGradientIsTheDerivativeOfTheVelocity) {
       moved.residual(Vector3d::Zero());
       NodeMotion motion;
       ModalNodeTerms terms = make_terms(moved.built.nodes[4]);
-      update_node(moved.built.nodes[4], moved.scratch, frame, motion, terms);
+      update_node<3>(moved.built.nodes[4], moved.scratch, frame, motion, terms);
       Eigen::Matrix<double, 6, 1> v;
       v << motion.xd, motion.Omega;
       return v;
@@ -315,7 +315,7 @@ TEST(ModalNode, RateGradientIsTheDerivativeOfTheVelocity) {
     for (int j = 0; j < 9; ++j)
       expected.col(j) = (twist(h * VectorXd::Unit(9, j)) - twist(-h * VectorXd::Unit(9, j))) / (2 * h);
     f.c.residual(Vector3d::Zero());
-    update_node(f.c.built.nodes[4], f.c.scratch, f.c.state.frame, f.motion, f.terms);
+    update_node<3>(f.c.built.nodes[4], f.c.scratch, f.c.state.frame, f.motion, f.terms);
     rate_gradient(f.c.built.nodes[4], f.c.scratch, f.terms, Z);
     EXPECT_LT(relative_difference(Z, expected), 1e-9) << size;
     EXPECT_LT(relative_difference(Z * f.c.velocity(), f.terms.bias), 1e-13) << size;

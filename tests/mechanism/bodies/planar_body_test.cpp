@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/QR>
 
-#include "mechanism/bodies/modal/in_plane.hpp"
+#include "mechanism/bodies/modal/node.hpp"
 #include "mechanism/bodies/planar/planar_modal_body.hpp"
 #include "mechanism/bodies/superelement/evaluate.hpp"
 #include "mechanism/build/build_model.hpp"
@@ -194,8 +194,8 @@ TEST(PlanarModalBody, MovesAsInSpace) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     ModalNodeTerms in_plane = make_terms(nodes[i]), in_space = make_terms(model.modal_nodes[i]);
     NodeMotion moved_in_plane, moved_in_space;
-    update_node_in_plane(nodes[i], plane, frame, moved_in_plane, in_plane);
-    update_node(model.modal_nodes[i], space, frame, moved_in_space, in_space);
+    update_node<2>(nodes[i], plane, frame, moved_in_plane, in_plane);
+    update_node<3>(model.modal_nodes[i], space, frame, moved_in_space, in_space);
     const std::vector<int> turned{0, 1, 5};
     EXPECT_LT((in_plane.T(turned, rows) - in_space.T(turned, Eigen::all) * E).norm(), 1e-14);
     EXPECT_LT((in_plane.bias - in_space.bias)(turned).norm(), 1e-12);

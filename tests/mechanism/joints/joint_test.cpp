@@ -222,6 +222,8 @@ TEST_P(EveryJoint, ReportedReactionIsTheForceOfTheEquationsAndDoesNoWork) {
   }
 }
 
+constexpr std::array<int, 6> planar_columns{0, 1, 5, 6, 7, 11};  ///< [x y Θ_z] of both carriers
+
 /// Carriers that turn about z alone, with markers off their planes at one height.
 struct PlanarPair : Pair {
   PlanarPair(JointKind kind, unsigned seed, int turns) : Pair(kind, seed, 0.0) {
@@ -247,6 +249,7 @@ struct PlanarPair : Pair {
     for (int k = 0; k < joint.relation_count; ++k)
       if (has_planar_axes(joint.relations[k], joint.a, joint.b)) joint.relations[kept++] = joint.relations[k];
     joint.relation_count = kept;
+    for (Relation& relation : joint.relations) relation.planar = true;
   }
 };
 
@@ -257,6 +260,7 @@ TEST_P(EveryJoint, OfThePlaneIsThatOfSpace) {
       const PlanarPair pair(GetParam(), seed, turns);
       Pair space = pair;
       space.joint.planar = false;
+      for (Relation& relation : space.joint.relations) relation.planar = false;
       const int size = pair.joint.size();
       std::vector<int> rows;  // of space: without the third of the places
       for (int k = 0; k < space.joint.size(); ++k)
@@ -272,18 +276,18 @@ TEST_P(EveryJoint, OfThePlaneIsThatOfSpace) {
       }
       Vector12d v = Vector12d::Zero();
       for (const int column : planar_columns) v[column] = pair.velocity()[column];
-      EXPECT_LT((rows_times_in_plane(pair.joint, plane, v(planar_columns)) - plane.B.topRows<3>() * v).norm(), 1e-14);
-      PlanarVector force;
-      for (const int carrier : {0, 3})
-        force.segment<3>(carrier) = transposed_times_in_plane(pair.joint, plane, lambda.data(), carrier);
+      const auto moved = [&](int first) { return carrier_part<2>(v, first); };
+      EXPECT_LT((rows_times<2>(pair.joint, plane, moved(0), moved(6)) - plane.B.topRows<3>() * v).norm(), 1e-14);
+      Eigen::Matrix<double, 6, 1> force;
+      for (const int carrier : {0, 1})
+        force.segment<3>(3 * carrier) = transposed_times<2>(pair.joint, plane, lambda.data(), 6 * carrier);
       Square12 K, K_space;
       joint_stiffness(pair.joint, pair.a, pair.b, lambda.data(), K);
       joint_stiffness(space.joint, space.a, space.b, of_space.data(), K_space);
       const Vector12d expected = all.B.transpose() * of_space;
       EXPECT_LT((force - expected(planar_columns)).cwiseAbs().maxCoeff(), 1e-14);
-      for (const int i : planar_columns) {
+      for (const int i : planar_columns)
         for (const int j : planar_columns) EXPECT_NEAR(K(i, j), K_space(i, j), 1e-14) << i << " " << j;
-      }
       Eigen::Matrix<double, 6, 12> N, N_space;
       Pair moving = pair;
       for (NodeMotion* motion : {&moving.a, &moving.b}) {
@@ -308,15 +312,15 @@ TEST(PlanarRelation, EveryOneIsThatOfSpace) {
       for (std::uint8_t i = 0; i < 3; ++i)
         for (std::uint8_t j = 0; j < 3; ++j) {
           const PlanarPair pair(JointKind::spherical, 7u + i, turns);
-          const Relation relation{kind, i, j};
+          const Relation relation{kind, i, j}, in_plane{kind, i, j, true};
           if (!has_planar_axes(relation, pair.joint.a, pair.joint.b)) continue;
           ++compared;
           const MarkerPair markers{pair.joint.a, pair.joint.b, pair.a, pair.b};
-          const RelationTerms plane = evaluate_in_plane(relation, markers), space = evaluate(relation, markers);
+          const RelationTerms plane = evaluate(in_plane, markers), space = evaluate(relation, markers);
           EXPECT_NEAR(plane.value, space.value, 1e-14);
           EXPECT_LT((plane.G - space.G).cwiseAbs().maxCoeff(), 1e-14) << static_cast<int>(kind);
           Square12 K = Square12::Zero(), K_space = Square12::Zero();
-          add_stiffness_in_plane(relation, markers, 0.7, K);
+          add_stiffness(in_plane, markers, 0.7, K);
           add_stiffness(relation, markers, 0.7, K_space);
           for (const int row : planar_columns)
             for (const int column : planar_columns)
