@@ -1,11 +1,14 @@
 // Derivatives of the transposed projector at fixed forces.
 #include "mechanism/bodies/superelement/second_order_tangent.hpp"
 
+#include <Eigen/LU>
+
 namespace tisserand::mechanism {
 
 namespace {
 
 using Eigen::Matrix3d;
+using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
 /// ∂(T⁻¹(ψ) b)/∂ψ = −b~/2 + 2 e' (ψ × (ψ × b)) ψᵀ − e ((ψ × b)~ + ψ~ b~): column k is Ṫ⁻¹ for ψ̇ = e_k, times b.
@@ -15,67 +18,84 @@ Matrix3d inverse_tangent_derivative(const Vector3d& psi, const Vector3d& b) {
   return Z;
 }
 
+/// The same of the rotations of nodes; in the plane T is 1.
+template <int D>
+Eigen::Matrix<double, Space<D>::turns, Space<D>::turns> derivative_of(const Vector3d& psi, const TurnOf<D>& b) {
+  if constexpr (D == 3)
+    return inverse_tangent_derivative(psi, b);
+  else
+    return TurnOf<D>::Zero();
+}
+
 }  // namespace
 
+template <int D>
 void add_frame_stiffness(const SuperelementBody& body, const SuperelementTangent& frozen, const Eigen::VectorXd& f,
-                         double factor, FrameStiffnessWork work, Eigen::MatrixXd& A) {
-  const auto rotation_force = [&](int i) { return Vector3d(f.segment<3>(body.node[i].rotation_row)); };
-  Vector3d F0 = Vector3d::Zero(), m0 = Vector3d::Zero();
-  Matrix3d average = Matrix3d::Zero(), turn = Matrix3d::Zero();  // Σ α T⁻¹(−ψ); δm₀ by the rotation of the frame
+                         double factor, FrameStiffnessWork work, MatrixXd& A) {
+  constexpr int n = Space<D>::turns;
+  using Square = Eigen::Matrix<double, n, n>;
+  const auto rotation_force = [&](int i) { return TurnOf<D>(f.segment<n>(body.node[i].rotation_row)); };
+  const auto Tinv = [&](int i) { return Square(frozen.node[i].Tinv.bottomRightCorner<n, n>()); };
+  const auto U = [&](int i) { return frame_turn<D>(body.node[i], frozen.node[i]); };
+  const Eigen::Matrix<double, D, D> R0 = frozen.R0.topLeftCorner<D, D>();
+  auto dm = work.dm.bottomRows<n>(), dc = work.dc.bottomRows<n>();
+  VectorOf<D> F0 = VectorOf<D>::Zero();
+  TurnOf<D> m0 = TurnOf<D>::Zero();
+  Square average = Square::Zero(), turn = Square::Zero();  // Σ α T⁻¹(−ψ); δm₀ by the rotation of the frame
   for (const int i : body.translation_nodes) {
-    const Vector3d fu = f.segment<3>(body.node[i].translation_row);
+    const VectorOf<D> fu = f.segment<D>(body.node[i].translation_row), xh = Space<D>::part(frozen.node[i].xh);
     F0 += fu;
-    m0 -= frozen.node[i].xh.cross(fu);
-    turn += skew<double>(fu) * skew<double>(frozen.node[i].xh);
+    m0 -= Space<D>::cross(xh, fu);
+    turn -= Space<D>::turning_product(fu, xh);
   }
   for (const int i : body.rotation_nodes) {
-    const LocalNode<double>& local = frozen.node[i];
-    m0 -= local.Tinv * rotation_force(i);
-    average += body.node[i].alpha_rotation * local.Tinv.transpose();
-    turn += inverse_tangent_derivative(local.psi, rotation_force(i)) * local.Tinv.transpose();
+    m0 -= Tinv(i) * rotation_force(i);
+    average += body.node[i].alpha_rotation * Tinv(i).transpose();
+    turn += derivative_of<D>(frozen.node[i].psi, rotation_force(i)) * Tinv(i).transpose();
   }
-  const Matrix3d to_c = inverse3<double>(Matrix3d(average.transpose()));
-  const Vector3d c0 = to_c * m0;
+  const Square to_c = Square(average.transpose()).inverse();
+  const TurnOf<D> c0 = to_c * m0;
+  const auto turned = [&](int j) {  // of the force on node j, less its share of what x₀ takes
+    return Space<D>::turning(f.segment<D>(body.node[j].translation_row) - body.node[j].alpha * F0);
+  };
   // δm₀ without δf, and δc₀ = A⁻ᵀ (δm₀ − Σ αᵢ Z(ψᵢ, c₀) δψᵢ), per column of δq.
   for (const int j : body.translation_nodes) {
     const int row = body.node[j].translation_row;
-    work.dm.middleCols<3>(row) =
-        skew<double>(Vector3d(f.segment<3>(row) - body.node[j].alpha * F0)) * frozen.R0.transpose();
-    work.dc.middleCols<3>(row).noalias() = to_c * work.dm.middleCols<3>(row);
+    dm.template middleCols<D>(row) = turned(j).transpose() * R0.transpose();
+    dc.template middleCols<D>(row).noalias() = to_c * dm.template middleCols<D>(row);
   }
-  Matrix3d mean_turn = Matrix3d::Zero();
+  Square mean_turn = Square::Zero();
   for (const int i : body.rotation_nodes)
     if (body.node[i].alpha_rotation != 0.0)
-      mean_turn += body.node[i].alpha_rotation * inverse_tangent_derivative(frozen.node[i].psi, c0) *
-                   frozen.node[i].Tinv.transpose();
+      mean_turn += body.node[i].alpha_rotation * derivative_of<D>(frozen.node[i].psi, c0) * Tinv(i).transpose();
   for (const int j : body.rotation_nodes) {
-    const LocalNode<double>& local = frozen.node[j];
+    const Vector3d& psi = frozen.node[j].psi;
     const int row = body.node[j].rotation_row;
-    work.dm.middleCols<3>(row) = turn * local.U - inverse_tangent_derivative(local.psi, rotation_force(j)) * local.Tinv;
-    work.dc.middleCols<3>(row) =
-        to_c * (work.dm.middleCols<3>(row) + mean_turn * local.U -
-                body.node[j].alpha_rotation * inverse_tangent_derivative(local.psi, c0) * local.Tinv);
+    dm.template middleCols<n>(row) = turn * U(j) - derivative_of<D>(psi, rotation_force(j)) * Tinv(j);
+    dc.template middleCols<n>(row) = to_c * (dm.template middleCols<n>(row) + mean_turn * U(j) -
+                                             body.node[j].alpha_rotation * derivative_of<D>(psi, c0) * Tinv(j));
   }
   for (const int j : body.translation_nodes) {
-    const int row = body.node[j].translation_row;
-    const Matrix3d G = -factor * frozen.R0 * skew<double>(Vector3d(f.segment<3>(row) - body.node[j].alpha * F0));
+    const Eigen::Matrix<double, D, n> G = factor * R0 * turned(j);
     for (const int k : body.rotation_nodes)
       if (body.node[k].alpha_rotation != 0.0)
-        A.block<3, 3>(row, body.node[k].rotation_row).noalias() += G * frozen.node[k].U;
+        A.block<D, n>(body.node[j].translation_row, body.node[k].rotation_row).noalias() += G * U(k);
   }
   for (const int j : body.rotation_nodes) {
     const SuperelementNode& node = body.node[j];
-    const LocalNode<double>& local = frozen.node[j];
     // ∂(T⁻¹(−ψ) b)/∂ψ = −Z(−ψ, b)
-    const Matrix3d Z = factor * inverse_tangent_derivative(-local.psi, rotation_force(j) + node.alpha_rotation * c0);
-    A.block<3, 3>(node.rotation_row, node.rotation_row).noalias() -= Z * local.Tinv;
+    const Square Z = factor * derivative_of<D>(-frozen.node[j].psi, rotation_force(j) + node.alpha_rotation * c0);
+    A.block<n, n>(node.rotation_row, node.rotation_row).noalias() -= Z * Tinv(j);
     for (const int k : body.rotation_nodes)
       if (body.node[k].alpha_rotation != 0.0)
-        A.block<3, 3>(node.rotation_row, body.node[k].rotation_row) += Z * (local.Tinv.transpose() * frozen.node[k].U);
+        A.block<n, n>(node.rotation_row, body.node[k].rotation_row) += Z * (Tinv(j).transpose() * U(k));
     if (node.alpha_rotation != 0.0)
-      A.middleRows<3>(node.rotation_row) +=
-          (factor * node.alpha_rotation * local.Tinv.transpose()).lazyProduct(work.dc);
+      A.middleRows<n>(node.rotation_row) += (factor * node.alpha_rotation * Tinv(j).transpose()).lazyProduct(dc);
   }
 }
+template void add_frame_stiffness<2>(const SuperelementBody&, const SuperelementTangent&, const Eigen::VectorXd&,
+                                     double, FrameStiffnessWork, MatrixXd&);
+template void add_frame_stiffness<3>(const SuperelementBody&, const SuperelementTangent&, const Eigen::VectorXd&,
+                                     double, FrameStiffnessWork, MatrixXd&);
 
 }  // namespace tisserand::mechanism

@@ -11,39 +11,45 @@ using Eigen::Lower;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 
-/// out = X [A₀; U; Υ], X with 6 + nb columns.
-void times_Z(const SuperelementBody& body, const SuperelementTangent& frozen, const MatrixXd& X, MatrixXd& out,
-             MatrixXd& thin) {
-  if (body.planar) {
-    planar_times_Z(body, frozen, X, out, thin);
-    return;
-  }
-  auto total = thin.leftCols(3), turn = thin.middleCols(3, 3);
+/// out = X [A₀; U; Υ], X with 6 + nb columns: x₀, Θ₀, y_B.
+template <int D>
+void times_Z_in(const SuperelementBody& body, const SuperelementTangent& frozen, const MatrixXd& X, MatrixXd& out,
+                MatrixXd& thin) {
+  constexpr int n = Space<D>::turns;
+  auto total = thin.leftCols<D>();
+  auto turn = thin.middleCols<n>(3);
   total.setZero();
-  turn = X.middleCols<3>(3);
+  turn = X.middleCols<n>(Space<D>::first_turn);
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     const LocalNode<double>& local = frozen.node[i];
     if (node.has_translation()) {
-      total += X.middleCols<3>(6 + node.translation_row);
-      turn += X.middleCols<3>(6 + node.translation_row).lazyProduct(skew<double>(local.xh));
+      total += X.middleCols<D>(6 + node.translation_row);
+      turn -= X.middleCols<D>(6 + node.translation_row).lazyProduct(Space<D>::turning(Space<D>::part(local.xh)));
     }
-    if (node.has_rotation()) turn -= X.middleCols<3>(6 + node.rotation_row).lazyProduct(local.Tinv.transpose());
+    if (node.has_rotation())
+      turn -= X.middleCols<n>(6 + node.rotation_row).lazyProduct(local.Tinv.bottomRightCorner<n, n>().transpose());
   }
-  const Matrix3d R0T = frozen.R0.transpose();
+  const Eigen::Matrix<double, D, D> R0T = frozen.R0.topLeftCorner<D, D>().transpose();
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     const LocalNode<double>& local = frozen.node[i];
     if (node.has_translation()) {
       const int row = node.translation_row;
-      out.middleCols<3>(row) = (X.middleCols<3>(6 + row) + node.alpha * (X.leftCols<3>() - total)).lazyProduct(R0T);
-      if (body.frame == FrameAlgorithm::polar) out.middleCols<3>(row) += turn.lazyProduct(local.U_x);
+      out.middleCols<D>(row) = (X.middleCols<D>(6 + row) + node.alpha * (X.leftCols<D>() - total)).lazyProduct(R0T);
+      if (body.frame == FrameAlgorithm::polar)
+        out.middleCols<D>(row) += turn.lazyProduct(local.U_x.bottomLeftCorner<n, D>());
     }
     if (!node.has_rotation()) continue;
     const int row = node.rotation_row;
-    out.middleCols<3>(row) = X.middleCols<3>(6 + row).lazyProduct(local.Tinv);
-    if (node.alpha_rotation != 0.0) out.middleCols<3>(row) += turn.lazyProduct(local.U);
+    out.middleCols<n>(row) = X.middleCols<n>(6 + row).lazyProduct(local.Tinv.bottomRightCorner<n, n>());
+    if (turns_frame(body, node)) out.middleCols<n>(row) += turn.lazyProduct(frame_turn<D>(node, local));
   }
+}
+
+void times_Z(const SuperelementBody& body, const SuperelementTangent& frozen, const MatrixXd& X, MatrixXd& out,
+             MatrixXd& thin) {
+  in_space(body.planar, [&]<int D>() { times_Z_in<D>(body, frozen, X, out, thin); });
 }
 
 void freeze_frame(const LocalMotion<double>& motion, const TangentCoefficients& c, SuperelementTangent& frozen) {
@@ -170,10 +176,9 @@ void add_frame_stiffness(const SuperelementBody& body, const SuperelementForces<
                          const SuperelementTangent& frozen, SuperelementWork& work) {
   if (factor == 0.0) return;
   if (body.frame == FrameAlgorithm::polar) return;
-  if (body.planar)
-    planar_frame_stiffness(body, frozen, forces.s_B, factor, work.A_BB);
-  else
-    add_frame_stiffness(body, frozen, forces.s_B, factor, {work.second.dm, work.second.dc}, work.A_BB);
+  in_space(body.planar, [&]<int D>() {
+    add_frame_stiffness<D>(body, frozen, forces.s_B, factor, {work.second.dm, work.second.dc}, work.A_BB);
+  });
 }
 
 /// [Zᵀ 0; 0 1] K [Z 0; 0 1] of the lower triangle in `work`, and K_f.

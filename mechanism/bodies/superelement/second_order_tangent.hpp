@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "mechanism/bodies/superelement/evaluate.hpp"
+#include "mechanism/frames/space.hpp"
 
 namespace tisserand::mechanism {
 
@@ -35,8 +36,21 @@ struct FrameStiffnessWork {
   Eigen::Matrix<double, 3, Eigen::Dynamic>& dc;
 };
 
+/// Whether the frame turns with the rotation of the node, and δΘ₀ = frame_turn() δΘ then: α in the plane.
+inline bool turns_frame(const SuperelementBody& body, const SuperelementNode& node) {
+  return body.frame != FrameAlgorithm::polar && node.alpha_rotation != 0.0;
+}
+template <int D>
+auto frame_turn(const SuperelementNode& node, const LocalNode<double>& local) {
+  if constexpr (D == 3)
+    return Eigen::Matrix3d(local.U);
+  else
+    return TurnOf<2>(node.alpha_rotation);
+}
+
 /// A += factor K_f, K_f δq = (δΥᵀ) f at the frozen frame ([SO] 5), f: elastic forces on y_B, from the turning of the
 /// frame under them. For frames from rotations; not symmetric with material increments.
+template <int D>
 void add_frame_stiffness(const SuperelementBody& body, const SuperelementTangent& frozen, const Eigen::VectorXd& f,
                          double factor, FrameStiffnessWork work, Eigen::MatrixXd& A);
 
@@ -50,13 +64,5 @@ void planar_tangent(const SuperelementBody& body, SuperelementScratch& scratch, 
 /// The whole step tangent, internal coordinates kept. Allocates.
 Eigen::MatrixXd planar_whole_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
                                      const SuperelementScratch& scratch);
-
-/// out = X [A₀; U; Υ], X with 6 + nb columns: x₀, Θ₀, y_B.
-void planar_times_Z(const SuperelementBody& body, const SuperelementTangent& frozen, const Eigen::MatrixXd& X,
-                    Eigen::MatrixXd& out, Eigen::MatrixXd& thin);
-
-/// add_frame_stiffness() (second_order_tangent.hpp) of the plane.
-void planar_frame_stiffness(const SuperelementBody& body, const SuperelementTangent& frozen, const Eigen::VectorXd& f,
-                            double factor, Eigen::MatrixXd& A);
 
 }  // namespace tisserand::mechanism

@@ -140,7 +140,7 @@ TEST_P(SecondOrderAnswers, TangentOfStrain) {
   SuperelementTangent frozen = scratch_.tangent;
   frozen.R0 = scratch_.motion.R0;
   frozen.node = scratch_.motion.node;
-  add_frame_stiffness(body_, frozen, scratch_.forces.s_B, 1.0, {dm, dc}, K_f);
+  add_frame_stiffness<3>(body_, frozen, scratch_.forces.s_B, 1.0, {dm, dc}, K_f);
   A.topLeftCorner(nb, nb) = K_f;
   EXPECT_LT(relative_difference(in_file(A * direction()), frame), kTolerance);
 }
