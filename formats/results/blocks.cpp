@@ -263,7 +263,6 @@ void add_scalars(const ResultsLayout& layout, std::vector<Block>& blocks) {
   blocks.push_back(scalar("/energy/dissipated", energy, [](Row r) { return &r.dissipated; }));
   blocks.push_back(scalar("/energy/total", energy, [](Row r) { return &r.total; }));
   blocks.push_back(scalar("/energy/balance", energy, [](Row r) { return &r.balance; }));
-  if (layout.switched) blocks.push_back(scalar("/energy/switched", energy, [](Row r) { return &r.switched; }));
   blocks.push_back(scalar("/solver/step", unit_label(u, 0, 0, 1), [](Row r) { return &r.step; }));
   blocks.push_back(scalar("/solver/iterations", "1", [](Row r) { return &r.iterations; }));
   blocks.push_back(scalar("/solver/residual", "1", [](Row r) { return &r.residual; }));
@@ -400,7 +399,6 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
   full.nodes = full.superelements = full.modal_bodies = full.joints = full.bushings = full.frictions =
       full.tyres = {"a"};
   full.treads = full.strained = true;
-  full.switched = true;
   full.coordinates = full.motions = full.springs = full.stops = full.loads = {{"a", false}};
   full.couplings = {{"a", false, false}};
   full.quantities = {{"a", ""}};

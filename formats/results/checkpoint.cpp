@@ -23,6 +23,7 @@ std::string content_id(const Checkpoint& c) {
   sha.add(c.state.data(), c.state.size() * sizeof(double));
   sha.add(c.schedule.data(), c.schedule.size() * sizeof(double));
   sha.add(c.values.data(), c.values.size());
+  sha.add(c.off.data(), c.off.size());
   return sha.hex();
 }
 
@@ -74,6 +75,7 @@ Checkpoint read_unchecked(const std::string& path) {
   c.state = read_numbers(file, "/state");
   c.schedule = read_numbers(file, "/schedule");
   if (file.has("/values")) c.values = file.read_text("/values");  // since 1.2
+  if (file.has("/off")) c.off = file.read_text("/off");           // since 1.3
   const bool finite = std::isfinite(c.time) &&
                       std::ranges::all_of(c.state, [](double x) { return std::isfinite(x); }) &&
                       std::ranges::all_of(c.schedule, [](double x) { return std::isfinite(x); });
@@ -90,7 +92,7 @@ void write_checkpoint(const std::string& path, const Checkpoint& c) {
     hdf5::write_text_attribute(file.id(), "/", name, value, path);
   };
   text("format", format_name);
-  text("version", "1.2");
+  text("version", "1.3");
   text("scene", c.scene);
   text("producer", c.producer);
   text("fingerprint", c.fingerprint);
@@ -103,6 +105,7 @@ void write_checkpoint(const std::string& path, const Checkpoint& c) {
   hdf5::write_dataset(file.id(), "/state", {c.state.size()}, c.state.data(), path);
   hdf5::write_dataset(file.id(), "/schedule", {c.schedule.size()}, c.schedule.data(), path);
   if (!c.values.empty()) hdf5::write_text(file.id(), "/values", c.values, path);
+  if (!c.off.empty()) hdf5::write_text(file.id(), "/off", c.off, path);
   write_text_file(path, hdf5::file_image(std::move(file), path));
 }
 

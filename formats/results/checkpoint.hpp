@@ -19,6 +19,7 @@ struct Checkpoint {
   std::vector<double> state;     ///< the state block
   std::vector<double> schedule;  ///< where steps and output stand
   std::string values;            ///< of the scene (formats::scene_values); empty before version 1.2
+  std::string off = {};          ///< automatic effects that are off, one in a line; since 1.3
 };
 
 /// The file appears whole or not at all, also where it replaces an older one. Throws Error (disk full, ...).

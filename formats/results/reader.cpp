@@ -133,7 +133,6 @@ ResultsLayout read_layout(const hdf5::InputFile& file) {
   l.tyres = names(file, "/tyres/name");
   l.strained = file.has("/superelements/y_strain");
   l.treads = file.has("/tyres/deflection");
-  l.switched = file.has("/energy/switched");
   l.loads = read_coordinates(file, "/forces/load_");
   l.quantities = read_quantities(file);
   // Version 1.0 had one angle per joint, not-a-number where the joint has none.

@@ -62,7 +62,6 @@ struct ResultsLayout {
   std::vector<Quantity> quantities;   ///< `channels` of the scene
   std::vector<std::string> channels;  ///< selection, as in OutputSpec; empty: all
   std::vector<std::string> superelement_content_ids;
-  bool switched = false;  ///< the run switches effects: energy of its switches
   SimulatedScene simulated;
 };
 
@@ -106,7 +105,6 @@ struct ResultsRow {
   Eigen::Matrix3Xd load;     ///< force or moment of each load, in its axes: those of the world or of its node
   Eigen::VectorXd quantity;  ///< of layout.quantities
   double kinetic = 0.0, strain = 0.0, potential = 0.0, work = 0.0, dissipated = 0.0, total = 0.0, balance = 0.0;
-  double switched = 0.0;  ///< energy that switches of effects have added
   double step = 0.0, iterations = 0.0, residual = 0.0, constraint = 0.0;
   bool reactions = true;  ///< whether the layout stores those of joints, drives or gears; set by resize()
 
@@ -163,6 +161,8 @@ class ResultsWriter {
   const std::string& run() const;
   /// Keeps modes for finish() to write.
   void set_modes(ModesTable modes);
+  /// Removes what was written; an older file of this name stays as it is.
+  void discard();
   /// Writes the run report (JSON text), sets completed and reason ("" if completed), closes and renames.
   void finish(bool completed, const std::string& reason, const std::string& report_json);
 

@@ -458,6 +458,14 @@ const std::string& ResultsWriter::run() const { return impl_->run; }
 
 void ResultsWriter::set_modes(ModesTable modes) { impl_->modes = std::move(modes); }
 
+void ResultsWriter::discard() {
+  TISSERAND_ENSURE(!impl_->finished, "discard() after finish() of {}", impl_->path);
+  impl_->finished = true;
+  if (impl_->path.empty()) return;
+  impl_->close();
+  ::unlink(impl_->part.c_str());
+}
+
 void ResultsWriter::finish(bool completed, const std::string& reason, const std::string& report_json) {
   TISSERAND_ENSURE(!impl_->finished, "finish() twice of {}", impl_->path);
   constexpr const char* without_memory = "out of memory at the end of the run";

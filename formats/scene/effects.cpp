@@ -32,7 +32,7 @@ std::string automatic_words() {
 void read_switch(const Context& context, const YamlNode& node, const Choice<Effect>& effect, const std::string& owner,
                  std::vector<EffectSwitch>& switches) {
   if (node.kind == YamlKind::scalar && node.text == "auto" && !can_be_automatic(effect.value)) {
-    context.fail(node.place, fmt::format("'{}' cannot be 'auto': no run switches it", node.key),
+    context.fail(node.place, fmt::format("'{}' cannot be 'auto': no run can judge it", node.key),
                  fmt::format("give it 'on' or 'off'; 'auto' can be {}", automatic_words()));
     return;
   }
@@ -62,28 +62,22 @@ void read_scene_effect(const MapReader& scene, const YamlNode& node, std::vector
   std::vector<std::string> words;
   for (const Choice<Effect>& effect : effect_words) words.emplace_back(effect.word);
   std::vector<std::string> keys = words;
-  keys.insert(keys.end(), {"tolerance", "window"});
+  keys.emplace_back("tolerance");
   const auto near = nearest(node.key, keys);
   context.fail(node.key_place, fmt::format("there is no effect '{}'", node.key),
                fmt::format("{}effects are {}; of a body write {}: {{damping: off}}",
                            near ? fmt::format("did you mean '{}'? ", *near) : "", join(words, ", "), node.key));
 }
 
-/// `tolerance` or `window`, unless it is a name.
-bool is_automatic_setting(const YamlNode& node) {
-  return (node.key == "tolerance" || node.key == "window") && node.kind != YamlKind::map;
-}
+/// Unless it is a name.
+bool is_tolerance(const YamlNode& node) { return node.key == "tolerance" && node.kind != YamlKind::map; }
 
-void read_automatic_setting(const MapReader& scene, const YamlNode& node, AutomaticSpec& spec) {
+void read_tolerance(const MapReader& scene, const YamlNode& node, AutomaticSpec& spec) {
   const Context context{scene.context().reader, "effects", scene.context().reader.where(node.key_place)};
-  const double value = read_number(context, node, node.key);
-  if (value <= 0.0)
-    context.fail(node.place, fmt::format("'{}' must be positive, not {}", node.key, value),
-                 node.key == "window" ? "give a length of time, some steps long" : "0.001 is the default");
-  else if (node.key == "window")
-    spec.window = value;
-  else
-    spec.tolerance = value;
+  spec.tolerance = read_number(context, node, node.key);
+  if (spec.tolerance <= 0.0)
+    context.fail(node.place, fmt::format("'{}' must be positive, not {}", node.key, spec.tolerance),
+                 "0.001 is the default");
 }
 
 }  // namespace
@@ -95,8 +89,8 @@ std::string effect_word(Effect effect) {
 void read_effects(const MapReader& map, Scene& scene) {
   std::vector<EffectSwitch>& switches = scene.effects;
   for (const YamlNode* node : map.entries("effects", "effect, body, joint or spring"))
-    if (is_automatic_setting(*node))
-      read_automatic_setting(map, *node, scene.automatic);
+    if (is_tolerance(*node))
+      read_tolerance(map, *node, scene.automatic);
     else if (node->key.empty())
       map.context().fail(node->key_place, "there is no body ''", "name a body of the scene");
     else if (node->kind == YamlKind::map)

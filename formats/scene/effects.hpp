@@ -1,7 +1,6 @@
 // Effects of a mechanism, and what a scene switches of them (`effects` of scene.yaml).
 #pragma once
 
-#include <optional>
 #include <string>
 
 namespace tisserand::formats {
@@ -17,7 +16,7 @@ inline constexpr Effect all_effects[] = {Effect::flexibility, Effect::rotary_ine
 /// The word of an effect in scene.yaml.
 std::string effect_word(Effect effect);
 
-/// Whether a run can switch it by itself (`auto`): what of the motion the effect would change follows from the motion
+/// Whether a run can choose it by itself (`auto`): what of the motion the effect would change follows from the motion
 /// without it, at once.
 constexpr bool can_be_automatic(Effect effect) { return effect == Effect::flexibility || effect == Effect::stiffening; }
 
@@ -36,13 +35,12 @@ struct EffectSwitch {
   std::string owner;  ///< empty: the whole scene
   bool on = true;
   std::string where;
-  bool automatic = false;  ///< with `on`: the run switches it
+  bool automatic = false;  ///< with `on`: the run may leave it out
 };
 
-/// How a run switches effects that are automatic (mechanism/run/automatic_effects.hpp).
+/// How a run chooses effects that are automatic (mechanism/run/automatic_effects.hpp).
 struct AutomaticSpec {
-  double tolerance = 1e-3;       ///< of positions relative to the size of the scene, of forces to the largest
-  std::optional<double> window;  ///< [time]; absent: 20 steps, with error control a hundredth of the run
+  double tolerance = 1e-3;  ///< of positions relative to the size of the scene, of forces to the largest
 };
 
 }  // namespace tisserand::formats

@@ -173,7 +173,7 @@ std::vector<Field> scene_fields() {
       {"units", "'consistent' | units", "as in PART.md; superelements are converted on load", "SI"},
       plain<&Scene::gravity>("gravity", "vector", "acceleration, world axes [length/time²]"),
       {"effects", "{text: 'on' | 'off' | 'auto' | number>0 | body_effects}",
-       "effect -> `off`, `on` or `auto`, or body, joint or spring -> its effects; `tolerance` and `window` of `auto`, see "
+       "effect -> `off`, `on` or `auto`, or body, joint or spring -> its effects; `tolerance` of `auto`, see "
        "[below](#effects)",
        "on"},
       {"materials", "{name: material}", "as in PART.md, for beams of the scene", "none"},

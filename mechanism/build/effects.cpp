@@ -293,7 +293,7 @@ void require_switches_fit(const formats::Scene& scene, const BodyFiles& files) {
       if (one.effect != Effect::planar)
         switches.check(one);  // build/planar.hpp
       else if (one.on && automatic)
-        throw Error("effects: planar beside effects that are 'auto', which switch bodies in space", one.where,
+        throw Error("effects: planar beside effects that are 'auto', which are judged in space", one.where,
                     "give the others 'on' or 'off', or do without planar");
     } catch (const Error& error) {
       errors.push_back(error);
@@ -343,6 +343,10 @@ std::string effects_text(const std::vector<EffectUse>& uses, bool planar) {
   if (planar) on.push_back(formats::effect_word(Effect::planar));
   if (on.empty() && off.empty()) return "none";
   return join(on, ", ") + (off.empty() ? "" : fmt::format("{}off: {}", on.empty() ? "" : "; ", join(off, ", ")));
+}
+
+std::string effect_name(const EffectUse& use) {
+  return fmt::format("{} of '{}'", formats::effect_word(use.effect), use.owner);
 }
 
 std::vector<EffectUse> automatic_effects(const formats::Scene& scene, const BodyFiles& files) {

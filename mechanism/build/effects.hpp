@@ -15,14 +15,17 @@ struct EffectUse {
   formats::Effect effect = formats::Effect::gravity;
   std::string owner;
   bool on = true;          ///< as the switches of the scene leave it
-  bool automatic = false;  ///< with `on`: the run may switch it (mechanism/run/automatic_effects.hpp)
+  bool automatic = false;  ///< with `on`: the run may leave it out (mechanism/run/automatic_effects.hpp)
 };
 
 /// All that the scene has, whether on or off, in the order of the effects, then of the bodies, joints or springs; of a
 /// body whose flexibility is off neither stiffening nor damping.
 std::vector<EffectUse> effects_of(const formats::Scene& scene, const BodyFiles& files);
 
-/// Those that the run may switch.
+/// "flexibility of 'rod'".
+std::string effect_name(const EffectUse& use);
+
+/// Those that the run may choose.
 std::vector<EffectUse> automatic_effects(const formats::Scene& scene, const BodyFiles& files);
 
 /// The scene with these switched as they say, and nothing automatic.

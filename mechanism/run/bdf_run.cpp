@@ -8,6 +8,7 @@
 
 #include "mechanism/bdf/bdf.hpp"
 #include "mechanism/equations/evaluate.hpp"
+#include "mechanism/run/automatic_effects.hpp"
 #include "mechanism/run/frame_angles.hpp"
 #include "mechanism/run/off_road.hpp"
 #include "mechanism/step/road_ahead.hpp"
@@ -127,6 +128,8 @@ void integrate_bdf(Run& run, RowWriter& out) {
     store_rows(run, bdf, instants, before, out);
     note_counts(run, bdf.counts());
     report.reason = observe(run, angles);
+    const bool ends = !report.reason.empty() || state.time() >= options.end - instants.round_off;
+    if (run.automatic != nullptr && run.automatic->missed(run, ends)) return;
     if (!report.reason.empty()) {
       report.outcome = RunOutcome::not_converged;
       break;

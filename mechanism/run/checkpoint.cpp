@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 
@@ -11,6 +12,7 @@
 
 #include "common/error.hpp"
 #include "common/sha256.hpp"
+#include "common/text.hpp"
 #include "formats/scene/expand/values.hpp"
 #include "formats/scene/fields.hpp"
 #include "mechanism/run/stored_state.hpp"
@@ -38,6 +40,13 @@ bool is_same_file(const std::string& a, const std::string& b) {
 std::string final_name(const std::string& results) {
   constexpr std::string_view part = ".part";
   return results.ends_with(part) ? results.substr(0, results.size() - part.size()) : results;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
 }
 
 std::string results_of(const formats::Checkpoint& checkpoint, const std::string& file) {
@@ -103,20 +112,11 @@ void compare_scenes(Run& run, const std::string& file, const std::string& values
                                          formats::changes_text(changes, "\n    ")));
 }
 
-/// The model of the checkpoint and the memory of the schedule: what is behind that belongs to automatic effects.
-void restore_memory(Run& run, const formats::Checkpoint& checkpoint, const std::string& file) {
-  const std::vector<double>& memory = checkpoint.schedule;
-  const std::size_t own = Schedule(run.scene, run.built.model.breakpoints).memory().size();
-  const std::size_t behind = run.automatic ? run.automatic->memory_size(run.built.model) : 0;
-  if (memory.size() != own + behind) throw_of_another_scene(run, checkpoint, file);
-  const auto at = memory.begin() + static_cast<std::ptrdiff_t>(own);
-  run.schedule_memory.assign(memory.begin(), at);
-  if (run.automatic) run.automatic->restore(run, {at, memory.end()});
-}
-
 void resume_checkpoint(Run& run, const std::string& file, Joining joining, ChangedValues changed) {
   const formats::Checkpoint checkpoint = formats::read_checkpoint(file);
-  restore_memory(run, checkpoint, file);
+  if (checkpoint.schedule.size() != Schedule(run.scene, run.built.model.breakpoints).memory().size())
+    throw_of_another_scene(run, checkpoint, file);
+  run.schedule_memory = checkpoint.schedule;
   State& state = run.built.state;
   const std::string own = fingerprint(run.built.model, state);
   if (checkpoint.state_version != State::version || checkpoint.state.size() != state.block().size() ||
@@ -125,8 +125,7 @@ void resume_checkpoint(Run& run, const std::string& file, Joining joining, Chang
   compare_scenes(run, file, checkpoint.values, changed);
   require_before_end(run.scene, checkpoint.time, file);
   state.block() = checkpoint.state;
-  run.report.mobility =
-      run.automatic ? run.automatic->mobility(run) : count_mobility(run.built.model, state, run.workspace.now);
+  run.report.mobility = count_mobility(run.built.model, state, run.workspace.now);
   run.workspace.forget();
   run.report.notes.push_back(
       fmt::format("goes on from {} at t = {:.9g}{}", file, checkpoint.time,
@@ -207,17 +206,34 @@ bool Checkpoints::due_after_step(double time) {
 
 void Checkpoints::write(Run& run, const Schedule& schedule, Stepper& stepper, formats::ResultsWriter& results) {
   const State& state = run.built.state;
-  std::vector<double> memory = schedule.memory();
-  if (run.automatic) {
-    const std::vector<double> effects = run.automatic->memory();
-    memory.insert(memory.end(), effects.begin(), effects.end());
-  }
+  const std::vector<std::string> off = run.automatic != nullptr ? run.automatic->off() : std::vector<std::string>{};
   results.flush();
   formats::write_checkpoint(path_, {scene_, producer(), fingerprint(run.built.model, state), State::version,
-                                    state.time(), results_, results.run(), results.rows(), state.block(), memory,
-                                    run.values});
+                                    state.time(), results_, results.run(), results.rows(), state.block(),
+                                    schedule.memory(), run.values, join(off, "\n")});
+  written_ = true;
   stepper.forget(run.workspace);
   set_next(state.time());
+}
+
+void Checkpoints::discard() const {
+  std::error_code ignored;
+  if (written_) fs::remove(path_, ignored);
+}
+
+std::vector<std::string> effects_off(const std::string& named, const std::vector<EffectUse>& uses) {
+  const std::string file = formats::existing_results(named);
+  if (formats::is_checkpoint(file)) return lines_of(formats::read_checkpoint(file).off);
+  const formats::ResultsLayout layout = formats::ResultsReader(file).layout();
+  const auto deforms = [&layout](const std::string& body) {
+    const auto modal = std::ranges::find(layout.modal_bodies, body) - layout.modal_bodies.begin();
+    if (modal < std::ssize(layout.modal_bodies)) return layout.modal_offset[modal + 1] > layout.modal_offset[modal];
+    return std::ranges::find(layout.superelements, body) != layout.superelements.end();
+  };
+  std::vector<std::string> off;
+  for (const EffectUse& use : uses)
+    if (!deforms(use.owner)) off.push_back(effect_name(use));
+  return off;
 }
 
 RestartFile find_restart(const std::string& file) {

@@ -3,8 +3,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "formats/results/checkpoint.hpp"
+#include "mechanism/build/effects.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
 #include "mechanism/run/run.hpp"
@@ -30,11 +32,12 @@ class Checkpoints {
   void after_step(Run& run, const Schedule& schedule, Stepper& stepper, formats::ResultsWriter& results) {
     if (due_after_step(run.built.state.time())) write(run, schedule, stepper, results);
   }
-  /// The two parts of it.
-  bool due_after_step(double time);
-  void write(Run& run, const Schedule& schedule, Stepper& stepper, formats::ResultsWriter& results);
+  /// Removes what was written, which belongs to no run any more.
+  void discard() const;
 
  private:
+  bool due_after_step(double time);
+  void write(Run& run, const Schedule& schedule, Stepper& stepper, formats::ResultsWriter& results);
   void set_next(double time);
 
   formats::CheckpointSpec spec_;
@@ -45,7 +48,11 @@ class Checkpoints {
   double round_off_ = 0.0;
   long steps_ = 0;
   double next_ = 0.0;
+  bool written_ = false;
 };
+
+/// Which of these automatic effects the run that a file (RestartFile) belongs to had left out: effect_name().
+std::vector<std::string> effects_off(const std::string& file, const std::vector<EffectUse>& uses);
 
 std::string checkpoint_path(const std::string& results);
 

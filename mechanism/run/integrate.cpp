@@ -8,15 +8,29 @@
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/doubts/failure_cause.hpp"
 #include "mechanism/equations/evaluate.hpp"
-#include "mechanism/run/effect_windows.hpp"
+#include "mechanism/run/automatic_effects.hpp"
+#include "mechanism/run/checkpoint.hpp"
+#include "mechanism/run/frame_angles.hpp"
 #include "mechanism/run/off_road.hpp"
 #include "mechanism/run/output.hpp"
 #include "mechanism/run/run.hpp"
+#include "mechanism/run/schedule.hpp"
+#include "mechanism/run/stepper.hpp"
 #include "mechanism/step/road_ahead.hpp"
 #include "mechanism/step/step.hpp"
 
 namespace tisserand::mechanism {
 namespace {
+
+/// What the loop of steps remembers besides the run.
+struct StepLoop {
+  Schedule schedule;
+  Checkpoints checkpoints;
+  FrameAngles angles;
+  StepReport last;  ///< of the last accepted step
+  double last_size = 0.0;
+  double tried_at, first_tried = 0.0;  ///< where the present step begins, and its size before it was shortened
+};
 
 /// The last accepted state of a run that ends early, if the schedule has not stored it.
 void write_last_row(Run& run, const StepReport& step, double size, RowWriter& out) {
@@ -26,13 +40,13 @@ void write_last_row(Run& run, const StepReport& step, double size, RowWriter& ou
 }
 
 /// Rows that the step to the present state has passed without ending there.
-void store_rows_between(Run& run, StepLoop& loop, Stepper& stepper, EffectWindows& windows) {
+void store_rows_between(Run& run, StepLoop& loop, Stepper& stepper, RowWriter& out) {
   State& state = run.built.state;
   std::optional<State> end;
   while (const std::optional<double> due = loop.schedule.pass_instant(end ? end->time() : state.time())) {
     if (!end) end.emplace(state);
     stepper.interpolate(*due, state, run.workspace);
-    windows.store(loop.last, loop.last_size);
+    write_row(run, loop.last, loop.last_size, out);
   }
   if (end) state.block() = end->block();
 }
@@ -79,8 +93,7 @@ void look_ahead(Run& run, const RoadAhead& ahead, Schedule& schedule) {
 }
 
 /// What an accepted step to the present state leaves in report and loop, and its rows.
-void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, Stepper& stepper, EffectWindows& windows,
-               const formats::ResultsRow& row) {
+void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, Stepper& stepper, RowWriter& out) {
   RunReport& report = run.report;
   State& state = run.built.state;
   ++report.steps;
@@ -91,10 +104,10 @@ void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, St
   report.greatest_step = std::max(report.greatest_step, size);
   loop.schedule.adapt(step, size);
   report.largest_constraint = std::max(report.largest_constraint, step.constraint);
-  store_rows_between(run, loop, stepper, windows);
+  store_rows_between(run, loop, stepper, out);
   const Schedule::Event event = loop.schedule.accept(state.time());
-  if (report.steps == 1 && run.massless && !run.automatic) settle_start(run, row);
-  if (event.output) windows.store(step, size);
+  if (report.steps == 1 && run.massless) settle_start(run, out.row);
+  if (event.output) write_row(run, step, size, out);
   if (!event.breakpoint) return;
   pass_breakpoint(run.built.model, run.scene, state, run.workspace);
   stepper.pass_jump();
@@ -114,7 +127,6 @@ void integrate(Run& run, RowWriter& out) {
                 0.0,
                 std::numeric_limits<double>::quiet_NaN()};
   if (!run.schedule_memory.empty()) loop.schedule.restore(run.schedule_memory);
-  EffectWindows windows(run, loop, stepper, out);
   const RoadAhead ahead(run.scene, model);
   const auto stop = [&](RunOutcome outcome, std::string reason) {
     report.outcome = outcome;
@@ -122,7 +134,7 @@ void integrate(Run& run, RowWriter& out) {
   };
   // A run that is appended has the row of this instant, if the run before it was to store one.
   const bool begins_with_row = run.schedule_memory.empty() ? loop.schedule.output_at_start() : !run.beginning;
-  if (begins_with_row) windows.store({}, 0.0);
+  if (begins_with_row) write_row(run, {}, 0.0, out);
   while (!loop.schedule.finished(state.time())) {
     if (run.control.interrupted && run.control.interrupted()) {
       stop(RunOutcome::interrupted, fmt::format("interrupted at t = {:.6g}", state.time()));
@@ -145,21 +157,21 @@ void integrate(Run& run, RowWriter& out) {
       stop(RunOutcome::not_converged, std::move(failure));
       break;
     }
-    take_note(run, step, state.time() - before, loop, stepper, windows, out.row);
+    take_note(run, step, state.time() - before, loop, stepper, out);
     std::string end = loop.angles.observe(model, state, run.workspace.now);
     if (end.empty()) end = off_road(model, state, run.workspace.now);
-    const bool again = windows.after_step();
+    const bool ends = loop.schedule.finished(state.time()) || !end.empty();
+    if (run.automatic != nullptr && run.automatic->missed(run, ends)) return loop.checkpoints.discard();
+    loop.checkpoints.after_step(run, loop.schedule, stepper, out.writer);
     if (run.control.progress) run.control.progress(state.time());
-    if (!end.empty() && !again) {
+    if (!end.empty()) {
       stop(RunOutcome::not_converged, std::move(end));
       break;
     }
   }
-  windows.flush();
   report.time = state.time();
   loop.angles.tell(model, report);
   report.solver_health = stepper.health(run.workspace);
-  if (run.automatic) run.automatic->tell(run);
   if (report.outcome != RunOutcome::completed) write_last_row(run, loop.last, loop.last_size, out);
 }
 

@@ -265,37 +265,12 @@ void fill_modal_frames(const Model& model, const Evaluation& evaluation, formats
   }
 }
 
-/// Forces on nodes of modal bodies, after evaluate() of `running`, a model of the same scene as `whole`, whose layout the
-/// row has. A body that is rigid in `running` has no forces, and no motion of the frame that would load it.
-void fill_modal_forces(const Model& whole, const Model& running, const Evaluation& evaluation,
-                       formats::ResultsRow& row) {
-  row.modal.node_force.setZero();
-  const auto& bodies = running.modal_bodies;
+/// Forces on nodes of modal bodies, after evaluate().
+void fill_modal_forces(const Model& model, const Evaluation& evaluation, formats::ResultsRow& row) {
   Eigen::Index column = 0;
-  for (std::size_t i = 0; i < whole.modal_bodies.size(); ++i) {
-    const auto same = &whole == &running
-                          ? bodies.begin() + static_cast<std::ptrdiff_t>(i)
-                          : std::ranges::find(bodies, whole.modal_bodies[i].name, &ModalBody::name);
-    const bool runs = same != bodies.end() && (same->modes > 0 || whole.modal_bodies[i].modes == 0);  // not asleep
-    if (!runs)
-      for (Eigen::Matrix3Xd* block :
-           {&row.modal.acceleration, &row.modal.angular_velocity, &row.modal.angular_acceleration})
-        block->col(static_cast<Eigen::Index>(i)).setZero();
-    const auto nodes = nodes_of(whole, i);
-    const auto own = runs ? nodes_of(running, static_cast<std::size_t>(same - bodies.begin())) : nodes;
-    TISSERAND_ENSURE(own.size() == nodes.size(), "{} nodes of '{}', {} of them run", nodes.size(),
-                     whole.modal_bodies[i].name, own.size());
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      const auto at = static_cast<std::ptrdiff_t>(k);
-      if (!nodes.begin()[at].active) continue;
-      const ModalNode& node = own.begin()[at];
-      if (runs) {
-        const auto place = static_cast<std::size_t>(&node - running.modal_nodes.data());
-        row.modal.node_force.col(column) = received(running, node, evaluation.modal_forces[place], evaluation);
-      }
-      ++column;
-    }
-  }
+  for (std::size_t k = 0; k < model.modal_nodes.size(); ++k)
+    if (const ModalNode& node = model.modal_nodes[k]; node.active)
+      row.modal.node_force.col(column++) = received(model, node, evaluation.modal_forces[k], evaluation);
 }
 
 }  // namespace
@@ -413,60 +388,12 @@ void fill_actions(const Model& model, const State& state, Evaluation& evaluation
   row.balance = row.total - state.initial_energy() - row.work + row.dissipated;
 }
 
-/// After fill_bodies() of a superelement that the model that runs has as a rigid body: what its nodes do not receive is
-/// what is left over there.
-void fill_rigid_superelement(const Model& model, std::size_t i, const Evaluation& evaluation,
-                             formats::ResultsRow& row) {
-  Eigen::Index y = 0, boundary = 0, load_case = 0;
-  for (std::size_t k = 0; k < i; ++k) {
-    load_case += static_cast<Eigen::Index>(body_of(model, k).load_cases.size());
-    y += file_coordinate_count(body_of(model, k));
-    boundary += static_cast<Eigen::Index>(body_of(model, k).node.size());
-  }
-  const SuperelementBody& body = body_of(model, i);
-  row.y.segment(y, file_coordinate_count(body)).setZero();
-  row.y_rate.segment(y, file_coordinate_count(body)).setZero();
-  if (row.y_strain.size() > 0) row.y_strain.segment(y, file_coordinate_count(body)).setZero();
-  row.load_factor.segment(load_case, static_cast<Eigen::Index>(body.load_cases.size())).setZero();
-  for (Eigen::Matrix3Xd* block :
-       {&row.frame_acceleration, &row.frame_angular_velocity, &row.frame_angular_acceleration})
-    block->col(static_cast<Eigen::Index>(i)).setZero();
-  for (std::size_t j = 0; j < body.node.size(); ++j, ++boundary) {
-    const Node& node = model.nodes[model.superelements[i].nodes[j]];
-    const NodeMotion& motion = motion_of(evaluation, model.superelements[i].nodes[j]);
-    if (node.translation >= 0)
-      row.boundary_force.col(boundary).head<3>() -= evaluation.residual.segment<3>(node.translation);
-    if (node.rotation >= 0)
-      row.boundary_force.col(boundary).tail<3>() -= motion.R * evaluation.residual.segment<3>(node.rotation);
-  }
-}
-
 }  // namespace
 
 void fill_row(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
   fill_bodies(model, state, evaluation, row);
   fill_actions(model, state, evaluation, row);
-  fill_modal_forces(model, model, evaluation, row);
-}
-
-void fill_row(const RowSource& running, const RowSource& whole, formats::ResultsRow& row) {
-  fill_bodies(whole.model, whole.state, whole.evaluation, row);
-  Eigen::Index y = 0;
-  for (std::size_t i = 0; i < whole.model.superelements.size(); ++i) {
-    const auto& running_ones = running.model.superelements;
-    const auto found = std::ranges::find(running_ones, whole.model.superelements[i].name, &SuperelementUse::name);
-    const Eigen::Index count = file_coordinate_count(body_of(whole.model, i));
-    if (found == running_ones.end())
-      fill_rigid_superelement(whole.model, i, whole.evaluation, row);
-    else if (row.y_strain.size() > 0 &&
-             !body_of(running.model, static_cast<std::size_t>(found - running_ones.begin())).second_order.stiffening)
-      row.y_strain.segment(y, count) = row.y.segment(y, count);  // strain is linear there
-    y += count;
-  }
-  evaluate(running.model, running.state, running.evaluation);
-  update_modal_nodes(running.model, running.evaluation);
-  fill_actions(running.model, running.state, running.evaluation, row);
-  fill_modal_forces(whole.model, running.model, running.evaluation, row);
+  fill_modal_forces(model, evaluation, row);
 }
 
 }  // namespace tisserand::mechanism

@@ -21,19 +21,7 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
 /// Adds large_output() of rows_to_come() from `time` on, if there is something to say.
 void note_large_output(const formats::Scene& scene, const Model& model, double time, std::vector<std::string>& notes);
 
-/// What a row tells of.
-struct RowSource {
-  const Model& model;
-  const State& state;
-  Evaluation& evaluation;
-};
-
 /// Evaluates the state and fills all but step, iterations, residual and constraint.
 void fill_row(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row);
-
-/// The same of a model in which effects sleep: nodes and bodies from the whole model at the same motion, what acts
-/// between them and energies from the model itself. A superelement that is rigid there has y and its rates zero; its
-/// boundary forces are what its nodes receive.
-void fill_row(const RowSource& running, const RowSource& whole, formats::ResultsRow& row);
 
 }  // namespace tisserand::mechanism

@@ -25,33 +25,34 @@ const char* outcome_name(RunOutcome outcome) {
   return "";
 }
 
-/// "off at the start; woke at t = 0.12, 0.4, slept at t = 0.2; on for 63 % of the time".
-std::string history_text(const SwitchHistory& history) {
-  constexpr std::size_t shown = 5;
-  std::vector<std::string> woke, slept;
-  bool awake = history.was_awake;
-  for (const double time : history.changes) {
-    awake = !awake;
-    std::vector<std::string>& list = awake ? woke : slept;
-    if (list.size() < shown) list.push_back(fmt::format("{:.6g}", time));
-    if (list.size() == shown) list.push_back("...");
+/// "flexibility off: crank, block (at most 0.2 tolerances: crank, t = 0.3); on: rod (9 tolerances at t = 0.01)".
+std::string choice_text(const RunReport& report, const std::string& effect) {
+  std::vector<std::string> texts;
+  for (const bool on : {false, true}) {
+    std::vector<std::string> names;
+    const ChosenEffect* most = nullptr;
+    for (const ChosenEffect& choice : report.automatic) {
+      if (choice.effect != effect || choice.on != on) continue;
+      names.push_back(choice.body);
+      if (most == nullptr || choice.demand > most->demand) most = &choice;
+    }
+    if (names.empty()) continue;
+    texts.push_back(fmt::format("{}: {}", on ? "on" : "off", listed(names)));
+    if (most->demand == 0.0) continue;
+    texts.back() += fmt::format(" ({}{:.2g} tolerances: {}, t = {:.6g})", on ? "" : "at most ", most->demand, most->body,
+                                most->time);
   }
-  const auto at = [](const char* what, const std::vector<std::string>& times) {
-    return times.empty() ? "" : fmt::format("; {} at t = {}", what, join(times, ", "));
-  };
-  return fmt::format("{} of '{}': {} at the start{}{}; on for {:.3g} % of the time", history.effect, history.body,
-                     history.was_awake ? "on" : "off", at("woke", woke), at("slept", slept), 100.0 * history.part_on);
+  return fmt::format("{} {}", effect, join(texts, "; "));
 }
 
 nlohmann::ordered_json automatic_json(const RunReport& report) {
   auto list = nlohmann::ordered_json::array();
-  for (const SwitchHistory& history : report.automatic)
-    list.push_back({{"effect", history.effect},
-                    {"body", history.body},
-                    {"on_at_start", history.was_awake},
-                    {"changes", history.changes},
-                    {"time_on", history.time_on},
-                    {"part_on", history.part_on}});
+  for (const ChosenEffect& choice : report.automatic)
+    list.push_back({{"effect", choice.effect},
+                    {"body", choice.body},
+                    {"on", choice.on},
+                    {"demand", choice.demand},
+                    {"time", choice.time}});
   return list;
 }
 
@@ -125,6 +126,7 @@ std::string report_json(const RunReport& report) {
   json["switches"] = report.switches;
   if (!report.automatic.empty()) {
     json["automatic"] = automatic_json(report);
+    json["automatic_tolerance"] = report.tolerance;
     json["repeated_steps"] = report.repeated;
   }
   json["notes"] = report.notes;
@@ -147,8 +149,14 @@ std::string report_text(const RunReport& report, const Units& units) {
   for (const std::string& note : report.notes) line("note", note);
   line("model", join(report.effects, ", "));
   line("effects", report.switches);
-  if (!report.automatic_rule.empty()) line("auto", report.automatic_rule);
-  for (const SwitchHistory& history : report.automatic) line("auto", history_text(history));
+  if (report.tolerance > 0.0)
+    line("auto", fmt::format("tolerance {:.6g}{}", report.tolerance, report.automatic.empty() ? ": the run chooses" : ""));
+  std::vector<std::string> told;
+  for (const ChosenEffect& choice : report.automatic) {
+    if (std::ranges::count(told, choice.effect) > 0) continue;
+    told.push_back(choice.effect);
+    line("auto", choice_text(report, choice.effect));
+  }
   line("mobility", fmt::format("{} degrees of freedom: {} coordinates, {} constraints of rank {}",
                                report.mobility.degrees_of_freedom, report.mobility.coordinates,
                                report.mobility.constraints, report.mobility.rank));
@@ -161,7 +169,7 @@ std::string report_text(const RunReport& report, const Units& units) {
                                         : fmt::format("{}: {}", outcome_name(report.outcome), report.reason));
   line("reached", fmt::format("t = {:.6g}{}", report.time, after_number(time)));
   line("steps", fmt::format("{} ({} taken again{}), {} iterations, {} factorisations", report.steps, report.rejected,
-                            report.repeated > 0 ? fmt::format(", {} for effects that woke", report.repeated) : "",
+                            report.repeated > 0 ? fmt::format(", {} before an effect was on", report.repeated) : "",
                             report.iterations, report.factorisations));
   constexpr std::size_t shown = 3;
   for (std::size_t i = 0; i < std::min(shown, report.rejections.size()); ++i) line("taken again", report.rejections[i]);

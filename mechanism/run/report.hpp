@@ -11,13 +11,12 @@
 
 namespace tisserand::mechanism {
 
-/// An automatic effect over a run.
-struct SwitchHistory {
+/// What the run has chosen of an automatic effect.
+struct ChosenEffect {
   std::string effect, body;
-  bool was_awake = true;        ///< at the start
-  std::vector<double> changes;  ///< when it fell asleep or woke, in turn
-  double time_on = 0.0;
-  double part_on = 0.0;  ///< of the time of the run
+  bool on = true;
+  double demand = 0.0;  ///< what it would change, over the tolerance: at most, where it is off; else why it is on
+  double time = 0.0;    ///< when
 };
 
 /// unstable: statics found an equilibrium in which some direction is unstable.
@@ -58,9 +57,9 @@ struct RunReport {
   std::vector<std::string> doubts;   ///< of the results, measured while it ran
   std::vector<std::string> effects;  ///< what the model contains: pools and terms that are on
   std::string switches;              ///< optional effects that it has, and those that the scene switches off
-  std::string automatic_rule;        ///< what a run switches by itself, by which tolerance and window; empty: nothing
-  std::vector<SwitchHistory> automatic;
-  long repeated = 0;  ///< steps that were taken again because an effect woke
+  double tolerance = 0.0;            ///< of automatic effects; 0: there are none
+  std::vector<ChosenEffect> automatic;
+  long repeated = 0;  ///< steps of runs that began again because an effect that was off mattered
   std::string solver;
   SolverHealth solver_health;
   int unknowns = 0, nonzeros = 0;

@@ -250,11 +250,6 @@ Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunCo
   report.nonzeros = built.model.pattern->nonzeros();
   report.effects = effects(built.model);
   report.switches = effects_text(effects_of(scene_to_run, files), !scene.planar_at.empty());
-  if (scene.analysis != formats::AnalysisKind::dynamics) return;
-  std::vector<EffectUse> uses = automatic_effects(scene_to_run, files);
-  if (uses.empty()) return;
-  automatic = std::make_unique<AutomaticEffects>(scene_to_run, files, std::move(uses));
-  report.automatic_rule = automatic->rule();
 }
 
 std::string nonfinite_load(Run& run, double time) {
@@ -362,18 +357,16 @@ void start(Run& run) {
 }
 
 formats::ResultsLayout begin_rows(Run& run, const BodyFiles& files) {
-  if (run.automatic && !run.automatic->has_begun()) run.automatic->begin(run);
-  keep_chosen_places(run.scene, run.whole().model);
-  formats::ResultsLayout layout = results_layout(run.whole().model, run.scene);
-  layout.switched = run.automatic != nullptr;
+  keep_chosen_places(run.scene, run.built.model);
+  formats::ResultsLayout layout = results_layout(run.built.model, run.scene);
   if (run.control.announce) {
     std::vector<std::string> large;
-    note_large_output(run.scene, run.whole().model, run.built.state.time(), large);
+    note_large_output(run.scene, run.built.model, run.built.state.time(), large);
     for (const std::string& text : large) run.control.announce(text);
     if (large.empty() && run.scene.analysis == formats::AnalysisKind::dynamics && !knows_rows(run.scene))
       run.forecast = {formats::bytes_of_row(layout), std::max(run.built.state.time(), run.scene.output.from), 0.0};
   }
-  layout.simulated = simulated_scene(run.scene, files, run.whole(), run.at_start);
+  layout.simulated = simulated_scene(run.scene, files, run.built, run.at_start);
   return layout;
 }
 
@@ -410,10 +403,7 @@ void write_row(Run& run, const StepReport& step, double size, RowWriter& out) { 
 void write_row(Run& run, const StepReport& step, double size, RowWriter& out, const RowEdit& edit) {
   formats::ResultsRow& row = out.row;
   const double before = run.seconds();
-  if (run.automatic)
-    run.automatic->fill_row(run, row);
-  else
-    fill_row(run.built.model, run.built.state, run.workspace.now, row);
+  fill_row(run.built.model, run.built.state, run.workspace.now, row);
   row.step = size;
   row.iterations = step.iterations;
   row.residual = step.residual;
@@ -424,7 +414,7 @@ void write_row(Run& run, const StepReport& step, double size, RowWriter& out, co
   out.writer.append(row);
   if (run.listener != nullptr) {
     run.listener->row(row);
-    run.listener->state(run.automatic ? run.automatic->whole_state(run) : run.built.state);
+    run.listener->state(run.built.state);
   }
   RunReport& report = run.report;
   if (report.analysis == formats::AnalysisKind::dynamics) run.doubts.at_row(run.built.model, run.built.state, run.workspace.now, row);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +9,6 @@
 #include "formats/results/results.hpp"
 #include "mechanism/build/build_model.hpp"
 #include "mechanism/doubts/doubts.hpp"
-#include "mechanism/run/automatic_effects.hpp"
 #include "mechanism/run/report.hpp"
 #include "mechanism/step/step.hpp"
 #include "mechanism/step/workspace.hpp"
@@ -44,6 +42,8 @@ struct OutputForecast {
   double rows = 0.0;      ///< since then
 };
 
+class AutomaticEffects;
+
 struct Run {
   std::optional<formats::Scene> switched;  ///< where the scene switches effects: what is left of it
   const formats::Scene& scene;
@@ -59,13 +59,11 @@ struct Run {
   std::string values;                                  ///< formats::scene_values; empty: a program made the scene
   std::vector<double> schedule_memory;                 ///< of a run that goes on from a file; empty: it begins
   std::optional<formats::ResultsBeginning> beginning;  ///< rows of the run that this one is appended to
-  std::unique_ptr<AutomaticEffects> automatic;         ///< null: nothing is; set for dynamics alone
   OutputForecast forecast;
+  AutomaticEffects* automatic = nullptr;               ///< null: nothing is
 
   Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunControl& run_control);
   double seconds() const { return control.clock ? control.clock() : 0.0; }
-  /// With all effects that are not off, once the run has begun: that of the results.
-  BuiltModel& whole() { return automatic ? automatic->whole() : built; }
 };
 
 /// The first load, force of a spring or motion that is no number at `time`, with its formula, or empty.
@@ -77,7 +75,7 @@ void begin_from(Run& run, const State& end);
 /// Rank, projection and what the analysis needs to begin; notes for the report. Throws Error.
 void start(Run& run);
 
-/// After start() or resume(): automatic effects choose their model, and the whole one keeps the places that are stored.
+/// After start() or resume(): the model keeps the places that are stored.
 formats::ResultsLayout begin_rows(Run& run, const BodyFiles& files);
 
 /// What the run has come to doubt, into the report.

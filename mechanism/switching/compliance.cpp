@@ -112,12 +112,4 @@ double SuperelementCompliance::force(const VectorXd& y) const {
   return largest;
 }
 
-double SuperelementCompliance::inertia_force(const VectorXd& acceleration) const {
-  const VectorXd force = mass(without_rigid_motion(acceleration));
-  double largest = 0.0;
-  for (const int j : body_.translation_nodes)
-    largest = std::max(largest, force.segment<3>(body_.node[j].translation_row).norm());
-  return largest;
-}
-
 }  // namespace tisserand::mechanism

@@ -32,8 +32,6 @@ class Compliance {
   virtual double displacement(const Eigen::VectorXd& y) const = 0;
   /// The largest force on a node of those that deform it by y.
   virtual double force(const Eigen::VectorXd& y) const = 0;
-  /// The largest force on a node of the inertia of a deformation with these accelerations, M ÿ without rigid motion.
-  virtual double inertia_force(const Eigen::VectorXd& acceleration) const = 0;
 };
 
 /// S̄⁺ of the boundary of a superelement and the projector off its rigid motions. `force`: of S̄ y, and of internal
@@ -48,7 +46,6 @@ class SuperelementCompliance final : public Compliance {
   Eigen::VectorXd mass(const Eigen::VectorXd& y) const override;
   double displacement(const Eigen::VectorXd& y) const override;
   double force(const Eigen::VectorXd& y) const override;
-  double inertia_force(const Eigen::VectorXd& acceleration) const override;
 
   /// N x elastic coordinates: W with WᵀS̄W = 1, without rigid motion; internal coordinates last.
   Eigen::MatrixXd elastic_shapes() const;

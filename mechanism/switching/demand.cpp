@@ -27,10 +27,11 @@ Demand::Demand(const Model& whole, const std::vector<EffectUse>& uses, double to
     : whole_(whole),
       tolerance_(tolerance),
       bodies_(deforming_bodies(whole)),
-      place_(uses.size(), 0.0),
-      force_(uses.size(), 0.0),
-      start_(start) {
+      judged_(uses.size()),
+      start_(start),
+      time_(start) {
   for (std::size_t k = 0; k < uses.size(); ++k) {
+    if (uses[k].on) continue;
     const std::size_t index = deforming_body(whole, uses[k].owner);
     TISSERAND_ENSURE(index < bodies_.size(), "no body '{}' that deforms", uses[k].owner);
     Body& body = bodies_[index];
@@ -51,20 +52,10 @@ void Demand::add_superelement(const SuperelementUse& use, Body& body) {
 }
 
 void Demand::begin_window() {
-  std::ranges::fill(place_, 0.0);
-  std::ranges::fill(force_, 0.0);
-  for (Body& body : bodies_) {
-    body.before = body.rate.size() > 0 ? body.rate : VectorXd(VectorXd::Zero(body.y.size()));
-    body.after.resize(0);
-  }
-  extend_window();
-}
-
-void Demand::extend_window() {
   for (Body& body : bodies_) {
     body.rate.resize(0);
     body.change = body.tremor = {};
-    body.u = body.f = body.rate_u = body.acceleration_f = body.stressed = 0.0;
+    body.u = body.f = body.rate_u = body.acceleration_f = 0.0;
   }
 }
 
@@ -74,14 +65,10 @@ double Demand::modal_force() const {
   return largest;
 }
 
-double Demand::of(std::size_t use) const {
-  if (!(largest_force_ > 0.0)) return place_[use];  // nothing bears anything yet: round-off
-  return std::max(place_[use], force_[use] / (tolerance_ * largest_force_));
-}
-
-void Demand::forget() {
-  begin_window();
-  for (Body& body : bodies_) body.seen = false;
+double Demand::of(std::size_t use, bool ended) const {
+  const Judged& judged = judged_[use];
+  if (!(largest_force_ > 0.0) || (growing_ && !ended)) return judged.place;  // or nothing bears anything yet: round-off
+  return std::max(judged.place, judged.force / (tolerance_ * largest_force_));
 }
 
 /// What is left over at the nodes of a body that does not deform, in axes of its frame, which its nodes have; at its
@@ -131,62 +118,11 @@ double Demand::Change::r2() const {
   return frequency() * frequency() * kinetic / strain_rate;
 }
 
-/// y of the header.
-VectorXd Demand::deformation_at(std::size_t index, const Evaluation& now, bool flexible) const {
+/// y of the header; of a body that deforms its own.
+VectorXd Demand::deformation_at(std::size_t index, const Evaluation& now) const {
   const Compliance& compliance = *bodies_[index].compliance;
-  if (!flexible) return compliance.deformation(load_of(index, now));
+  if (bodies_[index].flexibility >= 0) return compliance.deformation(load_of(index, now));
   return compliance.without_rigid_motion(y_of(whole_, index, now));
-}
-
-VectorXd Demand::acceleration_at(std::size_t index, const Evaluation& now) const {
-  VectorXd acceleration = VectorXd::Zero(deformation_size(whole_, index));
-  if (const int modal = modal_body_of(whole_, index); modal >= 0) {
-    acceleration.tail(whole_.modal_bodies[modal].modes) = now.modal_bodies[modal].wdd;
-    return acceleration;
-  }
-  const LocalMotion<double>& motion = now.superelements[index].motion;
-  acceleration << motion.acceleration_B, motion.acceleration_I;
-  return acceleration;
-}
-
-double Demand::bend(std::size_t index, const Evaluation& now) const {
-  const Compliance* compliance = bodies_[index].compliance;
-  return compliance == nullptr ? 0.0 : compliance->displacement(deformation_at(index, now, true));
-}
-
-double Demand::bend_rate(std::size_t index, const Evaluation& now) const {
-  const Compliance* compliance = bodies_[index].compliance;
-  if (compliance == nullptr) return 0.0;
-  return compliance->displacement(compliance->without_rigid_motion(mechanism::deformation_of(whole_, index, now).rate));
-}
-
-std::vector<double> Demand::rates() const {
-  std::vector<double> list;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    VectorXd rate = bodies_[i].rate;
-    if (rate.size() == 0) rate.setZero(deformation_size(whole_, i));
-    list.insert(list.end(), rate.begin(), rate.end());
-  }
-  return list;
-}
-
-void Demand::set_rates(const std::vector<double>& rates) {
-  const double* at = rates.data();
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Eigen::Index size = deformation_size(whole_, i);
-    bodies_[i].rate = Eigen::Map<const VectorXd>(at, size);
-    at += size;
-  }
-}
-
-Deformation Demand::deformation(std::size_t index) const {
-  const Body& body = bodies_[index];
-  const VectorXd &y = body.y, &before = body.before, &after = body.after;
-  if (after.size() == 0) return {y, before};
-  const VectorXd mean = 0.5 * (before + after);
-  const Compliance& compliance = *body.compliance;
-  if (compliance.strain_energy(after - before) < compliance.strain_energy(mean)) return {y, mean};
-  return {y, compliance.strain_energy(before) < compliance.strain_energy(after) ? before : after};
 }
 
 /// To the next sample: from the second one of a window on there is a rate, from the third an acceleration.
@@ -203,7 +139,6 @@ void Demand::move_on(Body& body, VectorXd y, double time) const {
   if (body.seen && time > body.time) {
     const double dt = time - body.time, middle = 0.5 * (time + body.time);
     VectorXd rate = (y - body.y) / dt;
-    if (body.after.size() == 0) body.after = rate;
     add(body.change, 0.5 * (y + body.y), rate, dt);
     if (body.rate.size() > 0) {
       body.acceleration = (rate - body.rate) / (middle - body.rate_time);
@@ -221,12 +156,12 @@ void Demand::move_on(Body& body, VectorXd y, double time) const {
   body.seen = true;
 }
 
-/// Of the bodies that sleep, which alone have to be foreseen; the others tell.
+/// To bodies that do not deform, which alone have to be foreseen; the others tell.
 void Demand::add_carried(const Evaluation& now, CarriedInertia& inertia) {
   std::vector<VectorXd> rates, accelerations;
   for (const Body& body : bodies_) {
-    rates.push_back(body.asleep ? body.rate : VectorXd());
-    accelerations.push_back(body.asleep ? body.acceleration : VectorXd());
+    rates.push_back(body.flexibility >= 0 ? body.rate : VectorXd());
+    accelerations.push_back(body.flexibility >= 0 ? body.acceleration : VectorXd());
   }
   const auto moves = [](const std::vector<VectorXd>& list) {
     return std::ranges::any_of(list, [](const VectorXd& one) { return one.size() > 0; });
@@ -239,63 +174,53 @@ void Demand::add_carried(const Evaluation& now, CarriedInertia& inertia) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].tremor.kinetic += changing[i];
 }
 
-/// Of flexibility.
-void Demand::note_asleep(const Body& body) {
-  const double r2 = body.change.r2(), changing_r2 = body.tremor.r2(), frequency = body.tremor.frequency();
-  const double period = frequency > 0.0 ? 1.0 / frequency : 0.0;  // over 2π
-  const double u =
-      std::max(amplification(r2) * body.u, body.u + (amplification(changing_r2) - 1.0) * period * body.rate_u);
-  note(body.flexibility, part(u, tolerance_ * whole_.length),
-       std::min(changing_r2, 1.0) * body.tremor.amplitude_of(body.acceleration_f));
-}
-
 void Demand::note(int use, double place, double force) {
   if (use < 0) return;
-  place_[use] = std::max(place_[use], place);
-  force_[use] = std::max(force_[use], force);
+  Judged& judged = judged_[use];
+  if (!(place > judged.place || force > judged.force)) return;
+  judged.place = std::max(judged.place, place);
+  judged.force = std::max(judged.force, force);
+  judged.time = time_;
 }
 
-/// Eigenvalues only where they can decide: over a bound, and more so than before in this window.
-void Demand::sample_stress(Body& body, bool flexible) {
+/// Eigenvalues only where they can decide: over a bound, and more so than before.
+void Demand::sample_stress(Body& body) {
   constexpr double allowed = 0.1, tells = 0.2, grown = 1.1;
   if (body.buckling == nullptr) return;
   const double bound = body.buckling->bound(body.y) / allowed;
   if (bound <= tells || bound <= grown * body.stressed) return;
   body.stressed = bound;
-  const double demand = body.buckling->load_share(body.y) / allowed;
-  note(body.flexibility, demand, 0.0);
-  if (flexible) note(body.stiffening, demand, 0.0);
+  note(body.flexibility >= 0 ? body.flexibility : body.stiffening, body.buckling->load_share(body.y) / allowed, 0.0);
 }
 
-void Demand::note_body(std::size_t index, const Evaluation& now, bool flexible) {
+void Demand::note_body(std::size_t index, const Evaluation& now) {
   Body& body = bodies_[index];
   const double u = part(body.u, tolerance_ * whole_.length);
-  if (flexible)
-    note(body.flexibility, u, body.compliance->inertia_force(acceleration_at(index, now)));
-  else
-    note_asleep(body);
-  if (body.stiffening >= 0 && flexible) {
+  if (body.flexibility >= 0) {
+    const double r2 = body.change.r2(), changing_r2 = body.tremor.r2(), frequency = body.tremor.frequency();
+    const double period = frequency > 0.0 ? 1.0 / frequency : 0.0;  // over 2π
+    const double trembling = (amplification(changing_r2) - 1.0) * period * body.rate_u;
+    note(body.flexibility, std::max(amplification(r2) * u, u + part(trembling, tolerance_ * whole_.length)),
+         std::min(changing_r2, 1.0) * body.tremor.amplitude_of(body.acceleration_f));
+  } else {
     const double share = stiffening_share(index, now);
     note(body.stiffening, share * u, share * body.f);
   }
-  sample_stress(body, flexible);
+  sample_stress(body);
 }
 
-void Demand::sample(const State& state, const Evaluation& now, const std::vector<bool>& awake, double largest_force,
-                    CarriedInertia& inertia) {
+void Demand::sample(const State& state, const Evaluation& now, double largest_force, CarriedInertia& inertia) {
+  if (begins_window()) begin_window();
   const double dt = state.time() - time_, elapsed = state.time() - start_;
   growing_ = (largest_force - largest_force_) * elapsed > largest_force_ * dt;
   largest_force_ = largest_force;
   time_ = state.time();
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    Body& body = bodies_[i];
-    if (body.compliance == nullptr) continue;
-    body.asleep = body.flexibility >= 0 && !awake[body.flexibility];
-    move_on(body, deformation_at(i, now, !body.asleep), state.time());
-  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (bodies_[i].compliance != nullptr) move_on(bodies_[i], deformation_at(i, now), state.time());
   add_carried(now, inertia);
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (bodies_[i].compliance != nullptr) note_body(i, now, !bodies_[i].asleep);
+    if (bodies_[i].compliance != nullptr) note_body(i, now);
+  ++samples_;
 }
 
 }  // namespace tisserand::mechanism

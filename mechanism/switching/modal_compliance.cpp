@@ -105,8 +105,4 @@ double ModalCompliance::force(const VectorXd& y) const {
   return kinetic > 0.0 ? strain_energy(y) * std::sqrt(2.0 * body_.mass / kinetic) : 0.0;
 }
 
-double ModalCompliance::inertia_force(const VectorXd& acceleration) const {
-  return std::sqrt(2.0 * body_.mass * std::max(0.0, largest_kinetic(acceleration)));
-}
-
 }  // namespace tisserand::mechanism

@@ -30,7 +30,6 @@ class ModalCompliance final : public Compliance {
   Eigen::VectorXd mass(const Eigen::VectorXd& y) const override;
   double displacement(const Eigen::VectorXd& y) const override;
   double force(const Eigen::VectorXd& y) const override;
-  double inertia_force(const Eigen::VectorXd& acceleration) const override;
 
  private:
   double largest_kinetic(const Eigen::VectorXd& rate) const;

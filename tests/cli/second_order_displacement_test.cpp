@@ -133,7 +133,7 @@ TEST_F(SecondOrderDisplacement, IsThatOfMirroredBodiesAndOtherUnits) {
   }
 }
 
-// The equations of a plane move the same body, and stiffening that a run switches is there when it is wanted.
+// The equations of a plane move the same body, and stiffening that a run chooses is there when it is wanted.
 TEST_F(SecondOrderDisplacement, IsTheSameInPlanarScenesAndWithAutomaticStiffening) {
   write_text(folder.file("stress_cantilever.scene.yaml"), R"yaml(scene: cantilever in the x-y plane
 bodies: {bar: {type: superelement, file: stress_cantilever.superelement.h5, damping: {ratio: 0.5}}}

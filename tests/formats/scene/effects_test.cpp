@@ -64,24 +64,22 @@ TEST(SceneEffects, EveryEffectHasAWordThatIsRead) {
   }
 }
 
-TEST(SceneEffects, AreAutomaticWhereARunCanSwitchThem) {
-  const Scene scene = read("effects: {flexibility: auto, tolerance: 0.01, window: 0.2, arm: {stiffening: auto}}\n");
+TEST(SceneEffects, AreAutomaticWhereARunCanChooseThem) {
+  const Scene scene = read("effects: {flexibility: auto, tolerance: 0.01, arm: {stiffening: auto}}\n");
   ASSERT_EQ(scene.effects.size(), 2U);
   for (const EffectSwitch& one : scene.effects) EXPECT_TRUE(one.on && one.automatic);
   EXPECT_EQ(scene.effects[1].owner, "arm");
   EXPECT_EQ(scene.automatic.tolerance, 0.01);
-  EXPECT_EQ(scene.automatic.window, 0.2);
   EXPECT_EQ(read("effects: {flexibility: auto}\n").automatic.tolerance, 1e-3);
   EXPECT_FALSE(read("effects: {flexibility: on}\n").effects[0].automatic);
 }
 
-TEST(SceneEffects, AreNotAutomaticWhereNoRunCanSwitchThem) {
+TEST(SceneEffects, AreNotAutomaticWhereNoRunCanChooseThem) {
   EXPECT_THAT(error_of("effects: {gravity: auto}\n"),
               AllOf(HasSubstr("a.scene.yaml:4:20: effects: 'gravity' cannot be 'auto'"),
                     HasSubstr("'auto' can be flexibility, stiffening")));
   EXPECT_THAT(error_of("effects: {arm: {damping: auto}}\n"), HasSubstr("'damping' cannot be 'auto'"));
   EXPECT_THAT(error_of("effects: {tolerance: -1}\n"), HasSubstr("'tolerance' must be positive, not -1"));
-  EXPECT_THAT(error_of("effects: {window: soon}\n"), HasSubstr("window"));
 }
 
 TEST(SceneEffects, AreRefusedWithPlaceAndRemedy) {

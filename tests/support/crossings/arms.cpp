@@ -173,7 +173,6 @@ void add_arm(Arm arm, formats::Scene& scene) {
   if (arm == Arm::automatic) {
     scene.effects.push_back({formats::Effect::flexibility, "arm", true, "", true});
     scene.automatic.tolerance = 1e-2;
-    scene.automatic.window = 0.02;
   }
   if (arm != Arm::welded) return;
   formats::VirtualBodySpec hub;

@@ -177,7 +177,6 @@ Scene dynamics_scene(const Ingredients& in) {
 std::string refusal_of(const Ingredients& in) {
   const bool radau = in.scheme == Scheme::radau || in.scheme == Scheme::controlled_radau;
   if (in.arm == Arm::second_order && radau) return "method radau takes linear superelements only";
-  if (in.arm == Arm::automatic && (radau || in.scheme == Scheme::bdf)) return "not of bdf and radau";
   if (in.scheme == Scheme::bdf && !mechanism::bdf_available()) return "this build has no CVODE";
   return "";
 }

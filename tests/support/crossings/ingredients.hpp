@@ -10,7 +10,7 @@
 namespace tisserand::test_support::crossings {
 
 /// The body "arm". Of superelements the name says frame and inertia; `mixed`: some of its nodes have translations or
-/// rotations alone; `automatic`: its flexibility is switched by the run.
+/// rotations alone; `automatic`: its flexibility is chosen by the run.
 enum class Arm {
   rigid,
   use_rigid,

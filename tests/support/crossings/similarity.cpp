@@ -166,7 +166,6 @@ void settings(Scene& scene, const Similarity& s) {
   i.error_control.max_step *= s.time;
   if (scene.output.interval) *scene.output.interval *= s.time;
   scene.output.from = i.start;
-  if (scene.automatic.window) *scene.automatic.window *= s.time;
   if (scene.statics.rotation) {
     formats::RotationSpec& turn = *scene.statics.rotation;
     turn.angular_velocity = s.sign() * (s.Q * turn.angular_velocity) / s.time;

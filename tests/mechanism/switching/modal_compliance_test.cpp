@@ -1,4 +1,4 @@
-// Switches of modal bodies: what they yield to loads, what joints move along with them, momenta.
+// Modal bodies: what they yield to loads, what joints move along with them, momenta of one that loses its modes.
 #include <gtest/gtest.h>
 
 #include "common/math/rotation.hpp"
@@ -6,13 +6,12 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/switching/carried_inertia.hpp"
 #include "mechanism/switching/modal_compliance.hpp"
-#include "mechanism/switching/switch_model.hpp"
 #include "mechanism/switching/transfer.hpp"
 #include "tests/support/bodies/lumped_bodies.hpp"
 #include "tests/support/bodies/modal_known_answers.hpp"
 #include "tests/support/scenes/scenes.hpp"
 
-namespace tisserand::mechanism::modal_switch_test {
+namespace tisserand::mechanism::modal_compliance_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -100,11 +99,9 @@ TEST(ModalCompliance, ForcesAreThoseOfTheMassAsSeenFromTheClamp) {
       sum += lumped.mass[k] * u.norm();
       square += lumped.mass[k] * u.squaredNorm();
     }
-    EXPECT_GE(compliance.inertia_force(bent.y), sum);
-    EXPECT_LE(compliance.inertia_force(bent.y), 2.0 * sum);
-    EXPECT_NEAR(compliance.force(bent.y),
-                compliance.inertia_force(bent.y) * 2.0 * compliance.strain_energy(bent.y) / square,
-                1e-3 * compliance.force(bent.y));  // but for rotary inertia
+    const double inertia = compliance.force(bent.y) * square / (2.0 * compliance.strain_energy(bent.y));
+    EXPECT_GE(inertia, sum);
+    EXPECT_LE(inertia, 2.0 * sum);
   }
 }
 
@@ -134,27 +131,13 @@ TEST(ModalCompliance, CarriesClampAndBob) {
   }
 }
 
-/// Two rods on a ball joint with a load at their end, thrown and turning.
-formats::Scene thrown() {
-  formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
-  for (const char* name : {"left", "right"}) {
-    formats::ModalBodySpec body = test_support::modal_spec(name, "hinged");
-    const bool right = name == std::string("right");
-    body.start.pose.position = {right ? 2.0 : 0.0, 0, 0};
-    body.start.velocity = Vector3d(3, right ? 5 : 2, 1);  // 1.5 x 2
-    body.start.angular_velocity = Vector3d(0, 0, 1.5);
-    scene.bodies.push_back(body);
-  }
-  scene.joints = {test_support::joint("ball", JointKind::spherical, "left/n8", "right/n0", {2, 0, 0}, z)};
-  scene.loads = {test_support::constant_load("pull", formats::LoadKind::force, "right/n8", {5, 30, 20})};
-  return scene;
-}
+using Momenta = Eigen::Matrix<double, 6, 1>;
 
-/// By the mass matrices of the bodies, so independent of momentum_of(), which takes differences of energies.
-Momentum sum_of_momenta(const Model& model, const State& state) {
+/// [linear; angular about the origin] by the mass matrices of the bodies.
+Momenta sum_of_momenta(const Model& model, const State& state) {
   Evaluation now(model);
   evaluate(model, state, now);
-  Momentum sum = Momentum::Zero();
+  Momenta sum = Momenta::Zero();
   for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
     const ModalBody& body = model.modal_bodies[i];
     const NodeMotion& frame = now.motion[body.node];
@@ -168,43 +151,13 @@ Momentum sum_of_momenta(const Model& model, const State& state) {
   return sum;
 }
 
-// Nothing holds them, so nothing may change, and what wakes has the deformation and the rate that it was given. The
-// tolerance is round-off.
-TEST(SwitchModel, KeepsMomentaOfModalBodiesForthAndBack) {
-  const formats::Scene scene = thrown();
-  Simulation run(scene, files());
-  run.start();
-  run.run(0.05);
-  const Momentum before = sum_of_momenta(run.model(), run.state());
-  const auto rigid =
-      switch_model(with_flexibility(scene, "right", false), files(), {run.model(), run.state()}, {"right"}, {});
-  ASSERT_TRUE(rigid.has_value());
-  EXPECT_EQ(rigid->built.model.modal_bodies[1].modes, 0);
-  const VectorXd y = 1e-3 * BentRod("hinged").y.normalized();
-  const auto back = switch_model(with_flexibility(scene, "right", true), files(),
-                                 {rigid->built.model, rigid->built.state}, {"right"}, {{"right", {y, 20.0 * y}}});
-  ASSERT_TRUE(back.has_value());
-  for (const SwitchedModel* after : {&*rigid, &*back}) {
-    const Momentum now = sum_of_momenta(after->built.model, after->built.state);
-    EXPECT_LT((now - before).head<3>().norm(), 1e-12 * before.head<3>().norm());
-    EXPECT_LT((now - before).tail<3>().norm(), 1e-12 * before.tail<3>().norm());
-    EXPECT_GT((now - before).norm(), 0.0);  // computed anew
-  }
-  const ModalBody& body = back->built.model.modal_bodies[1];
-  const VectorXd w = y.tail(body.modes);
-  EXPECT_LT((back->built.state.w().segment(body.offset, body.modes) - w).norm(), 1e-6 * w.norm());
-  EXPECT_LT((back->built.state.v().segment(back->built.model.sizes.first_modal() + body.offset, body.modes) - 20.0 * w)
-                .norm(),
-            1e-4 * 20.0 * w.norm());
-}
-
 // A body that loses its modes in flight alone moves on as one with the mass and the momenta that it had, about any
 // point: so its place is that of its mass too, and how fast it flies does not turn it.
-TEST(SwitchModel, ModalBodyThatSleepsKeepsMassAndMomenta) {
-  formats::Scene scene = thrown();
-  scene.bodies.pop_back();
-  scene.joints.clear();
-  scene.loads.clear();
+TEST(StateTransfer, ModalBodyWithoutModesKeepsMassAndMomenta) {
+  formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
+  formats::ModalBodySpec thrown = test_support::modal_spec("left", "hinged");
+  thrown.start.angular_velocity = Vector3d(0, 0, 1.5);
+  scene.bodies.push_back(thrown);
   std::vector<Vector3d> spin;
   for (const double speed : {3.0, 300.0}) {
     std::get<formats::ModalBodySpec>(scene.bodies[0]).start.velocity = Vector3d(speed, 2.0, 1.0);
@@ -215,7 +168,7 @@ TEST(SwitchModel, ModalBodyThatSleepsKeepsMassAndMomenta) {
     const VectorXd w = BentRod("hinged").y.tail(body.modes);
     state.w() = 1e-2 * w / w.cwiseAbs().maxCoeff();
     state.v().segment(run.model().sizes.first_modal() + body.offset, body.modes) = 100.0 * state.w();
-    const Momentum before = sum_of_momenta(run.model(), state);
+    const Momenta before = sum_of_momenta(run.model(), state);
     const BuiltModel rigid = build_model(with_flexibility(scene, "left", false), files());
     const State after = transfer(run.model(), state, rigid.model);
     EXPECT_LT((sum_of_momenta(rigid.model, after) - before).norm(), 1e-12 * before.norm());
@@ -227,4 +180,4 @@ TEST(SwitchModel, ModalBodyThatSleepsKeepsMassAndMomenta) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism::modal_switch_test
+}  // namespace tisserand::mechanism::modal_compliance_test
