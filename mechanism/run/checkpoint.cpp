@@ -15,6 +15,7 @@
 #include "common/text.hpp"
 #include "formats/scene/expand/values.hpp"
 #include "formats/scene/fields.hpp"
+#include "mechanism/run/automatic_effects.hpp"
 #include "mechanism/run/stored_state.hpp"
 #include "mechanism/step/step_control.hpp"
 

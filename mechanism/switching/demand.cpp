@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
+#include "mechanism/switching/deformation.hpp"
 
 namespace tisserand::mechanism {
 namespace {
