@@ -338,7 +338,7 @@ void add_stiffness(const Relation& r, const MarkerPair& p, double weight, Square
 double bias(const Relation& r, const MarkerPair& p) { return product(rate_gradient(r, p), p); }
 
 bool has_planar_axes(const Relation& r, const Marker& a, const Marker& b) {
-  constexpr double share = 1e-10;  // as of couplings that count as none (build/planar.cpp)
+  constexpr double share = 1e-10;  // smaller couplings count as zero in build/planar.cpp too
   const auto lies = [](const Marker& marker, int axis) { return std::abs(marker.R(2, axis)) <= share; };
   const auto all_lie = [&](const NormalSum& sum) {
     return std::all_of(sum.term.begin(), sum.term.begin() + sum.count,

@@ -18,7 +18,7 @@ inline const ModalBody& modal_body_of(const Model& model, int modal) {
 /// Appends the coordinates of a node: six (−1 where it owns none; ground: all −1), or 6 + m of the body it follows.
 void append_carrier(const Model& model, int node, std::vector<int>& coordinates);
 
-/// Of a carrier that owns its coordinates, or of ground: what `global` has at its columns, 0 where there is none.
+/// The entries of `global` at the columns of a carrier that owns its coordinates; zero for ground.
 template <int D>
 CarrierVector<D> gather_carrier(const int* coordinates, const Eigen::VectorXd& global) {
   CarrierVector<D> local;

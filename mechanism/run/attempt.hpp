@@ -34,7 +34,7 @@ struct RunEnd {
 
 class Attempt {
  public:
-  /// Of the scene of the request, or of one with fewer effects.
+  /// `scene`: that of the request, or the same with fewer effects.
   Attempt(const RunRequest& request, const formats::Scene& scene, const RunControl& control);
   Run& run() { return run_; }
 

@@ -20,8 +20,8 @@ namespace {
 
 /// Steps between two samples, and their part of the run where steps have no fixed size.
 constexpr double sample_steps = 4.0, sample_part = 0.002;
-/// Of the effects that nearly matter where others do, those above this part of the tolerance are on too; half of it each
-/// time, so that a run begins again a few times at most.
+/// A run that begins again turns on what matters, and also what is above this part of the tolerance. The second time it
+/// is half of this part, and so on: so a run begins again a few times at most.
 constexpr double nearly = 0.5;
 
 bool is_flexibility(const EffectUse& use) { return use.effect == formats::Effect::flexibility; }

@@ -139,7 +139,7 @@ TEST(GnuplotScript, DrawsModesAsBarsBesideOneAnother) {
   EXPECT_THAT(script, HasSubstr("$d1 using ($1+0.2):2:(0.38) with boxes"));
   EXPECT_THAT(script, HasSubstr("set xrange [0.5:5.5]"));
   EXPECT_THAT(script, HasSubstr("set xlabel 'mode'"));
-  // Bars stand on zero; what round-off makes negative does not lower the axis, as of the damping of undamped modes.
+  // Bars stand on zero. Round-off can make the damping of undamped modes negative: that does not lower the axis.
   const auto axis_of = [&](const std::vector<double>& values, const char* unit) {
     Series damping = series.front();
     damping.unit = unit;
