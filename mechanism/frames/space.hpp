@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 #include <utility>
 
 #include <Eigen/Core>
@@ -120,6 +121,51 @@ CarrierVector<D> velocity_of(const NodeMotion& node) {
   CarrierVector<D> v;
   v << node.xd.head<D>(), node.Omega.tail<Space<D>::turns>();
   return v;
+}
+
+/// Of vectors, rotations and maps between them with three components, what the space has of translations and of turns;
+/// `turns_by_vectors` of a map from the ones to the others. For every scalar; in three dimensions all there is.
+template <int D, class Matrix>
+decltype(auto) vector_part(Matrix&& m) {
+  if constexpr (D == 3)
+    return (m);
+  else if constexpr (std::decay_t<Matrix>::ColsAtCompileTime == 1)
+    return m.template head<2>();
+  else
+    return m.template topLeftCorner<2, 2>();
+}
+template <int D, class Matrix>
+decltype(auto) turn_part(Matrix&& m) {
+  if constexpr (D == 3)
+    return (m);
+  else if constexpr (std::decay_t<Matrix>::ColsAtCompileTime == 1)
+    return m.template tail<1>();
+  else
+    return m.template bottomRightCorner<1, 1>();
+}
+template <int D, class Matrix>
+decltype(auto) turns_by_vectors(Matrix&& m) {
+  if constexpr (D == 3)
+    return (m);
+  else
+    return m.template bottomLeftCorner<1, 2>();
+}
+
+/// a × b of such parts, for every scalar: vectors of the plane span a turn, a turn moves a vector, turns commute.
+template <class A, class B>
+auto wedge(const A& a, const B& b) {
+  using S = typename A::Scalar;
+  constexpr int m = A::RowsAtCompileTime, n = B::RowsAtCompileTime;
+  if constexpr (m == 3)
+    return tisserand::cross<S>(a, b);
+  else if constexpr (m == 2 && n == 2)
+    return Eigen::Matrix<S, 1, 1>(a[0] * b[1] - a[1] * b[0]);
+  else if constexpr (n == 2)
+    return Eigen::Matrix<S, 2, 1>(-a[0] * b[1], a[0] * b[0]);
+  else if constexpr (m == 2)
+    return Eigen::Matrix<S, 2, 1>(a[1] * b[0], -a[0] * b[0]);
+  else
+    return Eigen::Matrix<S, 1, 1>(S(0.0));
 }
 
 /// Calls a template of D, `f<2>()` or `f<3>()`.

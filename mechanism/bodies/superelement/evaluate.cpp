@@ -66,13 +66,8 @@ void residual(const SuperelementBody& body, SuperelementScratch& scratch, const 
 
 double load_power(const SuperelementBody& body, const LocalMotion<double>& motion, const LoadTerms<double>& t) {
   const Eigen::Index nb = body.boundary_size;
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // of x₀, axes of the frame
-  for (const int j : body.translation_nodes) {
-    const auto i = static_cast<std::size_t>(j);
-    velocity += body.node[i].alpha * motion.node[i].xd;
-  }
-  return t.force.dot(velocity) + t.moment.dot(motion.Omega0) + t.g.head(nb).dot(motion.deformation_rate_B) +
-         t.g.tail(body.modes).dot(motion.rate_I);
+  return t.force.dot(motion.origin_velocity) + t.moment.dot(motion.Omega0) +
+         t.g.head(nb).dot(motion.deformation_rate_B) + t.g.tail(body.modes).dot(motion.rate_I);
 }
 
 void load_case_direction(const SuperelementBody& body, int load_case, const SuperelementScratch& scratch,
@@ -138,7 +133,8 @@ SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratc
 double damping_power(const SuperelementBody& body, const SuperelementScratch& scratch) {
   const LocalMotion<double>& motion = scratch.motion;
   const bool strained = body.second_order.stiffening && body.damping.stiffness > 0.0;
-  return power_at(body, motion.deformation_rate_B, motion.rate_I) + (strained ? scratch.forces.strain.damping_power : 0.0);
+  return power_at(body, motion.deformation_rate_B, motion.rate_I) +
+         (strained ? scratch.forces.strain.damping_power : 0.0);
 }
 
 double mean_damping_power(const SuperelementBody& body, const SuperelementScratch& scratch, double step,
@@ -202,14 +198,10 @@ FrameAcceleration frame_acceleration_of(const SuperelementBody& body, Supereleme
   LocalMotion<double>& motion = scratch.motion;
   if (body.inertia != formats::InertiaOption::M && !body.second_order.inertia) {  // otherwise update_kinematics() has
     deformation_rates(body, nodes, motion);
-    if (body.planar)
-      planar::deformation_accelerations(body, nodes, motion);
-    else
-      deformation_accelerations(body, nodes, motion);
+    deformation_accelerations(body, nodes, motion);
   }
-  const Eigen::Matrix3d axes = body.planar ? body.axes : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-  return {axes * (motion.origin_acceleration - motion.R0.transpose() * gravity), axes * motion.Omega0,
-          axes * motion.Omega0d};
+  return {body.axes * (motion.origin_acceleration - motion.R0.transpose() * gravity), body.axes * motion.Omega0,
+          body.axes * motion.Omega0d};
 }
 
 void file_rates(const SuperelementBody& body, SuperelementScratch& scratch, const NodeView<NodeMotion>& nodes,

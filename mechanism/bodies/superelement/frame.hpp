@@ -48,12 +48,12 @@ struct LocalMotion {
   Mat3<S> R0 = Mat3<S>::Identity();
   Vec3<S> Omega0 = Vec3<S>::Zero();  ///< material, U q̇
   std::vector<LocalNode<S>> node;
-  Vector y_B;                                     ///< [u, ψ] per node
-  Vector rate_B;                                  ///< P q̇: the rates in the kinetic energy
-  Vector acceleration_B;                          ///< P q̈ + V Ω₀
-  Vector deformation_rate_B;                      ///< Υ q̇ = ẏ_B; only with damping or inertia options M and F
-  Vector deformation_acceleration_B;              ///< ÿ_B of the deformation; only with inertia options M and F
-  Vec3<S> origin_velocity = Vec3<S>::Zero();      ///< R₀ᵀẋ₀; only with inertia options M and F
+  Vector y_B;                         ///< [u, ψ] per node
+  Vector rate_B;                      ///< P q̇: the rates in the kinetic energy
+  Vector acceleration_B;              ///< P q̈ + V Ω₀
+  Vector deformation_rate_B;          ///< Υ q̇ = ẏ_B; only with damping, load cases or inertia options M and F
+  Vector deformation_acceleration_B;  ///< ÿ_B of the deformation; only with inertia options M and F
+  Vec3<S> origin_velocity = Vec3<S>::Zero();      ///< R₀ᵀẋ₀; as ẏ_B
   Vec3<S> origin_acceleration = Vec3<S>::Zero();  ///< R₀ᵀẍ₀; only with inertia options M and F
   Vec3<S> Omega0d = Vec3<S>::Zero();              ///< Ω̇₀; only with inertia options M and F
   Vec3<S> center = Vec3<S>::Zero();               ///< c = X_cm + Φ_TᵀM̄ y/m; only with inertia option M

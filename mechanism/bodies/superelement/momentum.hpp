@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "mechanism/bodies/superelement/frame.hpp"
+#include "mechanism/frames/space.hpp"
 
 namespace tisserand::mechanism {
 
@@ -40,38 +41,49 @@ Vec3<S> turning_bias(const Vec3<S>& psi, const Vec3<S>& psid, const Vec3<S>& Ome
          f.e * (cross<S>(psid, turned) + cross<S>(psi, cross<S>(psid, relative))) + bend * cross<S>(psi, turned);
 }
 
-/// Rotation rows of ÿ_B: turning_bias() alone, after deformation_rates().
-template <class S, class Node>
+/// Rotation rows of ÿ_B: turning_bias() alone, which is zero in the plane; after deformation_rates().
+template <int D, class S, class Node>
 void turning_biases(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const int row = body.node[i].rotation_row;
     if (row < 0) continue;
-    motion.deformation_acceleration_B.template segment<3>(row) = turning_bias<S>(
-        motion.node[i].psi, Vec3<S>(motion.deformation_rate_B.template segment<3>(row)), nodes[i].Omega, motion.Omega0);
+    if constexpr (D == 2)
+      motion.deformation_acceleration_B[row] = S(0.0);
+    else
+      motion.deformation_acceleration_B.template segment<3>(row) =
+          turning_bias<S>(motion.node[i].psi, Vec3<S>(motion.deformation_rate_B.template segment<3>(row)),
+                          nodes[i].Omega, motion.Omega0);
   }
 }
 
 /// Ω̇₀ = U q̈ + U̇ q̇, after turning_biases(). From the second derivative of what defines the frame: Σ αⱼ ψⱼ = 0 gives
 /// U̇ q̇ = Σ Uⱼ T(ψⱼ) (Ṫ⁻¹(ψⱼ) Ωⱼ − Ṫ⁻ᵀ(ψⱼ) Ω₀); the polar frame Σ U_xⱼ R₀ (−2 Ω₀ × x̂ⱼ' − Ω₀ × (Ω₀ × x̂ⱼ)).
-template <class S, class Node>
-Vec3<S> frame_acceleration(const SuperelementBody& body, const NodeView<Node>& nodes, const LocalMotion<S>& motion) {
-  Vec3<S> acceleration = Vec3<S>::Zero();
+template <int D, class S, class Node>
+auto frame_acceleration(const SuperelementBody& body, const NodeView<Node>& nodes, const LocalMotion<S>& motion) {
+  using Turn = Eigen::Matrix<S, Space<D>::turns, 1>;
+  using Vector = Eigen::Matrix<S, D, 1>;
+  Turn acceleration = Turn::Zero();
   if (body.frame == FrameAlgorithm::polar) {
+    const auto& w = turn_part<D>(motion.Omega0);
     for (const int j : body.translation_nodes) {
       const auto i = static_cast<std::size_t>(j);
       const LocalNode<S>& local = motion.node[i];
-      const Vec3<S> rate = motion.deformation_rate_B.template segment<3>(body.node[i].translation_row);
-      const Vec3<S> bias =
-          2.0 * cross<S>(motion.Omega0, rate) + cross<S>(motion.Omega0, cross<S>(motion.Omega0, local.xh));
-      acceleration += local.U_x * (nodes[i].xdd - motion.R0 * bias);
+      auto rate = motion.deformation_rate_B.template segment<D>(body.node[i].translation_row);
+      const Vector bias = 2.0 * wedge(w, rate) + wedge(w, wedge(w, vector_part<D>(local.xh)));
+      acceleration +=
+          turns_by_vectors<D>(local.U_x) * (vector_part<D>(nodes[i].xdd) - vector_part<D>(motion.R0) * bias);
     }
     return acceleration;
   }
   for (const int j : body.rotation_nodes) {
     const auto i = static_cast<std::size_t>(j);
     const LocalNode<S>& local = motion.node[i];
-    const Vec3<S> bias = motion.deformation_acceleration_B.template segment<3>(body.node[i].rotation_row);
-    acceleration += local.U * (nodes[i].Omegad + inverse3<S>(local.Tinv) * bias);
+    if constexpr (D == 2) {
+      acceleration += turn_part<D>(local.U) * turn_part<D>(nodes[i].Omegad);
+    } else {
+      const Vec3<S> bias = motion.deformation_acceleration_B.template segment<3>(body.node[i].rotation_row);
+      acceleration += local.U * (nodes[i].Omegad + inverse3<S>(local.Tinv) * bias);
+    }
   }
   return acceleration;
 }
@@ -109,38 +121,6 @@ Vec3<S> mean_of(const SuperelementBody& body, const Eigen::Matrix<S, Eigen::Dyna
   add_sum<S>(body, body.Gamma_B, boundary, sum);
   add_sum<S>(body, body.Gamma_I, internal, sum);
   return sum / body.mass;
-}
-
-/// ÿ_B of the deformation, Ω̇₀ and the motion of x₀, after deformation_rates(): ü = R₀ᵀ(ẍ − ẍ₀) − 2 Ω₀ × u̇ −
-/// Ω₀ × (Ω₀ × x̂) − Ω̇₀ × x̂ and the derivative of ψ̇ = T⁻¹(ψ) Ω − T⁻¹(−ψ) Ω₀.
-template <class S, class Node>
-void deformation_accelerations(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
-  const Mat3<S> R0T = motion.R0.transpose();
-  turning_biases(body, nodes, motion);
-  const Vec3<S> w = motion.Omega0, wd = frame_acceleration(body, nodes, motion);
-  Vec3<S> x0d = Vec3<S>::Zero(), x0dd = Vec3<S>::Zero();
-  for (const int j : body.translation_nodes) {
-    const auto i = static_cast<std::size_t>(j);
-    x0d += body.node[i].alpha * motion.node[i].xd;
-    x0dd += body.node[i].alpha * (R0T * nodes[i].xdd);
-  }
-  for (std::size_t i = 0; i < body.node.size(); ++i) {
-    const SuperelementNode& node = body.node[i];
-    const LocalNode<S>& local = motion.node[i];
-    if (node.has_translation()) {
-      const Vec3<S> rate = motion.deformation_rate_B.template segment<3>(node.translation_row);
-      motion.deformation_acceleration_B.template segment<3>(node.translation_row) =
-          R0T * nodes[i].xdd - x0dd - 2.0 * cross<S>(w, rate) - cross<S>(w, cross<S>(w, local.xh)) -
-          cross<S>(wd, local.xh);
-    }
-    if (node.has_rotation()) {
-      const Vec3<S> turning = local.Tinv * nodes[i].Omegad - local.Tinv.transpose() * wd;
-      motion.deformation_acceleration_B.template segment<3>(node.rotation_row) += turning;
-    }
-  }
-  motion.origin_velocity = x0d;
-  motion.origin_acceleration = x0dd;
-  motion.Omega0d = wd;
 }
 
 /// motion.center, center_rate, center_velocity and center_acceleration of x_cm = x₀ + R₀ c, c = X_cm + Φ_TᵀM̄ y/m, in

@@ -44,7 +44,7 @@ void set_planar_columns(const SuperelementBody& body, const SuperelementScratch&
       U.segment<2>(row).setZero();
       if (polar) {
         const Vector3d of_world = local.U_x.row(2).transpose();
-        U.segment<2>(row) = planar::in_frame<double>(motion.R0, of_world).head<2>();
+        U.segment<2>(row) = (motion.R0.transpose() * of_world).head<2>();
       }
       V.segment<2>(row) = across(local.xd.x(), local.xd.y());
       V1.segment<2>(row) = -across(scratch.forces.p_B[row], scratch.forces.p_B[row + 1]);

@@ -8,6 +8,7 @@
 #include "mechanism/bodies/superelement/load_cases.hpp"
 #include "mechanism/bodies/superelement/products.hpp"
 #include "mechanism/bodies/superelement/strain.hpp"
+#include "mechanism/frames/space.hpp"
 
 namespace tisserand::mechanism {
 
@@ -123,38 +124,42 @@ void apply_load_cases(const SuperelementBody& body, const LocalMotion<S>& motion
 }
 
 /// A₀ᵀ G_x + Uᵀ G_θ + Υᵀ G_y of the boundary, G_y = r_B at entry: forces on (x₀, Θ₀, y) as forces on the nodes.
-template <class S>
-void pull_back(const SuperelementBody& body, const LocalMotion<S>& motion, const FrameForces<S>& frame,
-               Eigen::Matrix<S, Eigen::Dynamic, 1>& r_B) {
-  Vec3<S> moment = frame.G_theta, total = -frame.G_x;
-  if (body.planar) {
-    moment.z() += planar::frame_moment<S>(body, motion, r_B, total);
-    planar::forces_on_nodes<S>(body, motion, total, moment.z(), r_B);
-    return;
-  }
+template <int D, class S>
+void pull_back_in(const SuperelementBody& body, const LocalMotion<S>& motion, const FrameForces<S>& frame,
+                  Eigen::Matrix<S, Eigen::Dynamic, 1>& r_B) {
+  constexpr int T = Space<D>::turns;
+  Eigen::Matrix<S, T, 1> moment = turn_part<D>(frame.G_theta);
+  Eigen::Matrix<S, D, 1> total = -vector_part<D>(frame.G_x);
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     if (node.has_translation()) {
-      const Vec3<S> f = r_B.template segment<3>(node.translation_row);
+      auto f = r_B.template segment<D>(node.translation_row);
       total += f;
-      moment -= cross<S>(motion.node[i].xh, f);
+      moment -= wedge(vector_part<D>(motion.node[i].xh), f);
     }
-    if (node.has_rotation()) moment -= motion.node[i].Tinv * r_B.template segment<3>(node.rotation_row);
+    if (node.has_rotation()) moment -= turn_part<D>(motion.node[i].Tinv) * r_B.template segment<T>(node.rotation_row);
   }
   const bool polar = body.frame == FrameAlgorithm::polar;
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     const LocalNode<S>& local = motion.node[i];
     if (node.has_translation()) {
-      const Vec3<S> f = r_B.template segment<3>(node.translation_row) - node.alpha * total;
-      r_B.template segment<3>(node.translation_row).noalias() = motion.R0 * f;
-      if (polar) r_B.template segment<3>(node.translation_row) += local.U_x.transpose() * moment;
+      auto r = r_B.template segment<D>(node.translation_row);
+      const Eigen::Matrix<S, D, 1> f = r - node.alpha * total;
+      r.noalias() = vector_part<D>(motion.R0) * f;
+      if (polar) r += turns_by_vectors<D>(local.U_x).transpose() * moment;
     }
     if (node.has_rotation()) {
-      const Vec3<S> f = r_B.template segment<3>(node.rotation_row);
-      r_B.template segment<3>(node.rotation_row) = local.Tinv.transpose() * f + local.U.transpose() * moment;
+      auto r = r_B.template segment<T>(node.rotation_row);
+      const Eigen::Matrix<S, T, 1> f = r;
+      r = turn_part<D>(local.Tinv).transpose() * f + turn_part<D>(local.U).transpose() * moment;
     }
   }
+}
+template <class S>
+void pull_back(const SuperelementBody& body, const LocalMotion<S>& motion, const FrameForces<S>& frame,
+               Eigen::Matrix<S, Eigen::Dynamic, 1>& r_B) {
+  in_space(body.planar, [&]<int D>() { pull_back_in<D>(body, motion, frame, r_B); });
 }
 
 /// Inertia option F: Lagrange's equations of [SO] 4 with the elastic forces of [SO] 3.
@@ -180,20 +185,53 @@ void full_inertia_forces(const SuperelementBody& body, const LocalMotion<S>& mot
   pull_back(body, motion, frame, out.r_B);
 }
 
-/// The sums over nodes of superelement_forces() in the plane: there the turning momentum of rotations vanishes.
-template <class S>
-void planar_forces(const SuperelementBody& body, const LocalMotion<S>& motion, S moment, Vec3<S> total,
-                   SuperelementForces<S>& out) {
-  moment += planar::frame_moment<S>(body, motion, out.s_B, total);
-  out.r_B = out.f_B + out.s_B;
+/// The sums over nodes of superelement_forces(): `moment` is conjugate to δΘ₀, `total` to −δx₀ (axes of the frame).
+template <int D, class S>
+void forces_on_nodes(const SuperelementBody& body, const LocalMotion<S>& motion,
+                     Eigen::Matrix<S, Space<D>::turns, 1> moment, Eigen::Matrix<S, D, 1> total,
+                     SuperelementForces<S>& out) {
+  constexpr int T = Space<D>::turns;
+  const bool option_A = body.inertia == formats::InertiaOption::A;
   for (std::size_t i = 0; i < body.node.size(); ++i) {
-    const int row = body.node[i].translation_row;
-    if (row < 0) continue;
-    const Vec3<S> p = planar::vector_at(out.p_B, row);
-    moment -= planar::cross_z<S>(p, motion.node[i].xd);
-    out.r_B.template segment<2>(row) += planar::turned<S>(motion.Omega0.z(), p).template head<2>();
+    const SuperelementNode& node = body.node[i];
+    const LocalNode<S>& local = motion.node[i];
+    if (node.has_translation()) {
+      auto s = out.s_B.template segment<D>(node.translation_row), p = out.p_B.template segment<D>(node.translation_row);
+      total += s;
+      moment -= wedge(vector_part<D>(local.xh), s) + wedge(p, vector_part<D>(local.xd));
+    }
+    if (node.has_rotation()) {
+      moment.noalias() -= turn_part<D>(local.Tinv) * out.s_B.template segment<T>(node.rotation_row);
+      if (option_A) moment -= wedge(out.p_B.template segment<T>(node.rotation_row), turn_part<D>(local.Omega));
+    }
   }
-  planar::forces_on_nodes<S>(body, motion, total, moment, out.r_B);
+  const bool polar = body.frame == FrameAlgorithm::polar;
+  const auto& w = turn_part<D>(motion.Omega0);
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    const LocalNode<S>& local = motion.node[i];
+    if (node.has_translation()) {
+      const int row = node.translation_row;
+      auto r = out.r_B.template segment<D>(row), p = out.p_B.template segment<D>(row);
+      const Eigen::Matrix<S, D, 1> f =
+          out.f_B.template segment<D>(row) + wedge(w, p) + out.s_B.template segment<D>(row) - node.alpha * total;
+      r.noalias() = vector_part<D>(motion.R0) * f;
+      if (polar) r += turns_by_vectors<D>(local.U_x).transpose() * moment;
+    }
+    if (node.has_rotation()) {
+      const int row = node.rotation_row;
+      const auto& Omega = turn_part<D>(local.Omega);
+      auto p = out.p_B.template segment<T>(row);
+      Eigen::Matrix<S, T, 1> f = out.f_B.template segment<T>(row);
+      if (option_A)
+        f = (turn_part<D>(local.E).transpose() * (f + wedge(w - Omega, p))).eval();
+      else
+        f += wedge(Omega, p);
+      f.noalias() += turn_part<D>(local.Tinv).transpose() * out.s_B.template segment<T>(row);
+      f.noalias() += turn_part<D>(local.U).transpose() * moment;
+      out.r_B.template segment<T>(row) = f;
+    }
+  }
 }
 
 /// r = Pᵀ M̄ ÿ + [Pᵀ(O₀ ∓ O_B) − UᵀVᵀ] p + Υᵀ(S̄ y + D ẏ) − gravity; − O_B in option A ([Car00] (45)), + in B ((60)),
@@ -223,51 +261,8 @@ void superelement_forces(const SuperelementBody& body, const LocalMotion<S>& mot
     moment -= out.loads.moment;
     total += out.loads.force;
   }
-  if (body.planar) {
-    planar_forces(body, motion, moment.z(), total, out);
-    return;
-  }
-  const bool option_A = body.inertia == formats::InertiaOption::A;
-  for (std::size_t i = 0; i < body.node.size(); ++i) {
-    const SuperelementNode& node = body.node[i];
-    const LocalNode<S>& local = motion.node[i];
-    if (node.has_translation()) {
-      const Vec3<S> s = out.s_B.template segment<3>(node.translation_row);
-      const Vec3<S> p = out.p_B.template segment<3>(node.translation_row);
-      total += s;
-      moment -= cross<S>(local.xh, s) + cross<S>(p, local.xd);
-    }
-    if (node.has_rotation()) {
-      const Vec3<S> s = out.s_B.template segment<3>(node.rotation_row);
-      moment.noalias() -= local.Tinv * s;
-      if (option_A) moment -= cross<S>(out.p_B.template segment<3>(node.rotation_row), local.Omega);
-    }
-  }
-  const bool polar = body.frame == FrameAlgorithm::polar;
-  for (std::size_t i = 0; i < body.node.size(); ++i) {
-    const SuperelementNode& node = body.node[i];
-    const LocalNode<S>& local = motion.node[i];
-    if (node.has_translation()) {
-      const int row = node.translation_row;
-      const Vec3<S> p = out.p_B.template segment<3>(row);
-      const Vec3<S> f = out.f_B.template segment<3>(row) + cross<S>(motion.Omega0, p) +
-                        out.s_B.template segment<3>(row) - node.alpha * total;
-      out.r_B.template segment<3>(row).noalias() = motion.R0 * f;
-      if (polar) out.r_B.template segment<3>(row) += local.U_x.transpose() * moment;
-    }
-    if (node.has_rotation()) {
-      const int row = node.rotation_row;
-      const Vec3<S> p = out.p_B.template segment<3>(row);
-      Vec3<S> f = out.f_B.template segment<3>(row);
-      if (option_A)
-        f = (local.E.transpose() * (f + cross<S>(motion.Omega0 - local.Omega, p))).eval();
-      else
-        f += cross<S>(local.Omega, p);
-      f.noalias() += local.Tinv.transpose() * out.s_B.template segment<3>(row);
-      f.noalias() += local.U.transpose() * moment;
-      out.r_B.template segment<3>(row) = f;
-    }
-  }
+  in_space(body.planar,
+           [&]<int D>() { forces_on_nodes<D, S>(body, motion, turn_part<D>(moment), vector_part<D>(total), out); });
 }
 
 }  // namespace tisserand::mechanism
