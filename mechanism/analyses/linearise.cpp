@@ -24,8 +24,7 @@ void add_superelement(const Model& model, std::size_t i, const TangentCoefficien
   const SuperelementBody& body = body_of(model, i);
   MatrixXd local;
   const Vector3d gravity = evaluation.load_factor * model.superelements[i].gravity;
-  uncondensed_tangent(body, evaluation.superelements[i], nodes_of(model, i, evaluation), gravity, c, TangentKind::exact,
-                      local);
+  whole_exact_tangent(body, evaluation.superelements[i], nodes_of(model, i, evaluation), gravity, c, local);
   std::vector<int> rows = model.superelements.maps[i].coordinates;
   for (int k = 0; k < body.modes; ++k) rows.push_back(model.sizes.boundary + model.internal_offset[i] + k);
   for (Eigen::Index column = 0; column < local.cols(); ++column)

@@ -8,6 +8,7 @@
 #include "common/math/rotation.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/bodies/reduced_frames.hpp"
+#include "tests/support/bodies/uncondensed_tangent.hpp"
 #include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::mechanism::superelement_motion_test {
@@ -55,8 +56,8 @@ Vector3d angular_momentum(Simulation& run) {
   const SuperelementBody& body = body_of(run.model(), 0);
   const NodeView<NodeMotion> nodes = nodes_of(run.model(), 0, run.workspace.now);
   Eigen::MatrixXd M;
-  uncondensed_tangent(body, run.workspace.now.superelements[0], nodes, Vector3d::Zero(), {1, 0, 0}, TangentKind::step,
-                      M);
+  test_support::uncondensed_tangent(body, run.workspace.now.superelements[0], nodes, Vector3d::Zero(), {1, 0, 0},
+                                    TangentKind::step, M);
   const Eigen::VectorXd p = M * Eigen::VectorXd(run.state().v());
   Vector3d sum = Vector3d::Zero();
   for (std::size_t j = 0; j < body.node.size(); ++j) {

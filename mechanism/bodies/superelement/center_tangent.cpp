@@ -106,29 +106,6 @@ Matrix3d acceleration_of_rates(const TangentCoefficients& c, const LocalMotion<d
 
 }  // namespace
 
-Eigen::MatrixXd center_of_mass_tangent(const SuperelementBody& body, const LocalMotion<double>& motion,
-                                       const SuperelementTangent& frozen) {
-  const Eigen::Index nb = body.boundary_size, n = nb + body.modes;
-  const TangentCoefficients& c = frozen.coefficients;
-  using Whole = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-  Whole w(n, 3), g(n, 3), z(n, 3), J(n, 3), F(n, 3);
-  CenterColumns boundary{w.topRows(nb), g.topRows(nb), z.topRows(nb), J.topRows(nb), F.topRows(nb)};
-  set_columns(body, motion, c, boundary);
-  Eigen::VectorXd column(nb);
-  for (int k = 0; k < 3; ++k) {
-    apply_W(body, frozen, body.Gamma_B.row(k), column);
-    w.col(k).head(nb) = column;
-  }
-  g.bottomRows(body.modes) = body.Gamma_I.transpose();
-  w.bottomRows(body.modes) = c.mass * g.bottomRows(body.modes);
-  z.bottomRows(body.modes).setZero();
-  J.bottomRows(body.modes) = g.bottomRows(body.modes) / body.mass;
-  F.bottomRows(body.modes) = J.bottomRows(body.modes) * acceleration_of_rates(c, motion).transpose();
-  Eigen::MatrixXd A = body.mass * J * F.transpose() - (w * g.transpose() + g * z.transpose()) / body.mass;
-  A.bottomRightCorner(body.modes, body.modes).setZero();
-  return A;
-}
-
 void add_center_of_mass_tangent(const SuperelementBody& body, SuperelementScratch& scratch, SuperelementWork& work) {
   SuperelementTangent& frozen = scratch.tangent;
   const TangentCoefficients& c = frozen.coefficients;

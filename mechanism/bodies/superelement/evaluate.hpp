@@ -109,8 +109,8 @@ void tangent(const SuperelementBody& body, const TangentCoefficients& coefficien
              SuperelementWork& work);
 
 /// The step tangent with the internal coordinates kept: work.A_BB, and A_BI, A_IB of the tangent, whose sizes the
-/// caller has set; all linear in the coefficients. A_II is c_m + c_c D_II + c_k S_II. condense() and expand() are not
-/// for it.
+/// caller has set; all linear in the coefficients. A_II is c_m + c_c D_II + c_k S_II, and of bodies with second-order
+/// terms the lower triangle of the last m rows of work.second.K. condense() and expand() are not for it.
 void kept_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
                   SuperelementWork& work);
 
@@ -131,10 +131,10 @@ void expand(const SuperelementBody& body, const SuperelementScratch& scratch, co
 void expand_motion(const SuperelementBody& body, const SuperelementScratch& scratch, const double* dq_B, double* dy_I,
                    SuperelementWork& work);
 
-/// The whole (nb + m)² tangent, y_I not eliminated; after residual(). Allocates.
-void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch& scratch,
+/// The exact tangent with y_I not eliminated, (nb + m)²; after residual(). Allocates.
+void whole_exact_tangent(const SuperelementBody& body, const SuperelementScratch& scratch,
                          const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,
-                         const TangentCoefficients& coefficients, TangentKind kind, Eigen::MatrixXd& A);
+                         const TangentCoefficients& coefficients, Eigen::MatrixXd& A);
 
 /// Generalised force of a load case with the factor 1 on the nodes and on the internal coordinates, after residual().
 void load_case_direction(const SuperelementBody& body, int load_case, const SuperelementScratch& scratch,

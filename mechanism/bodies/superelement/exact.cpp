@@ -1,12 +1,10 @@
-// Whole tangents of a superelement body: the step tangent in dense form, and the exact one by dual numbers.
+// The exact tangent of a superelement body, by dual numbers.
 #include <Eigen/Core>
 #include <Eigen/LU>
 
 #include "common/math/dual.hpp"
-#include "mechanism/bodies/superelement/center_tangent.hpp"
 #include "mechanism/bodies/superelement/coupling.hpp"
 #include "mechanism/bodies/superelement/evaluate.hpp"
-#include "mechanism/bodies/superelement/second_order_tangent.hpp"
 
 namespace tisserand::mechanism {
 
@@ -40,10 +38,13 @@ Node perturbed(const NodeMotion& node, const Eigen::Vector3d& x, const Eigen::Ve
   return out;
 }
 
-/// Column by column: the derivative of (r_B, r_I) in each direction. R₀ at entry: the converged one for iterated
-/// frames, the same reference as update_kinematics() had for the incremental one.
-void exact_columns(const SuperelementBody& body, const SuperelementScratch& scratch, const NodeView<NodeMotion>& nodes,
-                   const Eigen::Vector3d& gravity, const TangentCoefficients& c, Eigen::MatrixXd& A) {
+}  // namespace
+
+// Column by column: the derivative of (r_B, r_I) in each direction. R₀ at entry: the converged one for iterated frames,
+// the same reference as update_kinematics() had for the incremental one.
+void whole_exact_tangent(const SuperelementBody& body, const SuperelementScratch& scratch,
+                         const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,
+                         const TangentCoefficients& c, Eigen::MatrixXd& A) {
   const int nb = body.boundary_size, n = nb + body.modes;
   A.resize(n, n);
   LocalMotion<Dual> motion = make_local_motion<Dual>(body);
@@ -77,114 +78,12 @@ void exact_columns(const SuperelementBody& body, const SuperelementScratch& scra
   }
 }
 
-/// The matrices of the formulation in full, (nb + m) rows: P, Υ square; V, V₁ three columns; U three rows.
-struct DenseForm {
-  Eigen::MatrixXd S, M, D, P, Upsilon, V, V1, U, O0, OB, momentum;
-};
-
-/// Sets the blocks that belong to one node alone; Υ couples all of them and is set by dense_form().
-void set_node_blocks(const SuperelementBody& body, const SuperelementScratch& scratch, std::size_t i, DenseForm& d) {
-  const SuperelementNode& node = body.node[i];
-  const LocalMotion<double>& motion = scratch.motion;
-  const LocalNode<double>& local = motion.node[i];
-  const bool option_A = body.inertia == formats::InertiaOption::A;
-  if (node.has_translation()) {
-    const int row = node.translation_row;
-    d.P.block<3, 3>(row, row) = motion.R0.transpose();
-    d.V.middleRows<3>(row) = skew<double>(local.xd);
-    d.V1.middleRows<3>(row) = -skew<double>(scratch.forces.p_B.segment<3>(row));
-    d.O0.block<3, 3>(row, row) = skew<double>(motion.Omega0);
-    if (body.frame == FrameAlgorithm::polar) d.U.middleCols<3>(row) = local.U_x;
-  }
-  if (!node.has_rotation()) return;
-  const int row = node.rotation_row;
-  const Eigen::Matrix3d p = skew<double>(scratch.forces.p_B.segment<3>(row));
-  d.U.middleCols<3>(row) = local.U;
-  d.OB.block<3, 3>(row, row) = skew<double>(local.Omega);
-  d.momentum.block<3, 3>(row, row) = p;
-  if (option_A) {
-    d.P.block<3, 3>(row, row) = local.E;
-    d.V.middleRows<3>(row) = skew<double>(local.Omega);
-    d.V1.middleRows<3>(row) = -p;
-    d.O0.block<3, 3>(row, row) = skew<double>(motion.Omega0);
-  }
-}
-
-DenseForm dense_form(const SuperelementBody& body, const SuperelementScratch& scratch) {
-  const int nb = body.boundary_size, m = body.modes, n = nb + m;
-  const auto zero = [](int rows, int cols) { return Eigen::MatrixXd(Eigen::MatrixXd::Zero(rows, cols)); };
-  DenseForm d{zero(n, n),
-              zero(n, n),
-              zero(n, n),
-              Eigen::MatrixXd::Identity(n, n),
-              Eigen::MatrixXd::Identity(n, n),
-              zero(n, 3),
-              zero(n, 3),
-              zero(3, n),
-              zero(n, n),
-              zero(n, n),
-              zero(n, n)};
-  d.S.topLeftCorner(nb, nb) = body.S_BB;
-  d.S.bottomRightCorner(m, m) = body.S_II.asDiagonal();
-  d.M << body.M_BB, body.M_BI, body.M_IB, Eigen::MatrixXd::Identity(m, m);
-  if (body.damping.is_full()) d.D << body.damping.BB, body.damping.BI, body.damping.IB, body.damping.II;
-  d.D.topLeftCorner(nb, nb) += body.damping.stiffness * body.S_BB;
-  d.D.bottomRightCorner(m, m).diagonal() += body.damping.internal;
-  for (std::size_t i = 0; i < body.node.size(); ++i) set_node_blocks(body, scratch, i, d);
-  SuperelementTangent frozen = scratch.tangent;
-  frozen.R0 = scratch.motion.R0;
-  frozen.node = scratch.motion.node;
-  Eigen::VectorXd column(nb);
-  for (int j = 0; j < nb; ++j) {
-    const Eigen::VectorXd unit = Eigen::VectorXd::Unit(nb, j);
-    apply_upsilon(body, frozen, unit.data(), column);
-    d.Upsilon.col(j).head(nb) = column;
-  }
-  return d;
-}
-
-}  // namespace
-
-void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch& scratch,
-                         const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,
-                         const TangentCoefficients& c, TangentKind kind, Eigen::MatrixXd& A) {
-  if (kind == TangentKind::exact) {
-    exact_columns(body, scratch, nodes, gravity, c, A);
-    return;
-  }
-  if (body.second_order.inertia) {
-    A = whole_full_inertia_tangent(body, c, scratch);
-    return;
-  }
-  if (body.planar) {
-    A = planar_whole_tangent(body, c, scratch);
-    return;
-  }
-  const DenseForm d = dense_form(body, scratch);
-  const Eigen::MatrixXd PT = d.P.transpose(), UT = d.U.transpose();
-  const Eigen::MatrixXd C1 = PT * (d.O0 * d.M + d.M * d.O0.transpose()) * d.P;
-  const Eigen::MatrixXd C2 = PT * (d.M * d.V + d.V1) * d.U - UT * (d.V1.transpose() + d.V.transpose() * d.M) * d.P;
-  const double sign = body.inertia == formats::InertiaOption::A ? -1.0 : 1.0;
-  const Eigen::MatrixXd C3 = sign * PT * (d.OB * d.M - d.momentum) * d.P;
-  const Eigen::MatrixXd UpsilonT = d.Upsilon.transpose();
-  A = c.mass * PT * d.M * d.P + c.damping * (C1 + C2 + C3 + UpsilonT * d.D * d.Upsilon) +
-      c.stiffness * UpsilonT * d.S * d.Upsilon;
-  if (body.second_order.stiffening) A += whole_stiffening_tangent(body, c, scratch);
-  if (body.inertia != formats::InertiaOption::M) return;
-  SuperelementTangent frozen = scratch.tangent;
-  frozen.coefficients = c;
-  frozen.R0 = scratch.motion.R0;
-  frozen.Omega0 = scratch.motion.Omega0;
-  frozen.node = scratch.motion.node;
-  A += center_of_mass_tangent(body, scratch.motion, frozen);
-}
-
 void exact_tangent(const SuperelementBody& body, const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,
                    const TangentCoefficients& coefficients, SuperelementScratch& scratch, SuperelementWork& work) {
   const Eigen::Index nb = body.boundary_size, m = body.modes;
   SuperelementTangent& frozen = scratch.tangent;
   Eigen::MatrixXd A;
-  exact_columns(body, scratch, nodes, gravity, coefficients, A);
+  whole_exact_tangent(body, scratch, nodes, gravity, coefficients, A);
   frozen.dense_coupling = true;
   frozen.A_BI = A.topRightCorner(nb, m);
   frozen.A_IB = A.bottomLeftCorner(m, nb);

@@ -223,22 +223,4 @@ void planar_tangent(const SuperelementBody& body, SuperelementScratch& scratch, 
   turn_columns(body, frozen.R0, frozen.A_IB);
 }
 
-MatrixXd planar_whole_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
-                              const SuperelementScratch& scratch) {
-  const int nb = body.boundary_size, m = body.modes;
-  SuperelementScratch copy = scratch;
-  SuperelementWork work = make_work(body);
-  kept_tangent(body, coefficients, copy, work);
-  MatrixXd A = MatrixXd::Zero(nb + m, nb + m);
-  A.topLeftCorner(nb, nb) = work.A_BB;
-  A.topRightCorner(nb, m) = copy.tangent.A_BI;
-  A.bottomLeftCorner(m, nb) = copy.tangent.A_IB;
-  if (body.damping.is_full()) A.bottomRightCorner(m, m) = coefficients.damping * body.damping.II;
-  A.bottomRightCorner(m, m).diagonal() += coefficients.stiffness * body.S_II +
-                                          coefficients.damping * body.damping.internal +
-                                          Eigen::VectorXd::Constant(m, coefficients.mass);
-  if (body.second_order.stiffening) A += whole_stiffening_tangent(body, coefficients, scratch);
-  return A;
-}
-
 }  // namespace tisserand::mechanism

@@ -181,22 +181,6 @@ void add_frame_stiffness(const SuperelementBody& body, const SuperelementForces<
   });
 }
 
-/// [Zᵀ 0; 0 1] K [Z 0; 0 1] of the lower triangle in `work`, and K_f.
-MatrixXd whole_tangent(const SuperelementBody& body, const SuperelementForces<double>& forces, double stiffness,
-                       const SuperelementTangent& frozen, SuperelementWork& work) {
-  const int nb = body.boundary_size, m = body.modes;
-  SecondOrderWork& w = work.second;
-  copy_boundary(body, w);
-  pull_back_boundary(body, frozen, work);
-  work.A_BB = work.work_1;
-  add_frame_stiffness(body, forces, stiffness, frozen, work);
-  MatrixXd IB(m, nb), thin(m, 6), A(nb + m, nb + m);
-  times_Z(body, frozen, w.K_Ib, IB, thin);
-  const MatrixXd II = w.K.bottomRightCorner(m, m).selfadjointView<Lower>();
-  A << work.A_BB, IB.transpose(), IB, II;
-  return A;
-}
-
 }  // namespace
 
 SecondOrderWork make_second_order_work(const SuperelementBody& body) {
@@ -221,7 +205,7 @@ SecondOrderWork make_second_order_work(const SuperelementBody& body) {
 }
 
 void full_inertia_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
-                          SuperelementScratch& scratch, SuperelementWork& work) {
+                          InternalCoordinates internal, SuperelementScratch& scratch, SuperelementWork& work) {
   SecondOrderWork& w = work.second;
   SuperelementTangent& frozen = scratch.tangent;
   freeze_frame(scratch.motion, coefficients, frozen);
@@ -229,9 +213,11 @@ void full_inertia_tangent(const SuperelementBody& body, const TangentCoefficient
   assemble_full_inertia(body, scratch.forces, coefficients, w);
   copy_boundary(body, w);
   if (body.modes > 0) {
-    frozen.factor.factor_symmetric(w.K.bottomRightCorner(body.modes, body.modes));
     times_Z(body, frozen, w.K_Ib, frozen.A_IB, w.thin_internal);
     frozen.A_BI = frozen.A_IB.transpose();
+  }
+  if (body.modes > 0 && internal == InternalCoordinates::eliminated) {
+    frozen.factor.factor_symmetric(w.K.bottomRightCorner(body.modes, body.modes));
     frozen.factor.subtract_schur(w.K_Ib, w.K_bb);
   }
   pull_back_boundary(body, frozen, work);
@@ -240,7 +226,7 @@ void full_inertia_tangent(const SuperelementBody& body, const TangentCoefficient
 }
 
 void add_stiffening_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
-                            SuperelementScratch& scratch, SuperelementWork& work) {
+                            InternalCoordinates internal, SuperelementScratch& scratch, SuperelementWork& work) {
   SecondOrderWork& w = work.second;
   SuperelementTangent& frozen = scratch.tangent;
   const int m = body.modes;
@@ -254,29 +240,11 @@ void add_stiffening_tangent(const SuperelementBody& body, const TangentCoefficie
     II.diagonal().array() += coefficients.mass;
     II.diagonal() += coefficients.stiffness * body.S_II + coefficients.damping * body.damping.internal;
     if (body.damping.is_full()) II += coefficients.damping * body.damping.II;
-    frozen.factor.factor_symmetric(II);
+    if (internal == InternalCoordinates::eliminated) frozen.factor.factor_symmetric(II);
   }
   pull_back_boundary(body, frozen, work);
   work.A_BB += work.work_1;
   add_frame_stiffness(body, scratch.forces, coefficients.stiffness, frozen, work);
-}
-
-MatrixXd whole_full_inertia_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
-                                    const SuperelementScratch& scratch) {
-  SuperelementWork work = make_work(body);
-  SuperelementTangent frozen = scratch.tangent;
-  freeze_frame(scratch.motion, coefficients, frozen);
-  assemble_full_inertia(body, scratch.forces, coefficients, work.second);
-  return whole_tangent(body, scratch.forces, coefficients.stiffness, frozen, work);
-}
-
-MatrixXd whole_stiffening_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
-                                  const SuperelementScratch& scratch) {
-  SuperelementWork work = make_work(body);
-  SuperelementTangent frozen = scratch.tangent;
-  freeze_frame(scratch.motion, coefficients, frozen);
-  assemble_stiffening(body, scratch.forces, coefficients, work.second);
-  return whole_tangent(body, scratch.forces, coefficients.stiffness, frozen, work);
 }
 
 }  // namespace tisserand::mechanism

@@ -12,23 +12,18 @@ namespace tisserand::mechanism {
 /// Matrices to work in, of bodies with second-order terms.
 SecondOrderWork make_second_order_work(const SuperelementBody& body);
 
-/// Step tangent of inertia option F, internal coordinates eliminated: work.A_BB and the blocks of condense() and
-/// expand(). c_m Zᵀ M_ν Z + c_k (Υᵀ K_y Υ + K_f) + c_c Υᵀ D Υ with Z = [A₀; U; Υ] ([SO] 5): mass and stiffness are
-/// exact, the derivatives by velocities of the inertia and those of inertia and weight by positions are left out.
+/// Whether y_I is eliminated from the boundary part of a tangent, for which A_II is factored.
+enum class InternalCoordinates { kept, eliminated };
+
+/// Step tangent of inertia option F: work.A_BB and the blocks of condense() and expand(). c_m Zᵀ M_ν Z + c_k (Υᵀ K_y Υ
+/// + K_f) + c_c Υᵀ D Υ with Z = [A₀; U; Υ] ([SO] 5): mass and stiffness are exact, the derivatives by velocities of the
+/// inertia and those of inertia and weight by positions are left out.
 void full_inertia_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
-                          SuperelementScratch& scratch, SuperelementWork& work);
+                          InternalCoordinates internal, SuperelementScratch& scratch, SuperelementWork& work);
 
-/// Adds c_k (Υᵀ (K_y − S̄) Υ + K_f) to work.A_BB, A_BI and A_IB, and factors A_II.
+/// Adds c_k (Υᵀ (K_y − S̄) Υ + K_f) to work.A_BB, A_BI and A_IB.
 void add_stiffening_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
-                            SuperelementScratch& scratch, SuperelementWork& work);
-
-/// The whole (nb + m)² step tangent of inertia option F.
-Eigen::MatrixXd whole_full_inertia_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
-                                           const SuperelementScratch& scratch);
-
-/// What add_stiffening_tangent() adds, in (nb + m)² form.
-Eigen::MatrixXd whole_stiffening_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
-                                         const SuperelementScratch& scratch);
+                            InternalCoordinates internal, SuperelementScratch& scratch, SuperelementWork& work);
 
 /// 3 x nb each.
 struct FrameStiffnessWork {
@@ -60,9 +55,5 @@ void add_frame_stiffness(const SuperelementBody& body, const SuperelementTangent
 /// work.A_BB with internal coordinates kept, and A_BI, A_IB of `scratch.tangent`, for work.coefficients, after freezing
 /// the state; with the terms of inertia option M. Stiffness and damping as in tangent(): work.K if the damping is full.
 void planar_tangent(const SuperelementBody& body, SuperelementScratch& scratch, SuperelementWork& work);
-
-/// The whole step tangent, internal coordinates kept. Allocates.
-Eigen::MatrixXd planar_whole_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
-                                     const SuperelementScratch& scratch);
 
 }  // namespace tisserand::mechanism

@@ -300,44 +300,47 @@ void boundary_tangent(const SuperelementBody& body, const SuperelementScratch& s
   }
 }
 
+/// work.A_BB with the internal coordinates kept, A_BI and A_IB, without the terms of stiffening.
+void boundary_and_coupling(const SuperelementBody& body, SuperelementScratch& scratch, SuperelementWork& work) {
+  if (body.planar) return planar_tangent(body, scratch, work);
+  boundary_tangent(body, scratch, false, work);
+  // They work in the vectors and thin matrices that the tangent above is done with.
+  if (body.modes > 0) store_coupling(body, scratch.tangent, work);
+  if (body.inertia == InertiaOption::M) add_center_of_mass_tangent(body, scratch, work);
+}
+
 }  // namespace
 
 void tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
              SuperelementWork& work) {
   if (body.second_order.inertia) {
-    full_inertia_tangent(body, coefficients, scratch, work);
+    full_inertia_tangent(body, coefficients, InternalCoordinates::eliminated, scratch, work);
     return;
   }
   update_constants(body, coefficients, work);
   freeze(body, scratch.motion, work, scratch.tangent);
-  const bool exact_center = body.inertia == InertiaOption::M;
-  const bool stiffening = body.second_order.stiffening.has_value();
-  const bool eliminate = body.modes > 0 && !body.planar && !body.damping.is_full() && !exact_center && !stiffening;
-  if (body.planar) {
-    planar_tangent(body, scratch, work);
-  } else {
-    boundary_tangent(body, scratch, eliminate, work);
-    // They work in the vectors and thin matrices that the tangent above is done with.
-    if (body.modes > 0 && !eliminate) store_coupling(body, scratch.tangent, work);
-    if (exact_center) add_center_of_mass_tangent(body, scratch, work);
-  }
-  if (stiffening) add_stiffening_tangent(body, coefficients, scratch, work);
-  if (body.modes > 0 && !eliminate) eliminate_internal(body, scratch.tangent, work);
+  const bool stored =
+      body.planar || body.damping.is_full() || body.inertia == InertiaOption::M || body.second_order.stiffening;
+  if (!stored) return boundary_tangent(body, scratch, body.modes > 0, work);
+  boundary_and_coupling(body, scratch, work);
+  if (body.second_order.stiffening)
+    add_stiffening_tangent(body, coefficients, InternalCoordinates::eliminated, scratch, work);
+  if (body.modes > 0) eliminate_internal(body, scratch.tangent, work);
 }
 
 void kept_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
                   SuperelementWork& work) {
+  if (body.second_order.inertia) {
+    full_inertia_tangent(body, coefficients, InternalCoordinates::kept, scratch, work);
+    return;
+  }
   update_full_stiffness(body, coefficients, work);
   work.coefficients = coefficients;
   work.constants_valid = false;
   freeze(body, scratch.motion, work, scratch.tangent);
-  if (body.planar) {
-    planar_tangent(body, scratch, work);
-    return;
-  }
-  boundary_tangent(body, scratch, false, work);
-  if (body.modes > 0) store_coupling(body, scratch.tangent, work);
-  if (body.inertia == InertiaOption::M) add_center_of_mass_tangent(body, scratch, work);
+  boundary_and_coupling(body, scratch, work);
+  if (body.second_order.stiffening)
+    add_stiffening_tangent(body, coefficients, InternalCoordinates::kept, scratch, work);
 }
 
 }  // namespace tisserand::mechanism

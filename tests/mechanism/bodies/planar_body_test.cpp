@@ -13,6 +13,7 @@
 #include "mechanism/bodies/superelement/evaluate.hpp"
 #include "mechanism/build/build_model.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
+#include "tests/support/bodies/uncondensed_tangent.hpp"
 #include "tests/support/scenes/planar_scenes.hpp"
 #include "tests/support/scenes/second_order_scenes.hpp"
 
@@ -65,8 +66,8 @@ Evaluated evaluated(const SuperelementBody& body, const std::vector<NodeMotion>&
   out.r.resize(body.boundary_size + body.modes);
   out.r << scratch.forces.r_B, scratch.forces.r_I;
   const TangentCoefficients c{1.3, 17.0, 250.0};
-  uncondensed_tangent(body, scratch, view, gravity, c, TangentKind::step, out.step);
-  uncondensed_tangent(body, scratch, view, gravity, c, TangentKind::exact, out.exact);
+  test_support::uncondensed_tangent(body, scratch, view, gravity, c, TangentKind::step, out.step);
+  test_support::uncondensed_tangent(body, scratch, view, gravity, c, TangentKind::exact, out.exact);
   out.energy = energy(body, scratch, gravity);
   out.damping = damping_power(body, scratch);
   return out;

@@ -7,6 +7,7 @@
 #include "mechanism/bodies/superelement/second_order_tangent.hpp"
 #include "tests/support/bodies/second_order_known_answers.hpp"
 #include "tests/support/bodies/superelement_known_answers.hpp"
+#include "tests/support/bodies/uncondensed_tangent.hpp"
 
 namespace tisserand::mechanism::second_order_known_answers_test {
 namespace {
@@ -62,7 +63,7 @@ class SecondOrderAnswers : public ::testing::TestWithParam<std::string> {
   /// The whole tangent of one kind times the direction of the answer.
   VectorXd product(const TangentCoefficients& c, TangentKind kind) const {
     MatrixXd A;
-    uncondensed_tangent(body_, scratch_, test_support::in_order(state_.nodes), gravity_, c, kind, A);
+    test_support::uncondensed_tangent(body_, scratch_, test_support::in_order(state_.nodes), gravity_, c, kind, A);
     return in_file(A * direction());
   }
 
@@ -156,10 +157,10 @@ TEST_P(SecondOrderAnswers, StepTangentAtRestIsExact) {
     test_support::evaluate(body_, state_, Vector3d::Zero(), scratch_);
     MatrixXd step, exact;
     for (const TangentCoefficients& c : {TangentCoefficients{0.0, 0.0, 1.0}, TangentCoefficients{1.0, 0.0, 0.1}}) {
-      uncondensed_tangent(body_, scratch_, test_support::in_order(state_.nodes), Vector3d::Zero(), c, TangentKind::step,
-                          step);
-      uncondensed_tangent(body_, scratch_, test_support::in_order(state_.nodes), Vector3d::Zero(), c,
-                          TangentKind::exact, exact);
+      test_support::uncondensed_tangent(body_, scratch_, test_support::in_order(state_.nodes), Vector3d::Zero(), c,
+                                        TangentKind::step, step);
+      test_support::uncondensed_tangent(body_, scratch_, test_support::in_order(state_.nodes), Vector3d::Zero(), c,
+                                        TangentKind::exact, exact);
       EXPECT_LT(relative_difference(step, exact), 1e-10);
     }
   }
@@ -179,7 +180,7 @@ TEST_P(SecondOrderAnswers, EliminationSolvesTheWholeSystem) {
       else
         exact_tangent(body_, nodes, gravity_, c, scratch_, work);
       MatrixXd A;
-      uncondensed_tangent(body_, scratch_, nodes, gravity_, c, kind, A);
+      test_support::uncondensed_tangent(body_, scratch_, nodes, gravity_, c, kind, A);
       condense(body_, scratch_, work);
       VectorXd r(A.rows()), d(A.rows());
       r << scratch_.forces.r_B, scratch_.forces.r_I;
@@ -209,11 +210,11 @@ TEST_P(SecondOrderAnswers, StiffnessAndMassAtRestAreThoseOfTheFile) {
   test_support::evaluate(body_, state_, Vector3d::Zero(), scratch_);
   MatrixXd A;
   const auto nodes = test_support::in_order(state_.nodes);
-  uncondensed_tangent(body_, scratch_, nodes, Vector3d::Zero(), {0.0, 0.0, 1.0}, TangentKind::step, A);
+  test_support::uncondensed_tangent(body_, scratch_, nodes, Vector3d::Zero(), {0.0, 0.0, 1.0}, TangentKind::step, A);
   const int nb = body_.boundary_size;
   EXPECT_LT(relative_difference(A.topLeftCorner(nb, nb), body_.S_BB), 1e-12);
   EXPECT_LT(relative_difference(A.diagonal().tail(body_.modes), body_.S_II), 1e-12);
-  uncondensed_tangent(body_, scratch_, nodes, Vector3d::Zero(), {1.0, 0.0, 0.0}, TangentKind::step, A);
+  test_support::uncondensed_tangent(body_, scratch_, nodes, Vector3d::Zero(), {1.0, 0.0, 0.0}, TangentKind::step, A);
   EXPECT_LT(relative_difference(A.topLeftCorner(nb, nb), body_.M_BB), 1e-12);
   EXPECT_LT(relative_difference(A.topRightCorner(nb, body_.modes), body_.M_BI), 1e-12);
 }
@@ -228,8 +229,8 @@ TEST_P(SecondOrderAnswers, MassIsPositive) {
     }
     test_support::evaluate(body_, state_, gravity_, scratch_);
     MatrixXd A;
-    uncondensed_tangent(body_, scratch_, test_support::in_order(state_.nodes), gravity_, {1.0, 0.0, 0.0},
-                        TangentKind::step, A);
+    test_support::uncondensed_tangent(body_, scratch_, test_support::in_order(state_.nodes), gravity_, {1.0, 0.0, 0.0},
+                                      TangentKind::step, A);
     EXPECT_LT(relative_difference(A, A.transpose()), 1e-12);
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(A).eigenvalues()[0], 0.0);
   }

@@ -6,6 +6,7 @@
 
 #include "mechanism/bodies/superelement/evaluate.hpp"
 #include "tests/support/bodies/superelement_known_answers.hpp"
+#include "tests/support/bodies/uncondensed_tangent.hpp"
 
 namespace tisserand::mechanism::superelement_known_answers_test {
 namespace {
@@ -53,8 +54,8 @@ class KnownAnswers : public ::testing::TestWithParam<std::tuple<std::string, Fra
   /// (tangent of one kind) times the velocity or acceleration of the state.
   Eigen::VectorXd tangent_product(const TangentCoefficients& c, const Eigen::VectorXd& file_vector) const {
     Eigen::MatrixXd A;
-    uncondensed_tangent(body_, scratch_, test_support::in_order(state_.nodes), Eigen::Vector3d::Zero(), c,
-                        TangentKind::step, A);
+    test_support::uncondensed_tangent(body_, scratch_, test_support::in_order(state_.nodes), Eigen::Vector3d::Zero(), c,
+                                      TangentKind::step, A);
     Eigen::VectorXd v = file_vector;
     v.tail(body_.modes) = body_.file.modal_part.partialPivLu().solve(Eigen::VectorXd(file_vector.tail(body_.modes)));
     return in_file_coordinates(A * v);

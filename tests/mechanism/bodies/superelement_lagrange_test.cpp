@@ -10,6 +10,7 @@
 #include "tests/support/bodies/reduced_frames.hpp"
 #include "tests/support/bodies/second_order_known_answers.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"
+#include "tests/support/bodies/uncondensed_tangent.hpp"
 
 namespace tisserand::mechanism::superelement_lagrange_test {
 namespace {
@@ -178,8 +179,7 @@ Eigen::VectorXd forces_of(const SuperelementBody& body, const BodyState& state, 
 TEST(SuperelementForces, RelativeTurnsMeetLagrangesEquations) {
   for (const char* name : {"beam2", "lframe3"}) {
     test_support::SecondOrderAnswer answer = test_support::second_order_answer(name);
-    const SuperelementBody without =
-        second_order_body(answer, InertiaOption::F, formats::StiffeningOption::full);
+    const SuperelementBody without = second_order_body(answer, InertiaOption::F, formats::StiffeningOption::full);
     const Eigen::Index n = answer.element.size();
     for (int k = 0; k < 3; ++k) {
       const Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(
@@ -195,7 +195,8 @@ TEST(SuperelementForces, RelativeTurnsMeetLagrangesEquations) {
     EXPECT_LT((added - (lagrange(with, state, R0) - lagrange(without, state, R0))).norm(), 1e-11 * all.norm()) << name;
     const auto tangent = [&](TangentKind kind) {
       Eigen::MatrixXd A;
-      uncondensed_tangent(with, scratch, test_support::in_order(state.nodes), kGravity, {1.0, 0.0, 0.0}, kind, A);
+      test_support::uncondensed_tangent(with, scratch, test_support::in_order(state.nodes), kGravity, {1.0, 0.0, 0.0},
+                                        kind, A);
       return A;
     };
     const Eigen::MatrixXd exact = tangent(TangentKind::exact);

@@ -8,6 +8,7 @@
 
 #include "tests/support/bodies/reduced_frames.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"
+#include "tests/support/bodies/uncondensed_tangent.hpp"
 
 namespace tisserand::mechanism::superelement_tangent_test {
 namespace {
@@ -103,7 +104,7 @@ class SuperelementTangents : public ::testing::TestWithParam<Case> {
   }
   Eigen::MatrixXd tangent_of(const TangentCoefficients& c, TangentKind kind) const {
     Eigen::MatrixXd A;
-    uncondensed_tangent(body_, scratch_, test_support::in_order(state_.nodes), kGravity, c, kind, A);
+    test_support::uncondensed_tangent(body_, scratch_, test_support::in_order(state_.nodes), kGravity, c, kind, A);
     return A;
   }
   Eigen::Matrix3d start_of_frame() const {

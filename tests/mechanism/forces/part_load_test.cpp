@@ -11,6 +11,7 @@
 #include "mechanism/analyses/statics.hpp"
 #include "tests/support/bodies/second_order_network.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"
+#include "tests/support/bodies/uncondensed_tangent.hpp"
 #include "tests/support/scenes/model_tangent.hpp"
 #include "tests/support/scenes/scenes.hpp"
 #include "tests/support/scenes/second_order_scenes.hpp"
@@ -244,8 +245,8 @@ TEST(PartLoad, ExactTangentAgainstDifferences) {
       test_support::evaluate(body, state, Vector3d(0.7, -9.1, 2.0), scratch);
       const TangentCoefficients c{0.3, 0.7, 1.1};
       MatrixXd A;
-      uncondensed_tangent(body, scratch, test_support::in_order(state.nodes), Vector3d(0.7, -9.1, 2.0), c,
-                          TangentKind::exact, A);
+      test_support::uncondensed_tangent(body, scratch, test_support::in_order(state.nodes), Vector3d(0.7, -9.1, 2.0), c,
+                                        TangentKind::exact, A);
       EXPECT_LT(test_support::relative_difference(A, differences(body, state, factors, c)), 1e-6);
     }
 }

@@ -11,6 +11,7 @@
 #include "tests/support/bodies/beam_states.hpp"
 #include "tests/support/bodies/reduced_frames.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"
+#include "tests/support/bodies/uncondensed_tangent.hpp"
 #include "tests/support/scenes/model_tangent.hpp"
 #include "tests/support/scenes/scenes.hpp"
 
@@ -192,8 +193,8 @@ TEST(Condensation, NewtonStepOfTheWholeSystemEqualsTheUncondensedOne) {
       const TangentCoefficients c{4e4, 2e2, 1.0};
       const int nb = model.sizes.boundary, n = model.sizes.velocities(), m = model.sizes.constraints;
       MatrixXd whole = MatrixXd::Zero(n + m, n + m), element;
-      uncondensed_tangent(body_of(model, 0), run.workspace.now.superelements[0], nodes_of(model, 0, run.workspace.now),
-                          scene.gravity, c, kind, element);
+      test_support::uncondensed_tangent(body_of(model, 0), run.workspace.now.superelements[0],
+                                        nodes_of(model, 0, run.workspace.now), scene.gravity, c, kind, element);
       whole.topLeftCorner(n, n) = element;  // the only body: its coordinates are the global ones in order
       Eigen::Matrix<double, 12, 12> K;
       const Joint& joint = model.joints[0];

@@ -14,6 +14,7 @@
 #include "mechanism/analyses/modes.hpp"
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/bodies/superelement/evaluate.hpp"
+#include "tests/support/bodies/uncondensed_tangent.hpp"
 #include "tests/support/scenes/scenes.hpp"
 #include "tests/support/scenes/second_order_scenes.hpp"
 
@@ -66,8 +67,9 @@ Momenta momenta(const Simulation& run) {
 double least_mass(const Simulation& run) {
   const SuperelementBody& body = body_of(run.model(), 0);
   MatrixXd A;
-  uncondensed_tangent(body, run.workspace.now.superelements[0], nodes_of(run.model(), 0, run.workspace.now),
-                      Vector3d::Zero(), {1.0, 0.0, 0.0}, TangentKind::step, A);
+  test_support::uncondensed_tangent(body, run.workspace.now.superelements[0],
+                                    nodes_of(run.model(), 0, run.workspace.now), Vector3d::Zero(), {1.0, 0.0, 0.0},
+                                    TangentKind::step, A);
   const auto unit = coordinate_units(body);
   const Eigen::VectorXd all =
       Eigen::SelfAdjointEigenSolver<MatrixXd>(unit.asDiagonal() * (0.5 * (A + A.transpose())) * unit.asDiagonal())
