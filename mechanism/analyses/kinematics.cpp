@@ -30,18 +30,6 @@ constexpr double increment_floor = 1e-14;
 /// Rows left out may be open by this much (relative to the length): more, and the rank has changed.
 constexpr double left_open = 1e-7;
 
-/// Largest gap of the rows, active or left out; lengths relative to the characteristic one.
-double largest_gap(const Model& model, const Workspace& workspace, double active) {
-  double largest = 0.0;
-  for (int row = 0; row < model.sizes.constraints; ++row) {
-    if (workspace.now.active[row] != active) continue;
-    const double length = model.length_row[row] ? model.length : 1.0;
-    const double gap = std::abs(workspace.now.constraint[row]) / length;
-    if (!(gap <= largest)) largest = gap;
-  }
-  return largest;
-}
-
 /// Factors [M Bᵀ; B 0] at the state of the last evaluate().
 FactorReport factor_constraints(const Model& model, const State& state, Workspace& workspace) {
   FactorReport report = workspace.matrix.factor(model, state, {{1.0, 0.0, 0.0}, TangentKind::step, {}}, workspace.now);
@@ -56,7 +44,7 @@ StepOutcome close_gaps(const Model& model, const formats::IntegratorSpec& option
   const double floor = std::max(increment_floor * model.length, round_off);
   for (;; ++report.iterations) {
     evaluate(model, state, workspace.now);
-    report.constraint = largest_gap(model, workspace, 1.0);
+    report.constraint = largest_violation(model, workspace.now, Rows::solved).value;
     if (!std::isfinite(report.constraint)) return StepOutcome::diverged;
     const bool met = report.constraint <= allowed;
     const bool still = report.iterations > 0 && workspace.matrix.correction.cwiseAbs().maxCoeff() < floor;
@@ -185,13 +173,15 @@ StepReport move_along(const Model& model, const formats::IntegratorSpec& options
   state.load_time() = end.load_time;
   report.outcome = close_gaps(model, options, state, workspace, report);
   const bool other_rank = report.outcome == StepOutcome::singular ||
-                          (report.outcome == StepOutcome::accepted && largest_gap(model, workspace, 0.0) > left_open);
+                          (report.outcome == StepOutcome::accepted &&
+                           largest_violation(model, workspace.now, Rows::left_out).value > left_open);
   if (other_rank) {
     find_active_rows(model, state, workspace);
     report.iterations = 0;
     report.outcome = close_gaps(model, options, state, workspace, report);
     // A row that is left out again although it is open: the drives do not determine the motion here.
-    if (report.outcome == StepOutcome::accepted && largest_gap(model, workspace, 0.0) > left_open)
+    if (report.outcome == StepOutcome::accepted &&
+        largest_violation(model, workspace.now, Rows::left_out).value > left_open)
       report.outcome = StepOutcome::singular;
   }
   if (report.outcome == StepOutcome::accepted && !solve_rates(model, state, workspace))

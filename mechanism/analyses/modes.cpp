@@ -36,8 +36,7 @@ bool drowns(const Model& model, const Linearisation& l, const Evaluation& evalua
             const VectorXcd& shape, const VectorXd& spread) {
   const int n = model.sizes.boundary;
   const double lengths = (spread.head(n).array() / model.equation_scale.head(n)).square().sum();
-  const double load = std::max(evaluation.force_scale[0], evaluation.force_scale[1] / model.length);
-  const double forces = spread.dot(l.K.cwiseAbs() * spread) + load / model.length * lengths;
+  const double forces = spread.dot(l.K.cwiseAbs() * spread) + force_size(model, evaluation) / model.length * lengths;
   const double inertia = std::abs(shape.dot(l.M * shape)), damping = std::abs(shape.dot(l.C * shape));
   const double round_off = 2.0 * std::sqrt(static_cast<double>(l.K.rows())) * std::numeric_limits<double>::epsilon();
   return size * (size * inertia + damping) < round_off * forces;
@@ -79,8 +78,7 @@ bool is_felt(const Model& model, const State& state, const Linearisation& l, con
   constexpr double share = 1e-6;
   const int n = model.sizes.boundary;
   const VectorXd force = (l.M * a).head(n).cwiseProduct(model.equation_scale.head(n).matrix());
-  const double load = std::max(evaluation.force_scale[0], evaluation.force_scale[1] / model.length);
-  return n > 0 && force.cwiseAbs().maxCoeff() > std::max(share * load, force_round_off(model, state));
+  return n > 0 && force.cwiseAbs().maxCoeff() > allowed_force(model, state, evaluation, share);
 }
 
 /// Where the shape is largest, in words.
@@ -327,8 +325,10 @@ std::vector<std::string> modes_lines(const Model& model, const ModesReport& repo
   // Real eigenvalues are no vibrations: their frequency |λ| / 2π with damping 1 says little.
   const auto is_real = [](const Mode& mode) { return std::abs(mode.damping_ratio()) >= 1.0 - 1e-9; };
   const bool has_poles = std::ranges::any_of(report.modes, is_real);
-  const std::string poles =
-      has_poles ? fmt::format(" {:>12}", "pole" + (label.empty() ? "" : label == "s^-1" ? " 1/s" : " " + label)) : "";
+  const std::string poles = has_poles ? fmt::format(" {:>12}", "pole" + (label.empty()     ? ""
+                                                                         : label == "s^-1" ? " 1/s"
+                                                                                           : " " + label))
+                                      : "";
   std::vector<std::string> lines{
       fmt::format("{:>4} {:>14}{} {:>12}{}  {}", "no.", "frequency" + unit, other, "damping", poles, "moves most")};
   int number = 0;

@@ -31,21 +31,6 @@ constexpr double value_tolerance = 1e-9;
 /// Iterations for accelerations and reactions that friction couples.
 constexpr int most_refinements = 30;
 
-/// Largest violation and its row; positions relative to the length.
-struct Violation {
-  double value = 0.0;
-  int row = -1;
-};
-
-Violation largest_violation(const Model& model, const Eigen::VectorXd& rows) {
-  Violation worst;
-  for (int row = 0; row < model.sizes.constraints; ++row) {
-    const double value = std::abs(rows[row]) / (model.length_row[row] ? model.length : 1.0);
-    if (!(value <= worst.value)) worst = {value, row};
-  }
-  return worst;
-}
-
 double largest_velocity(const Model& model, const State& state) {
   double largest = 0.0;
   for (const Node& node : model.nodes) {
@@ -255,9 +240,10 @@ bool solve_accelerations(const Model& model, double step, const std::string& whe
     state.vdot() += workspace.matrix.increment;
     state.lambda() += workspace.matrix.multipliers;
     // Directions without mass go on with each refinement, and with them the multipliers of what holds them.
-    settled = settled || is_round_off(model, state, workspace.now, workspace.matrix.multipliers) ||
-              (massless ? rubbing_part(model, workspace.matrix.multipliers) <= 1e-12 * rubbing_part(model, state.lambda())
-                                   : workspace.matrix.multipliers.norm() <= 1e-12 * state.lambda().norm());
+    settled =
+        settled || is_round_off(model, state, workspace.now, workspace.matrix.multipliers) ||
+        (massless ? rubbing_part(model, workspace.matrix.multipliers) <= 1e-12 * rubbing_part(model, state.lambda())
+                  : workspace.matrix.multipliers.norm() <= 1e-12 * state.lambda().norm());
     if (rubs && settled) break;
   }
   if (!settled)

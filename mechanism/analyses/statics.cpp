@@ -63,11 +63,10 @@ bool in_balance(const Model& model, const formats::StaticsSpec& options, const S
                 StaticsReport& report) {
   report.residual = largest_residual(model, workspace);
   report.constraint = largest_of(workspace.now.constraint);
-  const double force = std::max(workspace.now.force_scale[0], workspace.now.force_scale[1] / model.length);
   const double internal =
       std::max(options.tolerance * workspace.now.force_scale[2], internal_round_off(model, workspace.now));
-  return report.residual <= std::max(options.tolerance * force, force_round_off(model, state)) &&
-         internal_balance(model, workspace, internal, options.tolerance * force) &&
+  return report.residual <= allowed_force(model, state, workspace.now, options.tolerance) &&
+         internal_balance(model, workspace, internal, options.tolerance * force_size(model, workspace.now)) &&
          report.constraint <= options.tolerance * model.length;
 }
 

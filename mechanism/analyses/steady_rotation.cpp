@@ -49,9 +49,8 @@ bool balanced(const Model& model, const formats::StaticsSpec& options, const Sta
   for (Eigen::Index i = 0; i < boundary.size(); ++i)
     report.residual = std::max(report.residual, std::abs(boundary[i]) * model.equation_scale[i]);
   report.constraint = evaluation.constraint.size() > 0 ? evaluation.constraint.cwiseAbs().maxCoeff() : 0.0;
-  const double force = std::max(evaluation.force_scale[0], evaluation.force_scale[1] / model.length);
   const double largest_internal = internal.size() > 0 ? internal.cwiseAbs().maxCoeff() : 0.0;
-  return report.residual <= std::max(options.tolerance * force, force_round_off(model, state)) &&
+  return report.residual <= allowed_force(model, state, evaluation, options.tolerance) &&
          largest_internal <=
              std::max(options.tolerance * internal_scale(model, evaluation), internal_round_off(model, evaluation)) &&
          report.constraint <= options.tolerance * model.length;
@@ -224,8 +223,8 @@ std::string change_by_turn(const Model& model, const formats::RotationSpec& rota
   for (int row = 0; row < model.sizes.constraints; ++row) {
     const bool drive = std::ranges::any_of(
         model.couplings, [&](const Coupling& coupling) { return coupling.row == row && coupling.motion >= 0; });
-    const double gap = std::abs(evaluation.constraint[row]) / (model.length_row[row] ? model.length : 1.0);
-    if (!drive && gap > share) return fmt::format("'{}' does not turn with the scene", constraint_name(model, row));
+    if (!drive && violation_of(model, evaluation.constraint, row) > share)
+      return fmt::format("'{}' does not turn with the scene", constraint_name(model, row));
   }
   // Moments have material axes and stay, forces turn. What joints and drives take does not move anything.
   VectorXd change = evaluation.residual - before;
@@ -239,11 +238,9 @@ std::string change_by_turn(const Model& model, const formats::RotationSpec& rota
   const MatrixXd BT =
       scale.asDiagonal() * active_jacobian(model, state, evaluation).leftCols(model.sizes.boundary).transpose();
   if (BT.cols() > 0) change -= BT * BT.colPivHouseholderQr().solve(change);
-  const double force = std::max(evaluation.force_scale[0], evaluation.force_scale[1] / model.length);
+  const double allowed = std::max(share * force_size(model, evaluation), 1e3 * force_round_off(model, state));
   Eigen::Index at = 0;
-  if (change.size() == 0 ||
-      !(change.cwiseAbs().maxCoeff(&at) > std::max(share * force, 1e3 * force_round_off(model, state))))
-    return {};
+  if (change.size() == 0 || !(change.cwiseAbs().maxCoeff(&at) > allowed)) return {};
   return fmt::format("Gravity, a load, a spring or a bushing does not turn with the scene: what it does to {} changes",
                      coordinate_name(model, static_cast<int>(at)));
 }
@@ -257,11 +254,9 @@ std::string what_does_not_turn(const Model& model, const formats::RotationSpec& 
   if (rate == 0.0) return {};
   turn_steadily(model, rotation, state);
   evaluate(model, state, evaluation);
-  for (int row = 0; row < model.sizes.constraints; ++row) {
-    const double gap = std::abs(evaluation.constraint_rate[row]) / (model.length_row[row] ? model.length : 1.0);
-    if (gap > round_off * rate)
+  for (int row = 0; row < model.sizes.constraints; ++row)
+    if (violation_of(model, evaluation.constraint_rate, row) > round_off * rate)
       return fmt::format("'{}' forbids the velocities of the turn", constraint_name(model, row));
-  }
   const VectorXd before = evaluation.residual;
   const State begin = state;
   std::string found;

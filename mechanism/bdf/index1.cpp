@@ -125,14 +125,7 @@ void Index1::rates(const double* y, double* ydot) const {
   Eigen::Map<Eigen::VectorXd>(ydot + layout_.positions, layout_.velocities) = state_.vdot();
 }
 
-double Index1::worst_violation() const {
-  double worst = 0.0;
-  for (int row = 0; row < model_.sizes.constraints; ++row)
-    if (workspace_.now.active[row] != 0.0)
-      worst =
-          std::max(worst, std::abs(workspace_.now.constraint[row]) / (model_.length_row[row] ? model_.length : 1.0));
-  return worst;
-}
+double Index1::worst_violation() const { return largest_violation(model_, workspace_.now, Rows::solved).value; }
 
 double Index1::violation() const { return worst_violation() * model_.length; }
 

@@ -14,6 +14,7 @@
 #include "common/stable_sort.hpp"
 #include "mechanism/equations/carriers.hpp"
 #include "mechanism/equations/evaluate.hpp"
+#include "mechanism/equations/round_off.hpp"
 #include "mechanism/solver/matrix_rank.hpp"
 
 namespace tisserand::mechanism {
@@ -97,8 +98,8 @@ Eigen::SparseMatrix<double> rigid_jacobian(const Model& model, const Parts& part
   return compressed(6 * parts.count(), columns, entries);
 }
 
-/// By Gram and Schmidt. The next column is the first of those whose part across the ones before is longer than 0.9 of the
-/// longest such part: among equals the order of the file decides, not the last bit.
+/// By Gram and Schmidt. The next column is the first of those whose part across the ones before is longer than 0.9 of
+/// the longest such part: among equals the order of the file decides, not the last bit.
 ColumnRank dense_rank(Eigen::MatrixXd A, double tolerance) {
   constexpr double equal = 0.9;
   ColumnRank rank;
@@ -123,13 +124,11 @@ ColumnRank dense_rank(Eigen::MatrixXd A, double tolerance) {
   return rank;
 }
 
-/// Rows that repeat others do so where the constraints hold. Where these are open by Φ (relative), what is left of a repeated row is of
-/// the size of Φ, and no rank: rows that are left out stand open by what their integration leaves.
+/// Rows that repeat others do so where the constraints hold. Where these are open by Φ (relative), what is left of a
+/// repeated row is of the size of Φ, and no rank: rows that are left out stand open by what their integration leaves.
 double tolerance_at(const Model& model, const Evaluation& evaluation) {
   constexpr double per_violation = 100.0, most = 1e-6;
-  double open = 0.0;
-  for (int row = 0; row < model.sizes.constraints; ++row)
-    open = std::max(open, std::abs(evaluation.constraint[row]) / (model.length_row[row] ? model.length : 1.0));
+  const double open = largest_violation(model, evaluation.constraint).value;
   return std::clamp(per_violation * open, rank_tolerance, most);
 }
 

@@ -8,6 +8,7 @@
 
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/round_off.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/step/accept.hpp"
 #include "mechanism/step/convergence.hpp"
@@ -22,15 +23,6 @@ constexpr double longest_turn = 1.5;
 constexpr int most_projections = 4;
 /// A violation that projections do not lessen is round-off up to this times what is allowed.
 constexpr double stuck = 1e3;
-
-/// Of the rows that are solved for at the last evaluate(), lengths relative to the characteristic one.
-double largest_violation(const Model& model, const Evaluation& evaluation) {
-  double largest = 0.0;
-  for (int row = 0; row < model.sizes.constraints; ++row)
-    if (evaluation.active[row] != 0.0)
-      largest = std::max(largest, std::abs(evaluation.constraint[row]) / (model.length_row[row] ? model.length : 1.0));
-  return largest;
-}
 
 }  // namespace
 
@@ -119,16 +111,8 @@ bool Radau::close(State& state, Evaluation& now, StepReport& report) {
   double last = 0.0;
   for (int count = 0;; ++count) {
     evaluate(model_, state, now);
-    double worst = 0.0;
-    for (int row = 0; row < model_.sizes.constraints; ++row) {
-      if (now.active[row] == 0.0) continue;
-      const double violation = std::abs(now.constraint[row]) / (model_.length_row[row] ? model_.length : 1.0);
-      if (violation > worst || std::isnan(violation)) {
-        worst = violation;
-        report.worst_constraint = row;
-      }
-      if (std::isnan(violation)) break;
-    }
+    const auto [worst, row] = largest_violation(model_, now, Rows::solved);
+    if (row >= 0) report.worst_constraint = row;
     report.constraint = worst * model_.length;
     report.constraint_ratio = worst / closed;
     if (worst <= closed || (count > 1 && worst > 0.5 * last && worst < stuck * closed)) break;
@@ -222,7 +206,7 @@ void Radau::interpolate(double time, State& state, Workspace& workspace) {
   state.frames() = begin.frames();
   evaluate(model_, state, workspace.now);
   for (int count = 0; count < most_projections; ++count) {
-    if (!(largest_violation(model_, workspace.now) > options_.constraint_tolerance)) break;
+    if (!(largest_violation(model_, workspace.now, Rows::solved).value > options_.constraint_tolerance)) break;
     newton_.project(model_, workspace.now.constraint, workspace.now);
     retract(model_, state, newton_.correction, state);
     evaluate(model_, state, workspace.now);

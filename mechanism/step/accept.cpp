@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "mechanism/equations/evaluate.hpp"
+#include "mechanism/equations/round_off.hpp"
 #include "mechanism/step/convergence.hpp"
 #include "mechanism/step/redundancy.hpp"
 #include "mechanism/step/step_control.hpp"
@@ -76,7 +77,8 @@ void finish(const Model& model, const formats::IntegratorSpec& options, const St
 
 bool rows_are_doubtful(const Model& model, const StepReport& report, const State& state, const Evaluation& evaluation) {
   if (report.outcome == StepOutcome::inaccurate) return false;
-  if (report.outcome == StepOutcome::accepted) return largest_violation_left_out(model, evaluation) > largest_left_out;
+  if (report.outcome == StepOutcome::accepted)
+    return largest_violation(model, evaluation, Rows::left_out).value > largest_left_out;
   return is_overconstrained(state) || report.outcome == StepOutcome::singular;
 }
 

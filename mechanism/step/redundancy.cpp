@@ -88,14 +88,6 @@ WeightedJacobian weighted_jacobian(const Model& model, const Evaluation& evaluat
 
 bool is_overconstrained(const State& state) { return state.active().size() > 0 && state.active().minCoeff() == 0.0; }
 
-double largest_violation_left_out(const Model& model, const Evaluation& evaluation) {
-  double largest = 0.0;
-  for (int row = 0; row < model.sizes.constraints; ++row)
-    if (evaluation.active[row] == 0.0)
-      largest = std::max(largest, std::abs(evaluation.constraint[row]) / (model.length_row[row] ? model.length : 1.0));
-  return largest;
-}
-
 bool choose_active_rows(const Model& model, State& state, Evaluation& evaluation) {
   Eigen::VectorXd chosen = Eigen::VectorXd::Ones(model.sizes.constraints);
   for (const int row : count_mobility(model, state, evaluation).redundant) chosen[row] = 0.0;

@@ -16,20 +16,15 @@ namespace tisserand::mechanism {
 /// Whether some constraint row is implied by others, so that the multipliers are not unique.
 bool is_overconstrained(const State& state);
 
-/// Largest violation of the rows that are left out (lengths relative to the characteristic one) at the last evaluate().
-/// It stays at round-off as long as they follow from the others: it grows where the rank of the constraints is higher
-/// than when they were chosen, or where the others have become dependent.
-double largest_violation_left_out(const Model& model, const Evaluation& evaluation);
-
 /// Chooses the rows that are solved for anew at the state, by a rank-revealing QR. Returns whether they changed.
 /// Multipliers keep their values, also those of rows that are left out from now on: what these exert is made up for by
 /// the others in the next solution.
 bool choose_active_rows(const Model& model, State& state, Evaluation& evaluation);
 
-/// Examines the rows of overconstrained scenes while bodies turn. A row that is left out is a sum of those that are solved
-/// for; where its factors grow, these become dependent. They are chosen again as soon as a factor exceeds `most_factor`, long
-/// before Newton's iteration meets the loss of rank. When that is, the state alone decides: it holds by how much bodies in
-/// loops have turned since the last examination.
+/// Examines the rows of overconstrained scenes while bodies turn. A row that is left out is a sum of those that are
+/// solved for; where its factors grow, these become dependent. They are chosen again as soon as a factor exceeds
+/// `most_factor`, long before Newton's iteration meets the loss of rank. When that is, the state alone decides: it
+/// holds by how much bodies in loops have turned since the last examination.
 class RowWatch {
  public:
   explicit RowWatch(const Model& model);
@@ -37,8 +32,8 @@ class RowWatch {
   /// Adds the turn of an accepted step to state.turned(). Does nothing where all rows are solved for.
   void note_turn(const Model& model, double step, State& state) const;
 
-  /// Examines the rows at the state if bodies have turned by `examined_turn`, and chooses others if that is due. Returns
-  /// whether they changed; the caller then forgets factors. Evaluates the state where it examines.
+  /// Examines the rows at the state if bodies have turned by `examined_turn`, and chooses others if that is due.
+  /// Returns whether they changed; the caller then forgets factors. Evaluates the state where it examines.
   bool renew(const Model& model, State& state, Evaluation& evaluation);
 
   static constexpr double examined_turn = 0.25;  ///< [rad]

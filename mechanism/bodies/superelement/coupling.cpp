@@ -33,26 +33,6 @@ Vector3d frame_rotation(const SuperelementBody& body, const SuperelementTangent&
 
 }  // namespace
 
-void apply_upsilon(const SuperelementBody& body, const SuperelementTangent& tangent, const double* v,
-                   Eigen::VectorXd& out) {
-  const Vector3d rotation = frame_rotation(body, tangent, v);
-  Vector3d origin = Vector3d::Zero();
-  for (const int j : body.translation_nodes) {
-    const auto i = static_cast<std::size_t>(j);
-    origin += body.node[i].alpha * segment3(v, body.node[i].translation_row);
-  }
-  for (std::size_t i = 0; i < body.node.size(); ++i) {
-    const SuperelementNode& node = body.node[i];
-    const LocalNode<double>& local = tangent.node[i];
-    if (node.has_translation())
-      out.segment<3>(node.translation_row) =
-          tangent.R0.transpose() * (segment3(v, node.translation_row) - origin) + local.xh.cross(rotation);
-    if (node.has_rotation())
-      out.segment<3>(node.rotation_row) =
-          local.Tinv * segment3(v, node.rotation_row) - local.Tinv.transpose() * rotation;
-  }
-}
-
 void add_upsilon_transposed(const SuperelementBody& body, const SuperelementTangent& tangent, double factor,
                             const Eigen::VectorXd& t, Eigen::VectorXd& out) {
   Vector3d moment = Vector3d::Zero(), total = Vector3d::Zero();

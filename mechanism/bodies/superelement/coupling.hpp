@@ -8,11 +8,7 @@
 
 namespace tisserand::mechanism {
 
-/// out = Υ v (boundary rows) at the state of the latest tangent. v in coordinates of r_B, out in local coordinates.
-void apply_upsilon(const SuperelementBody& body, const SuperelementTangent& tangent, const double* v,
-                   Eigen::VectorXd& out);
-
-/// out += factor Υᵀ t.
+/// out += factor Υᵀ t at the state of the latest tangent; t in local coordinates, out in those of r_B.
 void add_upsilon_transposed(const SuperelementBody& body, const SuperelementTangent& tangent, double factor,
                             const Eigen::VectorXd& t, Eigen::VectorXd& out);
 
