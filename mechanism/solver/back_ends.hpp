@@ -1,25 +1,48 @@
-// The solvers behind LinearSolver, all of one shape: factor, solve, solve with the transpose, forget.
+// The solvers behind LinearSolver and ComplexSolver, all of one shape, each known to its own file.
 #pragma once
 
-#include <complex>
-#include <concepts>
-#include <cstddef>
 #include <memory>
-#include <vector>
 
 #include "mechanism/solver/linear_solver.hpp"
 
 namespace tisserand::mechanism::back_end {
 
-/// What each back end has; `growth` is looked at rarely.
-template <class T>
-concept BackEnd = requires(T solver, const SparsePattern& pattern, const double* values, double* b) {
-  { solver.factor(pattern, values) } -> std::same_as<FactorReport>;
-  solver.solve(pattern, values, b);             ///< b <- A⁻¹ b
-  solver.solve_transposed(pattern, values, b);  ///< b <- A⁻ᵀ b
-  { solver.reciprocal_growth(pattern, values) } -> std::same_as<double>;
-  solver.forget();
+/// Factors of one matrix at a time. Its pattern must outlive it, and values stay as they are until the last solution.
+/// Complex numbers lie as pairs [re, im] in arrays of double; only real back ends solve with the transpose.
+class BackEnd {
+ public:
+  BackEnd() = default;
+  BackEnd(const BackEnd&) = delete;
+  BackEnd& operator=(const BackEnd&) = delete;
+  virtual ~BackEnd() = default;
+
+  virtual FactorReport factor(const double* values) = 0;
+  /// b <- A⁻¹ b.
+  virtual void solve(double* b) = 0;
+  /// b <- A⁻ᵀ b.
+  virtual void solve_transposed(double* b) = 0;
+  /// As in FactorReport; looked at rarely. 1 of back ends that do not tell.
+  virtual double reciprocal_growth() { return 1.0; }
+  /// Forgets pivots and factors.
+  virtual void forget() {}
 };
+
+enum class Numbers { real, complex };
+
+/// KLU: sparse LU of blocks of a triangular form, kept pivots while they are good.
+std::unique_ptr<BackEnd> make_klu(const SparsePattern& pattern, Numbers numbers);
+
+/// UMFPACK: multifrontal sparse LU on BLAS; pivots anew each time.
+std::unique_ptr<BackEnd> make_umfpack(const SparsePattern& pattern, Numbers numbers);
+
+/// dgetrf and dgetrs, zgetrf and zgetrs.
+std::unique_ptr<BackEnd> make_lapack(const SparsePattern& pattern, Numbers numbers);
+
+/// SuiteSparseQR: multifrontal sparse QR on BLAS; slow and never unstable.
+std::unique_ptr<BackEnd> make_sparse_qr(const SparsePattern& pattern);
+
+/// LU with partial pivoting by rank-one updates of whole registers.
+std::unique_ptr<BackEnd> make_small_dense(const SparsePattern& pattern);
 
 /// What a factorisation costs, counted on the pattern.
 struct Effort {
@@ -31,127 +54,5 @@ Effort klu_effort(const SparsePattern& pattern);
 Effort klu_trial(const SparsePattern& pattern);
 /// UMFPACK's estimates are upper bounds.
 Effort umfpack_effort(const SparsePattern& pattern);
-
-/// Complex numbers lie as pairs [re, im] in arrays of double.
-enum class Numbers { real, complex };
-
-/// KLU: sparse LU of blocks of a triangular form, kept pivots while they are good. Of complex numbers all but
-/// solve_transposed() and reciprocal_growth().
-class Klu {
- public:
-  explicit Klu(const SparsePattern& pattern);
-  Klu(const SparsePattern& pattern, Numbers numbers);
-  ~Klu();
-  FactorReport factor(const SparsePattern& pattern, const double* values);
-  void solve(const SparsePattern& pattern, const double* values, double* b);
-  void solve_transposed(const SparsePattern& pattern, const double* values, double* b);
-  double reciprocal_growth(const SparsePattern& pattern, const double* values);
-  void forget();
-
- private:
-  struct Data;
-  std::unique_ptr<Data> data_;
-};
-
-/// UMFPACK: multifrontal sparse LU on BLAS; pivots anew each time.
-class Umfpack {
- public:
-  explicit Umfpack(const SparsePattern& pattern);
-  ~Umfpack();
-  FactorReport factor(const SparsePattern& pattern, const double* values);
-  void solve(const SparsePattern& pattern, const double* values, double* b);
-  void solve_transposed(const SparsePattern& pattern, const double* values, double* b);
-  double reciprocal_growth(const SparsePattern& pattern, const double* values);
-  void forget();
-
- private:
-  struct Data;
-  std::unique_ptr<Data> data_;
-};
-
-/// SuiteSparseQR: multifrontal sparse QR on BLAS; slow and never unstable.
-class SparseQr {
- public:
-  explicit SparseQr(const SparsePattern& pattern);
-  ~SparseQr();
-  FactorReport factor(const SparsePattern& pattern, const double* values);
-  void solve(const SparsePattern& pattern, const double* values, double* b);
-  void solve_transposed(const SparsePattern& pattern, const double* values, double* b);
-  double reciprocal_growth(const SparsePattern& pattern, const double* values);
-  void forget();
-
- private:
-  struct Data;
-  std::unique_ptr<Data> data_;
-};
-
-/// LU with partial pivoting by rank-one updates of whole registers. Columns are padded to multiples of four rows; the
-/// zeros of L and U beside their triangles let every update start and end at a full register.
-class SmallDense {
- public:
-  explicit SmallDense(const SparsePattern& pattern);
-  FactorReport factor(const SparsePattern& pattern, const double* values);
-  void solve(const SparsePattern& pattern, const double* values, double* b);
-  void solve_transposed(const SparsePattern& pattern, const double* values, double* b);
-  double reciprocal_growth(const SparsePattern& pattern, const double* values);
-  void forget() {}
-
- private:
-  double* lower_column(int k) { return lower_.data() + static_cast<std::ptrdiff_t>(rows_) * k; }
-  double* upper_column(int k) { return upper_.data() + static_cast<std::ptrdiff_t>(rows_) * k; }
-  double exchange_rows(int k);
-
-  int n_ = 0;
-  int rows_ = 0;                  ///< leading dimension, and columns: of multiples of four, zeros behind n
-  std::vector<double> lower_;     ///< L without its unit diagonal, zeros elsewhere
-  std::vector<double> upper_;     ///< U without its diagonal, zeros elsewhere
-  std::vector<double> diagonal_;  ///< reciprocals of the pivots
-  std::vector<int> order_;        ///< row k of the factors is row order[k] of the matrix
-  std::vector<double> work_;      ///< right-hand side
-};
-
-/// dgetrf and dgetrs.
-class Lapack {
- public:
-  explicit Lapack(const SparsePattern& pattern);
-  FactorReport factor(const SparsePattern& pattern, const double* values);
-  void solve(const SparsePattern& pattern, const double* values, double* b);
-  void solve_transposed(const SparsePattern& pattern, const double* values, double* b);
-  double reciprocal_growth(const SparsePattern& pattern, const double* values);
-  void forget() {}
-
- private:
-  int n_ = 0;
-  std::vector<double> factors_;
-  std::vector<int> exchange_;
-};
-
-/// UMFPACK for complex values.
-class ComplexUmfpack {
- public:
-  explicit ComplexUmfpack(const SparsePattern& pattern);
-  ~ComplexUmfpack();
-  FactorReport factor(const SparsePattern& pattern, const double* values);
-  void solve(const SparsePattern& pattern, const double* values, double* b);
-  void forget();
-
- private:
-  struct Data;
-  std::unique_ptr<Data> data_;
-};
-
-/// zgetrf and zgetrs.
-class ComplexLapack {
- public:
-  explicit ComplexLapack(const SparsePattern& pattern);
-  FactorReport factor(const SparsePattern& pattern, const double* values);
-  void solve(const SparsePattern& pattern, const double* values, double* b);
-  void forget() {}
-
- private:
-  int n_ = 0;
-  std::vector<std::complex<double>> factors_;
-  std::vector<int> exchange_;
-};
 
 }  // namespace tisserand::mechanism::back_end

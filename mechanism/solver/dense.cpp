@@ -1,9 +1,12 @@
-// Dense LU behind the back-end shape: a small one of our own, and LAPACK's.
+// Dense LU as back ends: a small one of our own, and LAPACK's.
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstddef>
 #include <limits>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -14,6 +17,9 @@ extern "C" {
 void dgetrf_(const int* m, const int* n, double* a, const int* lda, int* ipiv, int* info);
 void dgetrs_(const char* trans, const int* n, const int* nrhs, const double* a, const int* lda, const int* ipiv,
              double* b, const int* ldb, int* info);
+void zgetrf_(const int* m, const int* n, std::complex<double>* a, const int* lda, int* ipiv, int* info);
+void zgetrs_(const char* trans, const int* n, const int* nrhs, const std::complex<double>* a, const int* lda,
+             const int* ipiv, std::complex<double>* b, const int* ldb, int* info);
 }
 
 namespace tisserand::mechanism::back_end {
@@ -34,11 +40,35 @@ void subtract_four(const double (&factor)[4], const double* x, int rows, int beg
                      factor[3] * load(x3 + i));
 }
 
-double largest(const double* column, int size) {
-  return Eigen::Map<const Eigen::ArrayXd>(column, size).abs().maxCoeff();
+template <class Scalar>
+double largest(const Scalar* column, int size) {
+  return Eigen::Map<const Eigen::Array<Scalar, Eigen::Dynamic, 1>>(column, size).abs().maxCoeff();
 }
 
-}  // namespace
+/// Columns are padded to multiples of four rows; the zeros of L and U beside their triangles let every update start and
+/// end at a full register.
+class SmallDense : public BackEnd {
+ public:
+  explicit SmallDense(const SparsePattern& pattern);
+  FactorReport factor(const double* values) override;
+  void solve(double* b) override;
+  void solve_transposed(double* b) override;
+  double reciprocal_growth() override;
+
+ private:
+  double* lower_column(int k) { return lower_.data() + static_cast<std::ptrdiff_t>(rows_) * k; }
+  double* upper_column(int k) { return upper_.data() + static_cast<std::ptrdiff_t>(rows_) * k; }
+  double exchange_rows(int k);
+
+  int n_ = 0;
+  int rows_ = 0;  ///< leading dimension, and columns: of multiples of four, zeros behind n
+  const double* values_ = nullptr;
+  std::vector<double> lower_;     ///< L without its unit diagonal, zeros elsewhere
+  std::vector<double> upper_;     ///< U without its diagonal, zeros elsewhere
+  std::vector<double> diagonal_;  ///< reciprocals of the pivots
+  std::vector<int> order_;        ///< row k of the factors is row order[k] of the matrix
+  std::vector<double> work_;      ///< right-hand side
+};
 
 SmallDense::SmallDense(const SparsePattern& pattern)
     : n_(pattern.size()),
@@ -63,7 +93,8 @@ double SmallDense::exchange_rows(int k) {
   return size;
 }
 
-FactorReport SmallDense::factor(const SparsePattern&, const double* values) {
+FactorReport SmallDense::factor(const double* values) {
+  values_ = values;
   for (int j = 0; j < n_; ++j) {
     std::copy_n(values + static_cast<std::ptrdiff_t>(n_) * j, n_, upper_column(j));
     std::fill_n(upper_column(j) + n_, rows_ - n_, 0.0);
@@ -94,7 +125,7 @@ FactorReport SmallDense::factor(const SparsePattern&, const double* values) {
 
 /// Four rows at a time, by numbers in the triangle on the diagonal and by registers in the rest; what is behind row n
 /// is zero.
-void SmallDense::solve(const SparsePattern&, const double*, double* b) {
+void SmallDense::solve(double* b) {
   double* w = work_.data();
   for (int k = 0; k < n_; ++k) w[k] = b[order_[k]];
   std::fill_n(w + n_, rows_ - n_, 0.0);
@@ -117,7 +148,7 @@ void SmallDense::solve(const SparsePattern&, const double*, double* b) {
   std::copy_n(w, n_, b);
 }
 
-void SmallDense::solve_transposed(const SparsePattern&, const double*, double* b) {
+void SmallDense::solve_transposed(double* b) {
   using ConstMap = Eigen::Map<const Eigen::VectorXd>;
   for (int k = 0; k < n_; ++k)  // Uᵀ
     b[k] = (b[k] - ConstMap(upper_column(k), k).dot(ConstMap(b, k))) * diagonal_[k];
@@ -127,50 +158,79 @@ void SmallDense::solve_transposed(const SparsePattern&, const double*, double* b
   for (int k = 0; k < n_; ++k) b[order_[k]] = work_[k];
 }
 
-double SmallDense::reciprocal_growth(const SparsePattern&, const double* values) {
+double SmallDense::reciprocal_growth() {
   double growth = 1.0;
   for (int j = 0; j < n_; ++j) {
     const double u = std::max(largest(upper_column(j), n_), 1.0 / std::abs(diagonal_[j]));
-    growth = std::min(growth, largest(values + static_cast<std::ptrdiff_t>(n_) * j, n_) / u);
+    growth = std::min(growth, largest(values_ + static_cast<std::ptrdiff_t>(n_) * j, n_) / u);
   }
   return growth;
 }
 
-Lapack::Lapack(const SparsePattern& pattern)
-    : n_(pattern.size()),
-      factors_(static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_), 0.0),
-      exchange_(static_cast<std::size_t>(n_), 0) {}
-
-FactorReport Lapack::factor(const SparsePattern&, const double* values) {
-  std::copy_n(values, factors_.size(), factors_.data());
-  int info = 0;
-  dgetrf_(&n_, &n_, factors_.data(), &n_, exchange_.data(), &info);
-  if (info > 0) return {false, 0.0, info - 1, 1.0};
-  const auto pivots = Eigen::Map<const Eigen::MatrixXd>(factors_.data(), n_, n_).diagonal().array().abs();
-  Eigen::Index weakest = 0;
-  const double ratio = pivots.minCoeff(&weakest) / pivots.maxCoeff();
-  return {ratio > 0.0, ratio, ratio > 0.0 ? -1 : static_cast<int>(weakest), 1.0};
-}
-
-void Lapack::solve(const SparsePattern&, const double*, double* b) {
+void getrf(int n, double* a, int* pivots, int* info) { dgetrf_(&n, &n, a, &n, pivots, info); }
+void getrf(int n, std::complex<double>* a, int* pivots, int* info) { zgetrf_(&n, &n, a, &n, pivots, info); }
+void getrs(const char* which, int n, const double* a, const int* pivots, double* b) {
   const int one = 1;
   int info = 0;
-  dgetrs_("N", &n_, &one, factors_.data(), &n_, exchange_.data(), b, &n_, &info);
+  dgetrs_(which, &n, &one, a, &n, pivots, b, &n, &info);
 }
-
-void Lapack::solve_transposed(const SparsePattern&, const double*, double* b) {
+void getrs(const char* which, int n, const std::complex<double>* a, const int* pivots, std::complex<double>* b) {
   const int one = 1;
   int info = 0;
-  dgetrs_("T", &n_, &one, factors_.data(), &n_, exchange_.data(), b, &n_, &info);
+  zgetrs_(which, &n, &one, a, &n, pivots, b, &n, &info);
 }
 
-double Lapack::reciprocal_growth(const SparsePattern&, const double* values) {
-  double growth = 1.0;
-  for (int j = 0; j < n_; ++j) {
-    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(n_) * j;
-    growth = std::min(growth, largest(values + at, n_) / largest(factors_.data() + at, j + 1));
+template <class Scalar>
+class Lapack : public BackEnd {
+ public:
+  explicit Lapack(const SparsePattern& pattern)
+      : n_(pattern.size()),
+        factors_(static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_)),
+        exchange_(static_cast<std::size_t>(n_), 0) {}
+
+  FactorReport factor(const double* values) override {
+    values_ = reinterpret_cast<const Scalar*>(values);
+    std::copy_n(values_, factors_.size(), factors_.data());
+    int info = 0;
+    getrf(n_, factors_.data(), exchange_.data(), &info);
+    if (info > 0) return {false, 0.0, info - 1, 1.0};
+    using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+    const auto pivots = Eigen::Map<const Matrix>(factors_.data(), n_, n_).diagonal().array().abs();
+    Eigen::Index weakest = 0;
+    const double ratio = pivots.minCoeff(&weakest) / pivots.maxCoeff();
+    return {ratio > 0.0, ratio, ratio > 0.0 ? -1 : static_cast<int>(weakest), 1.0};
   }
-  return growth;
+
+  void solve(double* b) override { getrs("N", n_, factors_.data(), exchange_.data(), reinterpret_cast<Scalar*>(b)); }
+  void solve_transposed(double* b) override {
+    getrs("T", n_, factors_.data(), exchange_.data(), reinterpret_cast<Scalar*>(b));
+  }
+
+  double reciprocal_growth() override {
+    double growth = 1.0;
+    for (int j = 0; j < n_; ++j) {
+      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(n_) * j;
+      growth = std::min(growth, largest(values_ + at, n_) / largest(factors_.data() + at, j + 1));
+    }
+    return growth;
+  }
+
+ private:
+  int n_ = 0;
+  const Scalar* values_ = nullptr;
+  std::vector<Scalar> factors_;
+  std::vector<int> exchange_;
+};
+
+}  // namespace
+
+std::unique_ptr<BackEnd> make_small_dense(const SparsePattern& pattern) {
+  return std::make_unique<SmallDense>(pattern);
+}
+
+std::unique_ptr<BackEnd> make_lapack(const SparsePattern& pattern, Numbers numbers) {
+  if (numbers == Numbers::real) return std::make_unique<Lapack<double>>(pattern);
+  return std::make_unique<Lapack<std::complex<double>>>(pattern);
 }
 
 }  // namespace tisserand::mechanism::back_end

@@ -1,4 +1,4 @@
-// KLU behind the back-end shape.
+// KLU as a back end.
 #include <klu.h>
 
 #include <cmath>
@@ -11,6 +11,8 @@
 
 namespace tisserand::mechanism::back_end {
 
+namespace {
+
 /// KLU's functions for one kind of numbers; complex ones lie as pairs in the same arrays of double.
 struct KluCalls {
   decltype(&klu_factor) factor;
@@ -20,8 +22,6 @@ struct KluCalls {
   decltype(&klu_rgrowth) rgrowth;
   decltype(&klu_free_numeric) free_numeric;
 };
-
-namespace {
 
 /// Kept pivots are given up where they grow more than the reciprocal of this: half of the digits are gone then, and
 /// what is left of them is what one refinement restores.
@@ -65,8 +65,6 @@ void require_klu_memory(const klu_common& common) {
   if (common.status == KLU_OUT_OF_MEMORY || common.status == KLU_TOO_LARGE) throw std::bad_alloc();
 }
 
-}  // namespace
-
 /// A symbolic analysis and the factors that belong to it.
 struct KluFactors {
   const KluCalls* calls = &real_calls;
@@ -97,8 +95,6 @@ struct KluFactors {
   }
   double entries() const { return static_cast<double>(numeric->lnz) + numeric->unz; }
 };
-
-namespace {
 
 /// Fresh pivots: in the order of AMD, which counts on pivots on the diagonal, or, where the zeros there have spoilt its
 /// fill, in that of COLAMD, whose fill no choice of pivots exceeds, if that fills less. Returns what has factors, null
@@ -140,75 +136,75 @@ Effort klu_trial(const SparsePattern& pattern) {
   return effort;
 }
 
-struct Klu::Data {
-  const KluCalls* calls = &real_calls;
-  klu_common common{};
-  KluFactors by_diagonal, by_columns;
-  KluFactors* used = nullptr;  ///< which of them has factors
+namespace {
 
-  void forget() {
-    by_diagonal.forget(common);
-    by_columns.forget(common);
-    used = nullptr;
+class Klu : public BackEnd {
+ public:
+  Klu(const SparsePattern& pattern, Numbers numbers)
+      : pattern_(pattern), calls_(numbers == Numbers::real ? real_calls : complex_calls), common_(settings()) {
+    by_diagonal_.calls = by_columns_.calls = &calls_;
+    by_diagonal_.analyse(pattern, by_amd, common_);
   }
-  FactorReport report(const SparsePattern& pattern) {
-    calls->rcond(used->symbolic, used->numeric, &common);
-    return {common.rcond > 0.0 && std::isfinite(common.rcond), common.rcond, -1, 1.0,
-            used->entries() / pattern.nonzeros()};
+  ~Klu() override {
+    by_diagonal_.free(common_);
+    by_columns_.free(common_);
   }
+
+  FactorReport factor(const double* values) override {
+    values_ = const_cast<double*>(values);
+    if (used_) {
+      const bool kept =
+          calls_.refactor(starts(pattern_), rows(pattern_), values_, used_->symbolic, used_->numeric, &common_) &&
+          common_.status == KLU_OK && find_growth() && common_.rgrowth > least_growth;
+      if (kept) {
+        FactorReport kept_report = report();
+        kept_report.reciprocal_growth = common_.rgrowth;
+        return kept_report;
+      }
+      forget();
+    }
+    used_ = factor_anew(pattern_, values_, by_diagonal_, by_columns_, common_);
+    if (used_ != nullptr) return report();
+    const int column = common_.singular_col;
+    return {false, 0.0, column < pattern_.size() ? column : -1, 1.0};
+  }
+
+  void solve(double* b) override { calls_.solve(used_->symbolic, used_->numeric, pattern_.size(), 1, b, &common_); }
+  void solve_transposed(double* b) override {
+    klu_tsolve(used_->symbolic, used_->numeric, pattern_.size(), 1, b, &common_);
+  }
+  double reciprocal_growth() override {
+    find_growth();
+    return common_.rgrowth;
+  }
+  void forget() override {
+    by_diagonal_.forget(common_);
+    by_columns_.forget(common_);
+    used_ = nullptr;
+  }
+
+ private:
+  bool find_growth() {
+    return calls_.rgrowth(starts(pattern_), rows(pattern_), values_, used_->symbolic, used_->numeric, &common_);
+  }
+  FactorReport report() {
+    calls_.rcond(used_->symbolic, used_->numeric, &common_);
+    return {common_.rcond > 0.0 && std::isfinite(common_.rcond), common_.rcond, -1, 1.0,
+            used_->entries() / pattern_.nonzeros()};
+  }
+
+  const SparsePattern& pattern_;
+  const KluCalls& calls_;
+  klu_common common_;
+  double* values_ = nullptr;
+  KluFactors by_diagonal_, by_columns_;
+  KluFactors* used_ = nullptr;  ///< which of them has factors
 };
 
-Klu::Klu(const SparsePattern& pattern) : Klu(pattern, Numbers::real) {}
+}  // namespace
 
-Klu::Klu(const SparsePattern& pattern, Numbers numbers) : data_(std::make_unique<Data>()) {
-  data_->calls = numbers == Numbers::real ? &real_calls : &complex_calls;
-  data_->by_diagonal.calls = data_->by_columns.calls = data_->calls;
-  data_->common = settings();
-  data_->by_diagonal.analyse(pattern, by_amd, data_->common);
-}
-
-Klu::~Klu() {
-  data_->by_diagonal.free(data_->common);
-  data_->by_columns.free(data_->common);
-}
-
-void Klu::forget() { data_->forget(); }
-
-FactorReport Klu::factor(const SparsePattern& pattern, const double* values) {
-  auto* v = const_cast<double*>(values);
-  klu_common& common = data_->common;
-  if (data_->used) {
-    klu_symbolic* symbolic = data_->used->symbolic;
-    klu_numeric* numeric = data_->used->numeric;
-    const bool kept = data_->calls->refactor(starts(pattern), rows(pattern), v, symbolic, numeric, &common) &&
-                      common.status == KLU_OK &&
-                      data_->calls->rgrowth(starts(pattern), rows(pattern), v, symbolic, numeric, &common) &&
-                      common.rgrowth > least_growth;
-    if (kept) {
-      FactorReport report = data_->report(pattern);
-      report.reciprocal_growth = common.rgrowth;
-      return report;
-    }
-    data_->forget();
-  }
-  data_->used = factor_anew(pattern, v, data_->by_diagonal, data_->by_columns, common);
-  if (data_->used != nullptr) return data_->report(pattern);
-  const int column = common.singular_col;
-  return {false, 0.0, column < pattern.size() ? column : -1, 1.0};
-}
-
-void Klu::solve(const SparsePattern& pattern, const double*, double* b) {
-  data_->calls->solve(data_->used->symbolic, data_->used->numeric, pattern.size(), 1, b, &data_->common);
-}
-
-void Klu::solve_transposed(const SparsePattern& pattern, const double*, double* b) {
-  klu_tsolve(data_->used->symbolic, data_->used->numeric, pattern.size(), 1, b, &data_->common);
-}
-
-double Klu::reciprocal_growth(const SparsePattern& pattern, const double* values) {
-  klu_rgrowth(starts(pattern), rows(pattern), const_cast<double*>(values), data_->used->symbolic, data_->used->numeric,
-              &data_->common);
-  return data_->common.rgrowth;
+std::unique_ptr<BackEnd> make_klu(const SparsePattern& pattern, Numbers numbers) {
+  return std::make_unique<Klu>(pattern, numbers);
 }
 
 }  // namespace tisserand::mechanism::back_end

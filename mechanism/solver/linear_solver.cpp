@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <variant>
+#include <memory>
 
 #include <Eigen/Core>
 
@@ -14,30 +13,27 @@
 namespace tisserand::mechanism {
 namespace {
 
-using back_end::Klu, back_end::Lapack, back_end::SmallDense, back_end::SparseQr, back_end::Umfpack;
-static_assert(back_end::BackEnd<Klu> && back_end::BackEnd<Umfpack> && back_end::BackEnd<SparseQr> &&
-              back_end::BackEnd<SmallDense> && back_end::BackEnd<Lapack>);
-using Solvers = std::variant<Klu, Umfpack, SmallDense, Lapack, SparseQr>;
+using back_end::BackEnd, back_end::Numbers;
 
 /// Backward errors above this are refined.
 constexpr double backward_limit = 1e-13;
 /// Kept pivots that grow more than the reciprocal of this can leave a backward error above the limit.
 constexpr double safe_growth = 1e-3;
 
-Solvers make(const SparsePattern& pattern, SolverKind kind) {
+std::unique_ptr<BackEnd> make(const SparsePattern& pattern, SolverKind kind) {
   switch (kind) {
     case SolverKind::klu:
-      return Solvers(std::in_place_type<Klu>, pattern);
+      return back_end::make_klu(pattern, Numbers::real);
     case SolverKind::umfpack:
-      return Solvers(std::in_place_type<Umfpack>, pattern);
+      return back_end::make_umfpack(pattern, Numbers::real);
     case SolverKind::dense:
-      return Solvers(std::in_place_type<SmallDense>, pattern);
+      return back_end::make_small_dense(pattern);
     case SolverKind::lapack:
-      return Solvers(std::in_place_type<Lapack>, pattern);
+      return back_end::make_lapack(pattern, Numbers::real);
     case SolverKind::qr:
       break;
   }
-  return Solvers(std::in_place_type<SparseQr>, pattern);
+  return back_end::make_sparse_qr(pattern);
 }
 
 using Vector = Eigen::VectorXd;
@@ -81,7 +77,7 @@ double subtract_product(const SparsePattern& pattern, const double* values, cons
 struct LinearSolver::Engine {
   const SparsePattern* pattern;
   SolverKind kind;
-  Solvers solvers;
+  std::unique_ptr<BackEnd> solver;
   const double* values = nullptr;
   SolverHealth health;
   long factorisations = 0;
@@ -90,14 +86,7 @@ struct LinearSolver::Engine {
   Vector right, work, sign;
 
   Engine(const SparsePattern& p, SolverKind k)
-      : pattern(&p), kind(k), solvers(make(p, k)), right(p.size()), work(p.size()), sign(p.size()) {}
-
-  void solve_plain(double* b) {
-    std::visit([&](auto& solver) { solver.solve(*pattern, values, b); }, solvers);
-  }
-  void solve_transposed(double* b) {
-    std::visit([&](auto& solver) { solver.solve_transposed(*pattern, values, b); }, solvers);
-  }
+      : pattern(&p), kind(k), solver(make(p, k)), right(p.size()), work(p.size()), sign(p.size()) {}
 
   /// |A⁻¹|₁ from below by Hager's method [Hig88]: the maximum of |A⁻¹ x|₁ over |x|₁ = 1 is sought along its gradients.
   double inverse_norm() {
@@ -105,19 +94,19 @@ struct LinearSolver::Engine {
     work.setConstant(1.0 / n);
     double estimate = 0.0;
     for (int iteration = 0; iteration < 5; ++iteration) {
-      solve_plain(work.data());
+      solver->solve(work.data());
       const double size = work.lpNorm<1>();
       if (!(size > estimate) && iteration > 0) break;
       estimate = size;
       sign = work.unaryExpr([](double w) { return w < 0.0 ? -1.0 : 1.0; });
-      solve_transposed(sign.data());
+      solver->solve_transposed(sign.data());
       Eigen::Index steepest = 0;
       sign.cwiseAbs().maxCoeff(&steepest);
       work.setZero();
       work[steepest] = 1.0;
     }
     for (int i = 0; i < n; ++i) work[i] = (i % 2 == 0 ? 1.0 : -1.0) * (1.0 + i / std::max(1.0, n - 1.0));
-    solve_plain(work.data());
+    solver->solve(work.data());
     return std::max(estimate, 2.0 * work.lpNorm<1>() / (3.0 * n));
   }
 
@@ -128,7 +117,7 @@ struct LinearSolver::Engine {
 
   FactorReport numeric(const double* given) {
     values = given;
-    FactorReport report = std::visit([&](auto& solver) { return solver.factor(*pattern, values); }, solvers);
+    FactorReport report = solver->factor(values);
     if (!report.regular) return report;
     ++factorisations;
     if (pattern->storage() == SparsePattern::Storage::dense)
@@ -138,9 +127,7 @@ struct LinearSolver::Engine {
     refine = false;
     measure = look || report.reciprocal_growth < safe_growth || kind == SolverKind::umfpack;
     if (look) {
-      health.reciprocal_growth =
-          std::min(health.reciprocal_growth,
-                   std::visit([&](auto& solver) { return solver.reciprocal_growth(*pattern, values); }, solvers));
+      health.reciprocal_growth = std::min(health.reciprocal_growth, solver->reciprocal_growth());
       health.reciprocal_condition = std::min(health.reciprocal_condition, reciprocal_condition());
     }
     health.reciprocal_growth = std::min(health.reciprocal_growth, report.reciprocal_growth);
@@ -151,11 +138,11 @@ struct LinearSolver::Engine {
   void solve(double* b) {
     const int n = pattern->size();
     if (!measure && !refine) {
-      solve_plain(b);
+      solver->solve(b);
       return;
     }
     right = Eigen::Map<const Vector>(b, n);
-    solve_plain(b);
+    solver->solve(b);
     const double size = right.cwiseAbs().maxCoeff();
     const double entry = subtract_product(*pattern, values, b, right);
     if (measure) {
@@ -167,7 +154,7 @@ struct LinearSolver::Engine {
       measure = false;
     }
     if (!refine) return;
-    solve_plain(right.data());
+    solver->solve(right.data());
     Eigen::Map<Vector>(b, n) += right;
     ++health.refined;
   }
@@ -220,7 +207,7 @@ void LinearSolver::solve(std::span<double> right_hand_side) {
 }
 
 void LinearSolver::forget() {
-  std::visit([](auto& solver) { solver.forget(); }, engine_->solvers);
+  engine_->solver->forget();
   engine_->factorisations = 0;
 }
 

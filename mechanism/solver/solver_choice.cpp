@@ -22,8 +22,9 @@ constexpr int dense_limit = 500;
 /// It is counted anew on a trial then, unless even the hopeful count is too much work for one.
 constexpr double honest_count = 5.0, most_trial_flops = 2e7;
 
-/// Entries of factors that stay in the nearest cache. What lies beyond them is read more slowly; that is no reason to read
-/// the first ones more slowly too (a car of 234 unknowns and 5800 entries took twice the time with the dense code).
+/// Entries of factors that stay in the nearest cache. What lies beyond them is read more slowly; that is no reason to
+/// read the first ones more slowly too (a car of 234 unknowns and 5800 entries took twice the time with the dense
+/// code).
 constexpr double near_entries = 4000.0;
 
 struct Candidate {
