@@ -15,6 +15,7 @@
 
 #include "common/math/rotation.hpp"
 #include "common/stable_sort.hpp"
+#include "mechanism/equations/constraint_rows.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/terms.hpp"
 #include "mechanism/model/bodies.hpp"
@@ -120,7 +121,7 @@ double row_scale(const Model& model, const AskedRow& row) {
 Sparse jacobian(const Model& model, const AskedRows& asked, const Bodies& bodies, const Evaluation& evaluation) {
   std::vector<Eigen::Triplet<double>> entries;
   const int constraints = model.sizes.constraints;
-  const auto add = [&](int row, int node, const Eigen::Ref<const Eigen::RowVectorXd>& B) {
+  const auto add_side = [&](int row, int node, const Eigen::Matrix<double, 1, 6>& B) {
     if (node < 0) return;
     const double scale = row < constraints ? row_scale(model, row) : row_scale(model, asked[row - constraints]);
     const NodeMotion& motion = motion_of(evaluation, node);
@@ -134,26 +135,14 @@ Sparse jacobian(const Model& model, const AskedRows& asked, const Bodies& bodies
       entries.emplace_back(row, 6 * body + 3 + k, scale * turn[k]);
     }
   };
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const Joint& joint = model.joints[i];
-    for (int k = 0; k < joint.size(); ++k) {
-      const Eigen::RowVectorXd B = evaluation.joints[i].B.row(k);
-      add(joint.row + k, joint.a.node, B.head<6>());
-      add(joint.row + k, joint.b.node, B.tail<6>());
-    }
-  }
-  for (const Coupling& coupling : model.couplings)
-    for (const CouplingTerm& term : coupling.terms) {
-      const auto at = static_cast<std::size_t>(term.coordinate);
-      const Eigen::RowVectorXd B = term.factor * evaluation.coordinates[at].G;
-      add(coupling.row, model.coordinates[at].a.node, B.head<6>());
-      add(coupling.row, model.coordinates[at].b.node, B.tail<6>());
-    }
+  const auto add = [&](int row, const auto&, const auto& pair, const Row12& B) {
+    add_side(row, pair.a.node, B.head<6>());
+    add_side(row, pair.b.node, B.tail<6>());
+  };
+  for_each_row(model, evaluation, add);
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    const int at = asked[i].entry->coordinate, row = constraints + static_cast<int>(i);
-    const Eigen::RowVectorXd B = evaluation.coordinates[at].G;
-    add(row, model.coordinates[at].a.node, B.head<6>());
-    add(row, model.coordinates[at].b.node, B.tail<6>());
+    const int at = asked[i].entry->coordinate;
+    add(constraints + static_cast<int>(i), nullptr, model.coordinates[at], evaluation.coordinates[at].G);
   }
   Sparse J(constraints + static_cast<Eigen::Index>(asked.size()), 6 * static_cast<Eigen::Index>(bodies.center.size()));
   J.setFromTriplets(entries.begin(), entries.end());

@@ -14,6 +14,7 @@
 #include "mechanism/analyses/linearise.hpp"
 #include "mechanism/analyses/modes.hpp"
 #include "mechanism/equations/carriers.hpp"
+#include "mechanism/equations/constraint_rows.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/equations/iteration_matrix.hpp"
@@ -72,10 +73,9 @@ std::string name_of_motion(const Model& model, const Evaluation& evaluation, con
   std::string name;
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
     const ElementMap& map = model.coordinates.maps[i];
-    const Eigen::MatrixXd row = model_rows(model, map, local_view(evaluation.coordinates[i].G), evaluation);
     double rate = 0.0;
-    for (std::size_t k = 0; k < map.coordinates.size(); ++k)
-      if (const int at = map.coordinates[k]; at >= 0) rate += row(0, static_cast<Eigen::Index>(k)) * d[at];
+    for_each_entry(model, map, evaluation.coordinates[i].G, evaluation,
+                   [&](int at, double value) { rate += value * d[at]; });
     if (is_length(model.coordinates[i].relation)) rate /= model.length;
     if (std::abs(rate) <= std::max(1e-9 * d.cwiseAbs().maxCoeff(), (1.0 + 1e-9) * largest)) continue;
     largest = std::abs(rate);

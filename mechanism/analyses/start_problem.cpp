@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "common/math/rotation.hpp"
-#include "mechanism/equations/carriers.hpp"
+#include "mechanism/equations/constraint_rows.hpp"
 #include "mechanism/model/bodies.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 
@@ -26,23 +26,16 @@ Eigen::Quaterniond body_rotation(const Model& model, const State& state, int nod
 StartMatrix start_rows(const StartProblem& problem, const Evaluation& evaluation) {
   const Model& model = problem.model;
   StartTriplets entries;
-  const auto add = [&](int row, const ElementMap& map, const Row12& values) {
-    const Eigen::MatrixXd columns = model_rows(model, map, local_view(values), evaluation);
-    for (std::size_t j = 0; j < map.coordinates.size(); ++j)
-      if (map.coordinates[j] >= 0)
-        entries.emplace_back(row, map.coordinates[j],
-                             start_row_scale(problem, row) * columns(0, static_cast<Eigen::Index>(j)));
+  const auto add = [&](int row, const ElementMap& map, const auto&, const Row12& values) {
+    for_each_entry(model, map, values, evaluation,
+                   [&](int j, double value) { entries.emplace_back(row, j, start_row_scale(problem, row) * value); });
   };
-  for (std::size_t i = 0; i < model.joints.size(); ++i)
-    for (int k = 0; k < model.joints[i].size(); ++k)
-      add(model.joints[i].row + k, model.joints.maps[i], Row12(evaluation.joints[i].B.row(k)));
-  const auto add_coordinate = [&](int row, int coordinate, double factor) {
-    add(row, model.coordinates.maps[coordinate], Row12(factor * evaluation.coordinates[coordinate].G));
-  };
-  for (const Coupling& coupling : model.couplings)
-    for (const CouplingTerm& term : coupling.terms) add_coordinate(coupling.row, term.coordinate, term.factor);
-  for (std::size_t i = 0; i < problem.rates.size(); ++i)
-    add_coordinate(model.sizes.constraints + static_cast<int>(i), problem.rates[i]->coordinate, 1.0);
+  for_each_row(model, evaluation, add);
+  for (std::size_t i = 0; i < problem.rates.size(); ++i) {
+    const int at = problem.rates[i]->coordinate;
+    add(model.sizes.constraints + static_cast<int>(i), model.coordinates.maps[at], nullptr,
+        evaluation.coordinates[at].G);
+  }
   StartMatrix B(problem.rows(), model.sizes.boundary);
   B.setFromTriplets(entries.begin(), entries.end());
   return B;

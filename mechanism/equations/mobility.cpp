@@ -12,7 +12,7 @@
 
 #include "common/math/rotation.hpp"
 #include "common/stable_sort.hpp"
-#include "mechanism/equations/carriers.hpp"
+#include "mechanism/equations/constraint_rows.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/round_off.hpp"
 #include "mechanism/solver/matrix_rank.hpp"
@@ -24,21 +24,6 @@ namespace {
 constexpr int dense_rank_limit = 150;
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
-
-/// Visits the rows of B in the motions [ẋ Ω] of the two nodes of each joint or coupling term:
-/// visit(row, coordinate map, markers, values).
-template <class Visit>
-void for_each_row(const Model& model, const Evaluation& evaluation, Visit visit) {
-  for (std::size_t i = 0; i < model.joints.size(); ++i)
-    for (int k = 0; k < model.joints[i].size(); ++k)
-      visit(model.joints[i].row + k, model.joints.maps[i], model.joints[i], Row12(evaluation.joints[i].B.row(k)));
-  for (const Coupling& coupling : model.couplings)
-    for (const CouplingTerm& term : coupling.terms) {
-      const auto at = static_cast<std::size_t>(term.coordinate);
-      visit(coupling.row, model.coordinates.maps[at], model.coordinates[at],
-            Row12(term.factor * evaluation.coordinates[at].G));
-    }
-}
 
 double row_scale(const Model& model, int row) { return model.length_row[row] ? 1.0 : model.length; }
 
@@ -53,13 +38,9 @@ Eigen::SparseMatrix<double> compressed(int rows, int columns, const Triplets& en
 Eigen::SparseMatrix<double> scaled_jacobian(const Model& model, const Evaluation& evaluation) {
   Triplets entries;
   for_each_row(model, evaluation, [&](int row, const ElementMap& map, const auto&, const Row12& values) {
-    const Eigen::MatrixXd columns = model_rows(model, map, local_view(values), evaluation);
-    for (std::size_t j = 0; j < map.coordinates.size(); ++j) {
-      const double value = columns(0, static_cast<Eigen::Index>(j));
-      if (map.coordinates[j] < 0 || value == 0.0) continue;
-      const double scale = model.equation_scale[map.coordinates[j]] * row_scale(model, row);
-      entries.emplace_back(map.coordinates[j], row, value * scale);
-    }
+    for_each_entry(model, map, values, evaluation, [&](int j, double value) {
+      if (value != 0.0) entries.emplace_back(j, row, value * (model.equation_scale[j] * row_scale(model, row)));
+    });
   });
   return compressed(model.sizes.boundary, model.sizes.constraints, entries);
 }
