@@ -51,6 +51,10 @@ std::vector<Violation> check_headers(const SourceTree& tree);
 /// .cpp up to 500 lines, .hpp up to 300.
 std::vector<Violation> check_lengths(const SourceTree& tree);
 
+/// Functions up to 60 lines but for lists of fields and a few by name; few with more than 5 parameters; no name such as
+/// work_1.
+std::vector<Violation> check_functions(const SourceTree& tree);
+
 /// At most 30 sources (headers counted) in a folder: a room that a person takes in.
 std::vector<Violation> check_rooms(const SourceTree& tree);
 

@@ -43,6 +43,7 @@ TEST_F(PlantedTree, IsCleanAtFirst) {
   EXPECT_EQ(to_text(check_cycles(tree())), "");
   EXPECT_EQ(to_text(check_headers(tree())), "");
   EXPECT_EQ(to_text(check_lengths(tree())), "");
+  EXPECT_EQ(to_text(check_functions(tree())), "");
   EXPECT_EQ(to_text(check_rooms(tree())), "");
   EXPECT_EQ(to_text(check_stories(tree())), "");
   EXPECT_EQ(to_text(check_wording(tree())), "");
@@ -88,7 +89,10 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"mechanism/joints/x.cpp", "#include <iostream>\n", "numerics do not include <iostream>"},
         Planted{"reducer/elements/x.cpp", "int f() { return std::getenv(\"A\") != nullptr; }\n",
                 "numerics do not use getenv"},
-        Planted{"mechanism/x.cpp", "void f() { std::ranges::stable_" "sort(lines); }\n", "use sort_stably"},
+        Planted{"mechanism/x.cpp",
+                "void f() { std::ranges::stable_"
+                "sort(lines); }\n",
+                "use sort_stably"},
         Planted{"mechanism/x.cpp", "const char* s = \"run reducer again\";\n", "do not name each other"},
         Planted{"reducer/x.cpp", "using namespace mechanism::other;\n", "do not name each other"},
         Planted{"mechanism/CMakeLists.txt", "target_link_libraries(a tisserand_reducer)\n", "do not name each other"}));
@@ -140,6 +144,36 @@ TEST_F(PlantedTree, LengthIsBounded) {
   EXPECT_EQ(to_text(check_lengths(tree())), "");
   plant("common/long.hpp", lines(301));
   EXPECT_EQ(to_text(check_lengths(tree())), "common/long.hpp: 301 lines, at most 300\n");
+}
+
+TEST_F(PlantedTree, LongFunctionsAndNumberedNamesAreFound) {
+  const auto function = [](const std::string& name, int lines) {
+    std::string text = "namespace a {\nclass B {\n  int size() { return 1; }\n};\nint " + name +
+                       "(int a,\n    const char* text = \"}(,\") {\n";
+    for (int i = 0; i < lines - 3; ++i) text += "  if (a) { a = int{1}; }  // }\n";
+    return text + "}\n}\n";
+  };
+  plant("common/long.cpp", function("long_one", 60));
+  EXPECT_EQ(to_text(check_functions(tree())), "");
+  plant("common/list.cpp", function("some_fields", 61));
+  EXPECT_EQ(to_text(check_functions(tree())), "");
+  plant("common/long.cpp", function("long_one", 61));
+  EXPECT_EQ(to_text(check_functions(tree())), "common/long.cpp:5: long_one: 61 lines, 60 are allowed\n");
+  plant("common/long.cpp", "struct A {\n  int work_1;  // or work_2\n};\n");
+  EXPECT_THAT(to_text(check_functions(tree())), HasSubstr("common/long.cpp:2: a name that says nothing"));
+}
+
+TEST_F(PlantedTree, FunctionsWithManyParametersAreCounted) {
+  std::string text;
+  for (int i = 0; i < 200; ++i)
+    text += "void f" + std::to_string(i) + "(std::map<int, int> a, int b, int c, int d, int e) {}\n";
+  plant("common/many.cpp", text);
+  EXPECT_EQ(to_text(check_functions(tree())), "");
+  text.clear();
+  for (int i = 0; i < 200; ++i)
+    text += "void g" + std::to_string(i) + "(int a, int b, int c, int d, int e, int f) {}\n";
+  plant("common/many.cpp", text);
+  EXPECT_THAT(to_text(check_functions(tree())), HasSubstr("200 functions have more than 5 parameters"));
 }
 
 TEST_F(PlantedTree, FullRoomsAndLongStoriesAreFound) {

@@ -25,6 +25,8 @@ TEST(Tree, HeadersAreGuardedAndFirst) { EXPECT_EQ(to_text(check_headers(this_tre
 
 TEST(Tree, FilesAreShort) { EXPECT_EQ(to_text(check_lengths(this_tree())), ""); }
 
+TEST(Tree, FunctionsAreShort) { EXPECT_EQ(to_text(check_functions(this_tree())), ""); }
+
 TEST(Tree, RoomsAreSmall) { EXPECT_EQ(to_text(check_rooms(this_tree())), ""); }
 
 TEST(Tree, StoriesFitOnAPage) { EXPECT_EQ(to_text(check_stories(this_tree())), ""); }

@@ -11,20 +11,11 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Columns = Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, 3>>;
-
-/// Transposed rows of the boundary, nb x 3 each.
-struct CenterColumns {
-  Columns w;  ///< W Γᵀ
-  Columns g;  ///< (Γ P)ᵀ
-  Columns z;  ///< (Γ (Z − c_m P))ᵀ
-  Columns J;
-  Columns F;  ///< (c_m J + c_c A_v)ᵀ
-};
+using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
 /// out += (F U)ᵀ
 void add_frame_rotation(const SuperelementBody& body, const LocalMotion<double>& motion, const Matrix3d& F,
-                        Columns out) {
+                        Columns& out) {
   if (body.frame == FrameAlgorithm::polar) {
     for (const int j : body.translation_nodes) {
       const auto i = static_cast<std::size_t>(j);
@@ -52,7 +43,7 @@ FrameRotation start_of_frame_rotation(const LocalMotion<double>& motion) {
 
 /// Rows of a node's translation in g, z, J, F, and its shares of δΘ₀.
 void add_translation(const SuperelementBody& body, const LocalMotion<double>& motion, std::size_t i, double damping,
-                     CenterColumns& out, FrameRotation& shares) {
+                     CenterWork& out, FrameRotation& shares) {
   const int row = body.node[i].translation_row;
   const Matrix3d G = body.Gamma_B.middleCols<3>(row), O0 = skew<double>(motion.Omega0);
   shares.kappa += G * skew<double>(motion.node[i].xh) / body.mass;
@@ -66,7 +57,7 @@ void add_translation(const SuperelementBody& body, const LocalMotion<double>& mo
 
 /// Rows of a node's rotation.
 void add_rotation(const SuperelementBody& body, const LocalMotion<double>& motion, std::size_t i, double damping,
-                  CenterColumns& out, FrameRotation& shares) {
+                  CenterWork& out, FrameRotation& shares) {
   const int row = body.node[i].rotation_row;
   const LocalNode<double>& local = motion.node[i];
   const Matrix3d G = body.Gamma_B.middleCols<3>(row), O0 = skew<double>(motion.Omega0);
@@ -81,7 +72,7 @@ void add_rotation(const SuperelementBody& body, const LocalMotion<double>& motio
 
 /// All but w.
 void set_columns(const SuperelementBody& body, const LocalMotion<double>& motion, const TangentCoefficients& c,
-                 CenterColumns& out) {
+                 CenterWork& out) {
   for (Columns* columns : {&out.g, &out.z, &out.J, &out.F}) columns->setZero();
   FrameRotation shares = start_of_frame_rotation(motion);
   for (std::size_t i = 0; i < body.node.size(); ++i) {
@@ -109,13 +100,12 @@ Matrix3d acceleration_of_rates(const TangentCoefficients& c, const LocalMotion<d
 void add_center_of_mass_tangent(const SuperelementBody& body, SuperelementScratch& scratch, SuperelementWork& work) {
   SuperelementTangent& frozen = scratch.tangent;
   const TangentCoefficients& c = frozen.coefficients;
-  // A frame needs six coordinates, so that the square matrices to work in have six columns.
-  CenterColumns columns{work.thin_1, work.thin_2, work.thin_3, work.work_1.leftCols(3), work.work_1.middleCols(3, 3)};
+  CenterWork& columns = work.center;
   set_columns(body, scratch.motion, c, columns);
   for (int k = 0; k < 3; ++k) {
-    work.boundary_1 = body.Gamma_B.row(k);
-    apply_W(body, frozen, work.boundary_1, work.boundary_2);
-    columns.w.col(k) = work.boundary_2;
+    work.column = body.Gamma_B.row(k);
+    apply_W(body, frozen, work.column, work.turned);
+    columns.w.col(k) = work.turned;
   }
   work.A_BB.noalias() += body.mass * columns.J.lazyProduct(columns.F.transpose());
   work.A_BB.noalias() -= columns.w.lazyProduct(columns.g.transpose()) / body.mass;

@@ -130,98 +130,78 @@ void apply_Z_transposed(const SuperelementBody& body, const SuperelementTangent&
   apply_side(body, tangent, {.turn = 0.0, .frame = -1.0}, t, out);
 }
 
+bool has_stored_coupling(const SuperelementBody& body) {
+  return body.planar || body.inertia == formats::InertiaOption::M || body.damping.is_full() || body.second_order.any();
+}
+
 void store_coupling(const SuperelementBody& body, SuperelementTangent& tangent, SuperelementWork& work) {
   tangent.dense_coupling = true;
   const double damping = tangent.coefficients.damping;
   const bool damped = damping != 0.0 && body.damping.is_full();
   for (Eigen::Index k = 0; k < body.modes; ++k) {
-    work.boundary_1 = body.M_BI.col(k);
-    apply_W(body, tangent, work.boundary_1, work.boundary_2);
-    tangent.A_BI.col(k) = work.boundary_2;
-    apply_Z_transposed(body, tangent, work.boundary_1, work.boundary_2);
-    tangent.A_IB.row(k) = work.boundary_2;
+    work.column = body.M_BI.col(k);
+    apply_W(body, tangent, work.column, work.turned);
+    tangent.A_BI.col(k) = work.turned;
+    apply_Z_transposed(body, tangent, work.column, work.turned);
+    tangent.A_IB.row(k) = work.turned;
     if (!damped) continue;
-    work.boundary_1 = body.damping.BI.col(k);
-    work.boundary_2.setZero();
-    add_upsilon_transposed(body, tangent, damping, work.boundary_1, work.boundary_2);
-    tangent.A_BI.col(k) += work.boundary_2;
-    tangent.A_IB.row(k) += work.boundary_2;
+    work.column = body.damping.BI.col(k);
+    work.turned.setZero();
+    add_upsilon_transposed(body, tangent, damping, work.column, work.turned);
+    tangent.A_BI.col(k) += work.turned;
+    tangent.A_IB.row(k) += work.turned;
   }
 }
 
-void eliminate_internal(const SuperelementBody& body, const SuperelementTangent& tangent, SuperelementWork& work) {
-  if (body.second_order.any()) {
-    work.eliminated = tangent.A_IB;
-    tangent.factor.solve_in_place(work.eliminated);
-    work.A_BB.noalias() -= tangent.A_BI * work.eliminated;
-    return;
-  }
-  const bool full = body.damping.is_full();
-  if (full) work.eliminated.noalias() = tangent.inverse_II.lazyProduct(tangent.A_IB);
-  for (Eigen::Index k = 0; k < body.modes; ++k) {
-    const Eigen::MatrixXd& rows = full ? work.eliminated : tangent.A_IB;
-    work.boundary_2 = rows.row(k);
-    const double factor = full ? 1.0 : work.inverse_D[k];
-    work.A_BB.noalias() -= factor * tangent.A_BI.col(k).lazyProduct(work.boundary_2.transpose());
-  }
+void eliminate_internal(const SuperelementTangent& tangent, SuperelementWork& work) {
+  work.eliminated = tangent.A_IB;
+  tangent.internal.solve_in_place(work.eliminated);
+  work.A_BB.noalias() -= tangent.A_BI * work.eliminated;
 }
 
 void condense(const SuperelementBody& body, const SuperelementScratch& scratch, SuperelementWork& work) {
   work.r_B_condensed = scratch.forces.r_B;
   if (body.modes == 0) return;
   const SuperelementTangent& tangent = scratch.tangent;
-  if (body.second_order.any()) {
-    work.internal_1 = scratch.forces.r_I;
-    tangent.factor.solve_in_place(work.internal_1);
-  } else if (body.damping.is_full())
-    work.internal_1.noalias() = tangent.inverse_II * scratch.forces.r_I;
-  else
-    work.internal_1 = tangent.inverse_D.cwiseProduct(scratch.forces.r_I);
+  work.internal_column = scratch.forces.r_I;
+  tangent.internal.solve_in_place(work.internal_column);
   if (tangent.dense_coupling) {
-    work.r_B_condensed.noalias() -= tangent.A_BI * work.internal_1;
+    work.r_B_condensed.noalias() -= tangent.A_BI * work.internal_column;
     return;
   }
-  work.boundary_1.setZero();
-  multiply_add(body.M_BI, work.internal_1, work.boundary_1);
-  apply_W(body, tangent, work.boundary_1, work.boundary_2);
-  work.r_B_condensed -= work.boundary_2;
+  work.column.setZero();
+  multiply_add(body.M_BI, work.internal_column, work.column);
+  apply_W(body, tangent, work.column, work.turned);
+  work.r_B_condensed -= work.turned;
 }
+
+namespace {
+
+/// dy_I = −A_II⁻¹ (r_I + A_IB dq_B), r_I in work.internal_column.
+void expand_residual(const SuperelementBody& body, const SuperelementTangent& tangent, const double* dq_B, double* dy_I,
+                     SuperelementWork& work) {
+  if (tangent.dense_coupling) {
+    work.internal_column.noalias() += tangent.A_IB * Eigen::Map<const Eigen::VectorXd>(dq_B, body.boundary_size);
+  } else {
+    apply_Z(body, tangent, dq_B, work.column);
+    multiply_add(body.M_IB, work.column, work.internal_column);
+  }
+  tangent.internal.solve_in_place(work.internal_column);
+  Eigen::Map<Eigen::VectorXd>(dy_I, body.modes) = -work.internal_column;
+}
+
+}  // namespace
 
 void expand(const SuperelementBody& body, const SuperelementScratch& scratch, const double* dq_B, double* dy_I,
             SuperelementWork& work) {
-  if (body.modes == 0) return;
-  const SuperelementTangent& tangent = scratch.tangent;
-  work.internal_1 = scratch.forces.r_I;
-  if (tangent.dense_coupling) {
-    work.internal_1.noalias() += tangent.A_IB * Eigen::Map<const Eigen::VectorXd>(dq_B, body.boundary_size);
-  } else {
-    apply_Z(body, tangent, dq_B, work.boundary_1);
-    multiply_add(body.M_IB, work.boundary_1, work.internal_1);
-  }
-  Eigen::Map<Eigen::VectorXd> out(dy_I, body.modes);
-  if (body.second_order.any()) {
-    tangent.factor.solve_in_place(work.internal_1);
-    out = work.internal_1;
-  } else if (body.damping.is_full())
-    out.noalias() = tangent.inverse_II * work.internal_1;
-  else
-    out = tangent.inverse_D.cwiseProduct(work.internal_1);
-  out = -out;
+  work.internal_column = scratch.forces.r_I;
+  if (body.modes > 0) expand_residual(body, scratch.tangent, dq_B, dy_I, work);
 }
 
 void expand_motion(const SuperelementBody& body, const SuperelementScratch& scratch, const double* dq_B, double* dy_I,
                    SuperelementWork& work) {
-  if (body.modes == 0) return;
-  const SuperelementTangent& tangent = scratch.tangent;
-  Eigen::Map<Eigen::VectorXd> out(dy_I, body.modes);
-  if (body.second_order.any()) {
-    work.internal_1.noalias() = tangent.A_IB * Eigen::Map<const Eigen::VectorXd>(dq_B, body.boundary_size);
-    tangent.factor.solve_in_place(work.internal_1);
-    out = -work.internal_1;
-    return;
-  }
-  expand(body, scratch, dq_B, dy_I, work);  // affine: minus its value at zero
-  for (Eigen::Index k = 0; k < body.modes; ++k) out[k] += tangent.inverse_D[k] * scratch.forces.r_I[k];
+  work.internal_column.setZero();
+  if (body.modes > 0) expand_residual(body, scratch.tangent, dq_B, dy_I, work);
 }
 
 }  // namespace tisserand::mechanism

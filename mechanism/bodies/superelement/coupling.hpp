@@ -23,10 +23,13 @@ void apply_Z_transposed(const SuperelementBody& body, const SuperelementTangent&
 void apply_W(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
              Eigen::VectorXd& out);
 
+/// Whether A_BI and A_IB are stored, instead of W M_BI and M_IB Z.
+bool has_stored_coupling(const SuperelementBody& body);
+
 /// Stores A_BI = W M_BI + c_c Υᵀ D_BI and A_IB = M_IB Z + c_c D_IB Υ in `tangent`.
 void store_coupling(const SuperelementBody& body, SuperelementTangent& tangent, SuperelementWork& work);
 
 /// work.A_BB −= A_BI A_II⁻¹ A_IB with the stored ones.
-void eliminate_internal(const SuperelementBody& body, const SuperelementTangent& tangent, SuperelementWork& work);
+void eliminate_internal(const SuperelementTangent& tangent, SuperelementWork& work);
 
 }  // namespace tisserand::mechanism

@@ -87,19 +87,10 @@ void exact_tangent(const SuperelementBody& body, const NodeView<NodeMotion>& nod
   frozen.dense_coupling = true;
   frozen.A_BI = A.topRightCorner(nb, m);
   frozen.A_IB = A.bottomLeftCorner(m, nb);
-  if (body.second_order.any()) {
-    if (m > 0) frozen.factor.factor(A.bottomRightCorner(m, m));
-    work.A_BB = A.topLeftCorner(nb, nb);
-    if (m > 0) eliminate_internal(body, frozen, work);
-    return;
-  }
-  if (body.damping.is_full()) {
-    frozen.inverse_II = A.bottomRightCorner(m, m).inverse();
-    work.A_BB = A.topLeftCorner(nb, nb) - frozen.A_BI * frozen.inverse_II * frozen.A_IB;
-    return;
-  }
-  frozen.inverse_D = A.bottomRightCorner(m, m).diagonal().cwiseInverse();
-  work.A_BB = A.topLeftCorner(nb, nb) - frozen.A_BI * frozen.inverse_D.asDiagonal() * frozen.A_IB;
+  work.A_BB = A.topLeftCorner(nb, nb);
+  if (m == 0) return;
+  frozen.internal.factor(A.bottomRightCorner(m, m));
+  eliminate_internal(frozen, work);
 }
 
 }  // namespace tisserand::mechanism

@@ -172,7 +172,7 @@ Foreshortened<S> set_products(const FullInertia& inertia, const LocalMotion<S>& 
   t.Cyd.setZero();
   multiply_add(inertia.C, t.y, t.Cy, t.yd, t.Cyd);
   Foreshortened<S> w = inertia.foreshortening ? set_form_products<FullInertia::all, S>(inertia, t)
-                                                    : set_form_products<FullInertia::E_alone, S>(inertia, t);
+                                              : set_form_products<FullInertia::E_alone, S>(inertia, t);
   if (turns_nodes(inertia)) {
     t.Wy.setZero();
     t.Wyd.setZero();
@@ -186,7 +186,8 @@ Foreshortened<S> set_products(const FullInertia& inertia, const LocalMotion<S>& 
   return w;
 }
 
-/// ξ, p and their rates, ½ ξᵀM̄ξ: with n₂ = D_Rᵀ M (ẇ₂ + Ω × w₂) and what W adds, ξ = R (ν + J₀⁻¹ n₂) + ẏ, p = M̄ ξ + Ω_k C_k y.
+/// ξ, p and their rates, ½ ξᵀM̄ξ: with n₂ = D_Rᵀ M (ẇ₂ + Ω × w₂) and what W adds, ξ = R (ν + J₀⁻¹ n₂) + ẏ, p = M̄ ξ + Ω_k
+/// C_k y.
 template <class S>
 void set_momenta(const FullInertia& inertia, const LocalMotion<S>& motion, const Foreshortened<S>& w,
                  InertiaTerms<S>& t) {

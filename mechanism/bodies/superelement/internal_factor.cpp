@@ -13,33 +13,42 @@ void InternalFactor::resize(Eigen::Index modes) {
   lu_ = Eigen::PartialPivLU<MatrixXd>(modes);
 }
 
+void InternalFactor::set_diagonal(const Eigen::VectorXd& A) {
+  kind_ = Kind::diagonal;
+  reciprocals_ = A.cwiseInverse();
+}
+
 void InternalFactor::factor_symmetric(const Eigen::Ref<const MatrixXd>& A) {
   cholesky_.compute(A);
-  definite_ = cholesky_.info() == Eigen::Success;
-  if (!definite_) lu_.compute(A.selfadjointView<Eigen::Lower>());
+  kind_ = cholesky_.info() == Eigen::Success ? Kind::cholesky : Kind::lu;
+  if (kind_ == Kind::lu) lu_.compute(A.selfadjointView<Eigen::Lower>());
 }
 
 void InternalFactor::factor(const Eigen::Ref<const MatrixXd>& A) {
   lu_.compute(A);
-  definite_ = false;
+  kind_ = Kind::lu;
 }
 
 void InternalFactor::solve_in_place(Eigen::VectorXd& x) const {
-  if (definite_)
+  if (kind_ == Kind::diagonal)
+    x.array() *= reciprocals_.array();
+  else if (kind_ == Kind::cholesky)
     cholesky_.solveInPlace(x);
   else
     x = lu_.solve(x).eval();
 }
 
 void InternalFactor::solve_in_place(MatrixXd& X) const {
-  if (definite_)
+  if (kind_ == Kind::diagonal)
+    X.array().colwise() *= reciprocals_.array();
+  else if (kind_ == Kind::cholesky)
     cholesky_.solveInPlace(X);
   else
     X = lu_.solve(X).eval();
 }
 
 void InternalFactor::subtract_schur(MatrixXd& B, MatrixXd& S) const {
-  if (definite_) {
+  if (kind_ == Kind::cholesky) {
     cholesky_.matrixL().solveInPlace(B);
     S.selfadjointView<Eigen::Lower>().rankUpdate(B.transpose(), -1.0);
   } else {

@@ -1,4 +1,4 @@
-// Factors of the internal block of a superelement's tangent where it is dense and changes.
+// Factors of the internal block of a superelement's tangent.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -6,13 +6,15 @@
 
 namespace tisserand::mechanism {
 
-/// A_II by Cholesky, or by LU where it is not positive definite: beyond a buckling load of the body with its boundary
-/// held, or of an exact tangent.
+/// A_II: a diagonal, a matrix by Cholesky, or one by LU where it is not positive definite: beyond a buckling load of
+/// the body with its boundary held, or of an exact tangent.
 class InternalFactor {
  public:
   InternalFactor();
+  /// So that factors of matrices need no memory later.
   void resize(Eigen::Index modes);
 
+  void set_diagonal(const Eigen::VectorXd& A);
   /// A: its lower triangle counts.
   void factor_symmetric(const Eigen::Ref<const Eigen::MatrixXd>& A);
   void factor(const Eigen::Ref<const Eigen::MatrixXd>& A);
@@ -21,13 +23,17 @@ class InternalFactor {
   void solve_in_place(Eigen::VectorXd& x) const;
   void solve_in_place(Eigen::MatrixXd& X) const;
 
-  /// Lower triangle of S −= Bᵀ A⁻¹ B of the symmetric A; B (modes x columns) is lost.
+  /// Of a diagonal.
+  const Eigen::VectorXd& reciprocals() const { return reciprocals_; }
+
+  /// Lower triangle of S −= Bᵀ A⁻¹ B of a symmetric matrix A; B (modes x columns) is lost.
   void subtract_schur(Eigen::MatrixXd& B, Eigen::MatrixXd& S) const;
 
  private:
+  enum class Kind { diagonal, cholesky, lu } kind_ = Kind::diagonal;
+  Eigen::VectorXd reciprocals_;
   Eigen::LLT<Eigen::MatrixXd> cholesky_;
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
-  bool definite_ = false;
 };
 
 }  // namespace tisserand::mechanism

@@ -86,11 +86,11 @@ void set_boundary(const SuperelementBody& body, double w, PlanarColumns& columns
     A = work.K;
   else
     A = (c.stiffness + c.damping * body.damping.stiffness) * body.S_BB;
-  work.boundary_1.noalias() = A.lazyProduct(columns.h());
-  const double whole = columns.h().dot(work.boundary_1);
-  work.boundary_2 = work.boundary_1 + (0.5 * whole) * columns.U();
-  A.noalias() += work.boundary_2.lazyProduct(columns.U().transpose());
-  A.noalias() += columns.U().lazyProduct(work.boundary_2.transpose());
+  work.column.noalias() = A.lazyProduct(columns.h());
+  const double whole = columns.h().dot(work.column);
+  work.turned = work.column + (0.5 * whole) * columns.U();
+  A.noalias() += work.turned.lazyProduct(columns.U().transpose());
+  A.noalias() += columns.U().lazyProduct(work.turned.transpose());
   A += c.mass * body.M_BB;
   if (c.damping == 0.0) return;
   columns.a().noalias() = body.M_BB.lazyProduct(columns.V());
@@ -110,15 +110,15 @@ void set_coupling(const SuperelementBody& body, double w, PlanarColumns& columns
   if (c.damping == 0.0) return;
   add_O0(body, c.damping * w, body.M_BI, frozen.A_BI);
   add_O0_transposed(body, c.damping * w, body.M_IB, frozen.A_IB);
-  work.internal_1.noalias() = body.M_IB.lazyProduct(c.damping * columns.V());
-  frozen.A_BI.noalias() -= columns.U().lazyProduct(work.internal_1.transpose());
-  frozen.A_IB.noalias() += work.internal_1.lazyProduct(columns.U().transpose());
+  work.internal_column.noalias() = body.M_IB.lazyProduct(c.damping * columns.V());
+  frozen.A_BI.noalias() -= columns.U().lazyProduct(work.internal_column.transpose());
+  frozen.A_IB.noalias() += work.internal_column.lazyProduct(columns.U().transpose());
   if (!body.damping.is_full()) return;
-  work.internal_1.noalias() = body.damping.IB.lazyProduct(c.damping * columns.h());
+  work.internal_column.noalias() = body.damping.IB.lazyProduct(c.damping * columns.h());
   frozen.A_BI += c.damping * body.damping.BI;
   frozen.A_IB += c.damping * body.damping.IB;
-  frozen.A_BI.noalias() += columns.U().lazyProduct(work.internal_1.transpose());
-  frozen.A_IB.noalias() += work.internal_1.lazyProduct(columns.U().transpose());
+  frozen.A_BI.noalias() += columns.U().lazyProduct(work.internal_column.transpose());
+  frozen.A_IB.noalias() += work.internal_column.lazyProduct(columns.U().transpose());
 }
 
 /// Rows of the centre of mass as in center_tangent.cpp: W Γᵀ, (Γ P)ᵀ, (Γ (Z − c_m P))ᵀ, J, (c_m J + c_c A_v)ᵀ.

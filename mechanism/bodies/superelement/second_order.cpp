@@ -228,8 +228,7 @@ FullInertia make_full_inertia(const SuperelementBody& body, const formats::Compa
   for (const SuperelementNode& node : body.node) length = std::max(length, node.X.norm());
   inertia.J0_inverse = invert_inertia(inertia.R.transpose() * inertia.MR, length > 0.0 ? length : 1.0);
   const VectorXd unit = coordinate_units(body);
-  const double nothing =
-      QuadraticForms::round_off * largest_entry({companion.C.begin(), companion.C.end()}, unit);
+  const double nothing = QuadraticForms::round_off * largest_entry({companion.C.begin(), companion.C.end()}, unit);
   inertia.C = turning_blocks(companion.C, unit, nothing);
   const std::vector<MatrixXd> E(companion.E.begin(), companion.E.end());
   const VectorXd E_scale = VectorXd::Constant(6, largest_entry(E, unit));

@@ -18,7 +18,8 @@ namespace tisserand::mechanism {
 struct SuperelementBody;
 
 /// Strain energy as a sum of squares, V = ½ Σ e_a², e_a = l_a·y + ½ yᵀ Γ_a y: the rows L of S̄ = LᵀL, with Γ. S̄ y stays
-/// what it is without stiffening; these are the terms beyond it. Rows Λ of the companion have l = 0. The last rows may be zero, as those of QuadraticForms.
+/// what it is without stiffening; these are the terms beyond it. Rows Λ of the companion have l = 0. The last rows may
+/// be zero, as those of QuadraticForms.
 struct Stiffening {
   Eigen::MatrixXd L;                               ///< rows x N
   BlockColumns L_blocks;                           ///< the same
@@ -59,9 +60,8 @@ formats::Companion companion_on_body(formats::Companion companion, const formats
 
 /// Rows of S̄ = LᵀL: of the scaled S̄_BB by Cholesky with pivots above 1e-9 of the first, and ωᵢ of the internal
 /// coordinates; Lᵀ Γ = H ([SO] 2.3). Any rows have the same energy; these keep apart what S̄ keeps apart (stretch,
-/// torsion, bending in either plane of a straight beam), and Γ with them; and the companion's Λ with l = 0. Rows of like
-/// Γ follow one another. The
-/// companion is that of companion_on_body().
+/// torsion, bending in either plane of a straight beam), and Γ with them; and the companion's Λ with l = 0. Rows of
+/// like Γ follow one another. The companion is that of companion_on_body().
 Stiffening make_stiffening(const SuperelementBody& body, const formats::Companion& companion);
 
 enum class Foreshortening { off, on };

@@ -157,13 +157,13 @@ void assemble_stiffening(const SuperelementBody& body, const SuperelementForces<
   add_load_stiffness(body, forces.loads, c.stiffness, work);
 }
 
-/// work.work_1 = Zᵀ K_bb Z.
+/// work.second.pulled = Zᵀ K_bb Z.
 void pull_back_boundary(const SuperelementBody& body, const SuperelementTangent& frozen, SuperelementWork& work) {
   SecondOrderWork& w = work.second;
   w.K_bb.triangularView<Eigen::StrictlyUpper>() = w.K_bb.transpose();
   times_Z(body, frozen, w.K_bb, w.half, w.thin_boundary);
   w.turned = w.half.transpose();
-  times_Z(body, frozen, w.turned, work.work_1, w.thin_nodes);
+  times_Z(body, frozen, w.turned, w.pulled, w.thin_nodes);
 }
 
 void copy_boundary(const SuperelementBody& body, SecondOrderWork& w) {
@@ -195,6 +195,7 @@ SecondOrderWork make_second_order_work(const SuperelementBody& body) {
   w.K_Ib.setZero(m, 6 + nb);
   w.half.setZero(6 + nb, nb);
   w.turned.setZero(nb, 6 + nb);
+  w.pulled.setZero(nb, nb);
   w.thin_boundary.setZero(6 + nb, 6);
   w.thin_nodes.setZero(nb, 6);
   w.thin_internal.setZero(m, 6);
@@ -217,11 +218,11 @@ void full_inertia_tangent(const SuperelementBody& body, const TangentCoefficient
     frozen.A_BI = frozen.A_IB.transpose();
   }
   if (body.modes > 0 && internal == InternalCoordinates::eliminated) {
-    frozen.factor.factor_symmetric(w.K.bottomRightCorner(body.modes, body.modes));
-    frozen.factor.subtract_schur(w.K_Ib, w.K_bb);
+    frozen.internal.factor_symmetric(w.K.bottomRightCorner(body.modes, body.modes));
+    frozen.internal.subtract_schur(w.K_Ib, w.K_bb);
   }
   pull_back_boundary(body, frozen, work);
-  work.A_BB = work.work_1;
+  work.A_BB = w.pulled;
   add_frame_stiffness(body, scratch.forces, coefficients.stiffness, frozen, work);
 }
 
@@ -240,10 +241,10 @@ void add_stiffening_tangent(const SuperelementBody& body, const TangentCoefficie
     II.diagonal().array() += coefficients.mass;
     II.diagonal() += coefficients.stiffness * body.S_II + coefficients.damping * body.damping.internal;
     if (body.damping.is_full()) II += coefficients.damping * body.damping.II;
-    if (internal == InternalCoordinates::eliminated) frozen.factor.factor_symmetric(II);
+    if (internal == InternalCoordinates::eliminated) frozen.internal.factor_symmetric(II);
   }
   pull_back_boundary(body, frozen, work);
-  work.A_BB += work.work_1;
+  work.A_BB += w.pulled;
   add_frame_stiffness(body, scratch.forces, coefficients.stiffness, frozen, work);
 }
 

@@ -1,5 +1,4 @@
 // Step tangent of a superelement body with the internal coordinates eliminated: the inner loop of every time step.
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "mechanism/bodies/superelement/center_tangent.hpp"
@@ -42,22 +41,20 @@ void update_constants(const SuperelementBody& body, const TangentCoefficients& c
   const Eigen::Index nb = body.boundary_size;
   work.coefficients = c;
   work.constants_valid = true;
-  for (Eigen::Index k = 0; k < body.modes; ++k)
-    work.inverse_D[k] = 1.0 / (c.mass + c.damping * body.damping.internal[k] + c.stiffness * body.S_II[k]);
+  work.internal_column = c.stiffness * body.S_II + c.damping * body.damping.internal;
+  work.internal_column.array() += c.mass;
+  work.internal.set_diagonal(work.internal_column);
+  const Eigen::VectorXd& inverse_D = work.internal.reciprocals();
   for (Eigen::Index j = 0; j < nb; ++j) {
     work.Q.col(j).setZero();
-    for (Eigen::Index k = 0; k < body.modes; ++k)
-      work.Q.col(j) += (work.inverse_D[k] * body.M_BI(j, k)) * body.M_BI.col(k);
+    for (Eigen::Index k = 0; k < body.modes; ++k) work.Q.col(j) += (inverse_D[k] * body.M_BI(j, k)) * body.M_BI.col(k);
   }
   work.N = body.M_BB - c.mass * work.Q;
   update_full_stiffness(body, c, work);
   if (!body.damping.is_full() || body.modes == 0) return;
-  work.factor_II = c.damping * body.damping.II;
-  work.factor_II.diagonal() +=
-      c.stiffness * body.S_II + c.damping * body.damping.internal + Eigen::VectorXd::Constant(body.modes, c.mass);
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(work.factor_II);
-  work.inverse_II.setIdentity();
-  factor.solveInPlace(work.inverse_II);
+  work.A_II = c.damping * body.damping.II;
+  work.A_II.diagonal() += work.internal_column;
+  work.internal.factor_symmetric(work.A_II);
 }
 
 /// Keeps the state of this tangent for condense() and expand(), and U P⁻¹.
@@ -65,8 +62,7 @@ void freeze(const SuperelementBody& body, const LocalMotion<double>& motion, con
             SuperelementTangent& frozen) {
   frozen.dense_coupling = false;
   frozen.coefficients = work.coefficients;
-  frozen.inverse_D = work.inverse_D;
-  if (body.damping.is_full()) frozen.inverse_II = work.inverse_II;
+  frozen.internal = work.internal;
   frozen.R0 = motion.R0;
   frozen.Omega0 = motion.Omega0;
   frozen.node = motion.node;
@@ -245,9 +241,9 @@ void condensed_tangent(const SuperelementBody& body, const SuperelementScratch& 
   const int nb = body.boundary_size;
   const TangentCoefficients& c = work.coefficients;
   const ConstSquare<NB> N(eliminate ? work.N.data() : body.M_BB.data(), nb, nb), Q(work.Q.data(), nb, nb);
-  Square<NB> Np(work.work_1.data(), nb, nb), G1(work.work_2.data(), nb, nb), G2(work.work_3.data(), nb, nb);
+  Square<NB> Np(work.Np.data(), nb, nb), G1(work.G1.data(), nb, nb), G2(work.G2.data(), nb, nb);
   Square<NB> A(work.A_BB.data(), nb, nb);
-  Thin<NB> J(work.thin_1.data(), nb, 3), F(work.thin_2.data(), nb, 3);
+  Thin<NB> J(work.J.data(), nb, 3), F(work.F.data(), nb, 3);
 
   Np = N;
   if (eliminate) {
@@ -269,7 +265,7 @@ void condensed_tangent(const SuperelementBody& body, const SuperelementScratch& 
   add_times_O0<NB>(body, frozen, c.damping, N, G2);
   // F₂ = c_c (N V + V₁) + J goes with G₂, F₁ = −c_c (N' V + V₁) + J with G₁.
   F *= c.damping;
-  Thin<NB> V1(work.thin_3.data(), nb, 3);
+  Thin<NB> V1(work.V1.data(), nb, 3);
   V1.setZero();
   add_momenta<NB>(body, scratch.forces.p_B, c.damping, V1, G1);
   F += V1 + J;
@@ -304,7 +300,6 @@ void boundary_tangent(const SuperelementBody& body, const SuperelementScratch& s
 void boundary_and_coupling(const SuperelementBody& body, SuperelementScratch& scratch, SuperelementWork& work) {
   if (body.planar) return planar_tangent(body, scratch, work);
   boundary_tangent(body, scratch, false, work);
-  // They work in the vectors and thin matrices that the tangent above is done with.
   if (body.modes > 0) store_coupling(body, scratch.tangent, work);
   if (body.inertia == InertiaOption::M) add_center_of_mass_tangent(body, scratch, work);
 }
@@ -319,13 +314,11 @@ void tangent(const SuperelementBody& body, const TangentCoefficients& coefficien
   }
   update_constants(body, coefficients, work);
   freeze(body, scratch.motion, work, scratch.tangent);
-  const bool stored =
-      body.planar || body.damping.is_full() || body.inertia == InertiaOption::M || body.second_order.stiffening;
-  if (!stored) return boundary_tangent(body, scratch, body.modes > 0, work);
+  if (!has_stored_coupling(body)) return boundary_tangent(body, scratch, body.modes > 0, work);
   boundary_and_coupling(body, scratch, work);
   if (body.second_order.stiffening)
     add_stiffening_tangent(body, coefficients, InternalCoordinates::eliminated, scratch, work);
-  if (body.modes > 0) eliminate_internal(body, scratch.tangent, work);
+  if (body.modes > 0) eliminate_internal(scratch.tangent, work);
 }
 
 void kept_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
