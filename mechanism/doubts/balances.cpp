@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 
+#include "mechanism/doubts/doubt.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/round_off.hpp"
 #include "mechanism/model/connected_bodies.hpp"
@@ -119,119 +122,184 @@ std::vector<std::string> EnergyBalance::doubts(const std::string& cause) const {
                   way, largest / moved_, at_, tolerance)};
 }
 
-MomentumBalance::MomentumBalance(const formats::Scene& scene, const Model& model)
-    : pause_((scene.integrator.end - scene.integrator.start) / instants), next_(scene.integrator.start) {
-  if (scene.analysis == formats::AnalysisKind::dynamics && flies(model))
-    scratch_ = std::make_shared<Scratch>(State(model.sizes), Evaluation(model));
-}
+namespace {
 
-MomentumBalance::Momentum MomentumBalance::momentum_of(const Model& model, const State& state, double possible) {
-  auto& [other, evaluation] = *scratch_;
-  other.block() = state.block();
-  const auto kinetic = [&] {
-    evaluate(model, other, evaluation);
-    return evaluate_energy(model, evaluation).kinetic;
+/// Angular momentum about the origin while nothing connects the bodies with the ground, no weight and no load acts. It
+/// is vᵀ M w for the rates w of a turn of everything about an axis: by differences of the kinetic energy, for every
+/// kind of body.
+class MomentumBalance : public Doubt {
+ public:
+  MomentumBalance(const formats::Scene& scene, const Model& model)
+      : scratch_(std::make_unique<Scratch>(State(model.sizes), Evaluation(model))),
+        pause_((scene.integrator.end - scene.integrator.start) / instants),
+        next_(scene.integrator.start) {}
+
+  /// Loads begin the balance anew. Compares at about a hundred
+  /// steps of a run, each of which costs 13 evaluations.
+  void after_step(const State&, const Instant& end) override {
+    if (!scratch_) return;
+    const auto& [model, state, evaluation] = end;
+    if (is_loaded(evaluation)) begin_.reset();
+    if (is_loaded(evaluation) || (begin_ && state.time() < next_)) return;
+    next_ = state.time() + pause_;
+    const double possible = std::max(evaluation.force_scale[0], force_round_off(model, state)) * model.length;
+    const Momentum now = momentum_of(model, state, possible);
+    if (evaluate_energy(model, scratch_->evaluation).potential != 0.0) {
+      scratch_ = nullptr;
+      return;
+    }
+    if (!begin_) {
+      begin_ = now;
+      return;
+    }
+    const double most = std::max(begin_->most, now.most), change = (now.value - begin_->value).norm();
+    if (most > 0.0 && change > worst_ * most) {
+      worst_ = change / most;
+      from_ = begin_->time;
+      to_ = now.time;
+    }
+  }
+
+  /// At most one: that it changes by more than a two-thousandth of what the speeds could have.
+  std::vector<std::string> doubts(const Model&, const StressedBodies&) const override {
+    if (!(worst_ > most_momentum)) return {};
+    return {fmt::format(
+        "angular momentum changes by {:.2g} of its size from t = {:.6g} to {:.6g} (beyond {:g}), though nothing "
+        "acts on the bodies from outside: a shorter step or a smaller tolerance keeps it better",
+        worst_, from_, to_, most_momentum)};
+  }
+
+ private:
+  struct Momentum {
+    Eigen::Vector3d value = Eigen::Vector3d::Zero();
+    double most = 0.0;  ///< √(vᵀMv wᵀMw), of the axis where it is largest
+    double time = 0.0;
   };
-  Momentum momentum;
-  momentum.time = state.time();
-  const double T = kinetic();
-  if (!(T > round_off * possible)) return momentum;
-  Eigen::VectorXd rates(other.v().size());
-  for (int k = model.planar ? 2 : 0; k < 3; ++k) {
-    other.v() = state.v();
-    kinetic();  // the motion of nodes, for their arms
-    turn_all(model, evaluation, k, rates);
-    other.v() = rates;
-    const double turning = kinetic();
-    if (!(turning > 0.0)) continue;
-    const double factor = std::sqrt(T / turning);
-    other.v() = state.v() + factor * rates;
-    const double more = kinetic();
-    other.v() = state.v() - factor * rates;
-    momentum.value[k] = (more - kinetic()) / (2.0 * factor);
-    momentum.most = std::max(momentum.most, 2.0 * std::sqrt(T * turning));
-  }
-  return momentum;
-}
-
-void MomentumBalance::after_step(const Model& model, const State& state, const Evaluation& at_end) {
-  if (!scratch_) return;
-  if (is_loaded(at_end)) begin_.reset();
-  if (is_loaded(at_end) || (begin_ && state.time() < next_)) return;
-  next_ = state.time() + pause_;
-  const double possible = std::max(at_end.force_scale[0], force_round_off(model, state)) * model.length;
-  const Momentum now = momentum_of(model, state, possible);
-  if (evaluate_energy(model, scratch_->evaluation).potential != 0.0) {
-    scratch_ = nullptr;
-    return;
-  }
-  if (!begin_) {
-    begin_ = now;
-    return;
-  }
-  const double most = std::max(begin_->most, now.most), change = (now.value - begin_->value).norm();
-  if (most > 0.0 && change > worst_ * most) {
-    worst_ = change / most;
-    from_ = begin_->time;
-    to_ = now.time;
-  }
-}
-
-std::vector<std::string> MomentumBalance::doubts() const {
-  if (!(worst_ > most_momentum)) return {};
-  return {fmt::format(
-      "angular momentum changes by {:.2g} of its size from t = {:.6g} to {:.6g} (beyond {:g}), though nothing "
-      "acts on the bodies from outside: a shorter step or a smaller tolerance keeps it better",
-      worst_, from_, to_, most_momentum)};
-}
-
-TumblingBalance::TumblingBalance(const formats::Scene& scene, const Model& model)
-    : pause_((scene.integrator.end - scene.integrator.start) / looks), next_(scene.integrator.start) {
-  if (scene.analysis != formats::AnalysisKind::dynamics || model.planar) return;
-  const auto groups = connected_groups(model, find_parts(model));
-  for (std::size_t i = 0; i < model.rigid_bodies.size(); ++i) {
-    const RigidBody& body = model.rigid_bodies[i];
-    if (!body.gyroscopic || std::ranges::find(groups, std::vector<std::string>{body.name}) == groups.end()) continue;
-    Seen seen{.body = static_cast<int>(i),
-              .inertia = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia).eigenvalues()};
-    const Eigen::Vector3d& I = seen.inertia;
-    // Alike about two axes: no middle axis.
-    if (I[0] > 0.0 && std::min(I[1] - I[0], I[2] - I[1]) > 1e-6 * I[2]) seen_.push_back(seen);
-  }
-}
-
-void TumblingBalance::observe(const Model& model, double time, const Evaluation& evaluation) {
-  if (seen_.empty()) return;
-  const bool loaded = is_loaded(evaluation);
-  if (!loaded && time < next_) return;
-  next_ = time + pause_;
-  const double passed = time - std::exchange(time_, time);
-  for (Seen& seen : seen_) {
-    const RigidBody& body = model.rigid_bodies[static_cast<std::size_t>(seen.body)];
-    const Eigen::Vector3d& Omega = evaluation.motion[static_cast<std::size_t>(body.node)].Omega;
-    const Eigen::Vector3d h = body.inertia * Omega;
-    const double before = std::exchange(seen.now, tumbling_frequency(seen.inertia, h.squaredNorm(), Omega.dot(h)));
-    if (loaded || seen.start < 0.0) {
-      seen.start = loaded ? -1.0 : seen.now;
-      seen.turns = seen.shift = 0.0;
-      continue;
+  struct Scratch {
+    State state;
+    Evaluation evaluation;
+  };
+  Momentum momentum_of(const Model& model, const State& state, double possible) {
+    auto& [other, evaluation] = *scratch_;
+    other.block() = state.block();
+    const auto kinetic = [&] {
+      evaluate(model, other, evaluation);
+      return evaluate_energy(model, evaluation).kinetic;
+    };
+    Momentum momentum;
+    momentum.time = state.time();
+    const double T = kinetic();
+    if (!(T > round_off * possible)) return momentum;
+    Eigen::VectorXd rates(other.v().size());
+    for (int k = model.planar ? 2 : 0; k < 3; ++k) {
+      other.v() = state.v();
+      kinetic();  // the motion of nodes, for their arms
+      turn_all(model, evaluation, k, rates);
+      other.v() = rates;
+      const double turning = kinetic();
+      if (!(turning > 0.0)) continue;
+      const double factor = std::sqrt(T / turning);
+      other.v() = state.v() + factor * rates;
+      const double more = kinetic();
+      other.v() = state.v() - factor * rates;
+      momentum.value[k] = (more - kinetic()) / (2.0 * factor);
+      momentum.most = std::max(momentum.most, 2.0 * std::sqrt(T * turning));
     }
-    seen.turns += passed * 0.5 * (before + seen.now);
-    seen.shift += passed * (0.5 * (before + seen.now) - seen.start);
-    if (seen.turns > 1.0 && std::abs(seen.shift) > seen.worst) {
-      seen.worst = std::abs(seen.shift);
-      seen.time = time;
+    return momentum;
+  }
+
+  std::unique_ptr<Scratch> scratch_;  ///< none: something acts from outside
+  double pause_, next_;
+  std::optional<Momentum> begin_;
+  double worst_ = 0.0;  ///< change by `most`
+  double from_ = 0.0, to_ = 0.0;
+};
+
+/// Tumbling of rigid bodies that nothing is connected to. Its period follows from the energy of rotation T and the
+/// angular momentum h (Landau, Lifshitz, Mechanics, 1976, section 37), and near the middle axis from ln |h² − 2 I₂ T|,
+/// so that small losses of both shift it by whole turns. Measured is ∫ (ν − ν(start)) dt for the frequency ν of T and
+/// h.
+class TumblingBalance : public Doubt {
+ public:
+  TumblingBalance(const formats::Scene& scene, const Model& model)
+      : pause_((scene.integrator.end - scene.integrator.start) / looks), next_(scene.integrator.start) {
+    const auto groups = connected_groups(model, find_parts(model));
+    for (std::size_t i = 0; i < model.rigid_bodies.size(); ++i) {
+      const RigidBody& body = model.rigid_bodies[i];
+      if (!body.gyroscopic || std::ranges::find(groups, std::vector<std::string>{body.name}) == groups.end()) continue;
+      Seen seen{.body = static_cast<int>(i),
+                .inertia = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia).eigenvalues()};
+      const Eigen::Vector3d& I = seen.inertia;
+      // Alike about two axes: no middle axis.
+      if (I[0] > 0.0 && std::min(I[1] - I[0], I[2] - I[1]) > 1e-6 * I[2]) seen_.push_back(seen);
     }
   }
+
+  /// Loads begin the balance anew. Looks at about a thousand states.
+  void observe(const Instant& at) override {
+    if (seen_.empty()) return;
+    const auto& [model, state, evaluation] = at;
+    const double time = state.time();
+    const bool loaded = is_loaded(evaluation);
+    if (!loaded && time < next_) return;
+    next_ = time + pause_;
+    const double passed = time - std::exchange(time_, time);
+    for (Seen& seen : seen_) {
+      const RigidBody& body = model.rigid_bodies[static_cast<std::size_t>(seen.body)];
+      const Eigen::Vector3d& Omega = evaluation.motion[static_cast<std::size_t>(body.node)].Omega;
+      const Eigen::Vector3d h = body.inertia * Omega;
+      const double before = std::exchange(seen.now, tumbling_frequency(seen.inertia, h.squaredNorm(), Omega.dot(h)));
+      if (loaded || seen.start < 0.0) {
+        seen.start = loaded ? -1.0 : seen.now;
+        seen.turns = seen.shift = 0.0;
+        continue;
+      }
+      seen.turns += passed * 0.5 * (before + seen.now);
+      seen.shift += passed * (0.5 * (before + seen.now) - seen.start);
+      if (seen.turns > 1.0 && std::abs(seen.shift) > seen.worst) {
+        seen.worst = std::abs(seen.shift);
+        seen.time = time;
+      }
+    }
+  }
+
+  /// At most one: the body whose tumbling is off by the largest share of a turn.
+  std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
+    const auto worst = std::ranges::max_element(seen_, {}, &Seen::worst);
+    if (worst == seen_.end() || !(worst->worst > most_turns)) return {};
+    return {fmt::format(
+        "the tumbling of '{}' is off by about {:.2g} of a turn at t = {:.6g} (beyond {:g}): its energy and its angular "
+        "momentum change in free flight, and its period with them; a shorter step or a smaller tolerance keeps it "
+        "better",
+        model.rigid_bodies[static_cast<std::size_t>(worst->body)].name, worst->worst, worst->time, most_turns)};
+  }
+
+ private:
+  struct Seen {
+    int body = 0;
+    Eigen::Vector3d inertia;  ///< principal, ascending
+    double start = -1.0;      ///< ν there; negative: not begun
+    double now = 0.0;         ///< ν
+    double turns = 0.0;       ///< ∫ ν dt
+    double shift = 0.0;       ///< ∫ (ν − ν(start)) dt
+    double worst = 0.0;       ///< largest |shift|
+    double time = 0.0;        ///< of it
+  };
+  std::vector<Seen> seen_;
+  double pause_, next_;
+  double time_ = 0.0;  ///< of the latest look
+};
+
+}  // namespace
+
+std::unique_ptr<Doubt> momentum_balance(const formats::Scene& scene, const Model& model) {
+  const bool applies = scene.analysis == formats::AnalysisKind::dynamics && flies(model);
+  return applies ? std::make_unique<MomentumBalance>(scene, model) : nullptr;
 }
 
-std::vector<std::string> TumblingBalance::doubts(const Model& model) const {
-  const auto worst = std::ranges::max_element(seen_, {}, &Seen::worst);
-  if (worst == seen_.end() || !(worst->worst > most_turns)) return {};
-  return {fmt::format(
-      "the tumbling of '{}' is off by about {:.2g} of a turn at t = {:.6g} (beyond {:g}): its energy and its angular "
-      "momentum change in free flight, and its period with them; a shorter step or a smaller tolerance keeps it better",
-      model.rigid_bodies[static_cast<std::size_t>(worst->body)].name, worst->worst, worst->time, most_turns)};
+std::unique_ptr<Doubt> tumbling_balance(const formats::Scene& scene, const Model& model) {
+  const bool applies = scene.analysis == formats::AnalysisKind::dynamics && !model.planar;
+  return applies ? std::make_unique<TumblingBalance>(scene, model) : nullptr;
 }
 
 }  // namespace tisserand::mechanism

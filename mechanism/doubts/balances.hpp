@@ -3,18 +3,11 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "formats/results/results.hpp"
-#include "formats/scene/scene.hpp"
-#include "mechanism/equations/evaluation.hpp"
-#include "mechanism/model/model.hpp"
-#include "mechanism/model/state.hpp"
 
 namespace tisserand::mechanism {
 
@@ -50,68 +43,6 @@ class EnergyBalance {
   double moved_ = 0.0;
   std::optional<double> potential_;  ///< of the first row
   double level_ = 0.0;               ///< largest |total| or work that was possible, whose round-off is no balance
-};
-
-/// Angular momentum about the origin while nothing connects the bodies with the ground, no weight and no load acts. It
-/// is vᵀ M w for the rates w of a turn of everything about an axis: by differences of the kinetic energy, for every
-/// kind of body.
-class MomentumBalance {
- public:
-  MomentumBalance(const formats::Scene& scene, const Model& model);
-
-  /// After a step to the accepted `state`, evaluated there. Loads begin the balance anew. Compares at about a hundred
-  /// steps of a run, each of which costs 13 evaluations.
-  void after_step(const Model& model, const State& state, const Evaluation& at_end);
-
-  /// At most one: that it changes by more than a two-thousandth of what the speeds could have.
-  std::vector<std::string> doubts() const;
-
- private:
-  struct Momentum {
-    Eigen::Vector3d value = Eigen::Vector3d::Zero();
-    double most = 0.0;  ///< √(vᵀMv wᵀMw), of the axis where it is largest
-    double time = 0.0;
-  };
-  struct Scratch {
-    State state;
-    Evaluation evaluation;
-  };
-  Momentum momentum_of(const Model& model, const State& state, double possible);
-
-  std::shared_ptr<Scratch> scratch_;  ///< none: something acts from outside
-  double pause_, next_;
-  std::optional<Momentum> begin_;
-  double worst_ = 0.0;  ///< change by `most`
-  double from_ = 0.0, to_ = 0.0;
-};
-
-/// Tumbling of rigid bodies that nothing is connected to. Its period follows from the energy of rotation T and the
-/// angular momentum h (Landau, Lifshitz, Mechanics, 1976, section 37), and near the middle axis from ln |h² − 2 I₂ T|,
-/// so that small losses of both shift it by whole turns. Measured is ∫ (ν − ν(start)) dt for the frequency ν of T and h.
-class TumblingBalance {
- public:
-  TumblingBalance(const formats::Scene& scene, const Model& model);
-
-  /// At an accepted, evaluated state. Loads begin the balance anew. Looks at about a thousand states.
-  void observe(const Model& model, double time, const Evaluation& evaluation);
-
-  /// At most one: the body whose tumbling is off by the largest share of a turn.
-  std::vector<std::string> doubts(const Model& model) const;
-
- private:
-  struct Seen {
-    int body = 0;
-    Eigen::Vector3d inertia;  ///< principal, ascending
-    double start = -1.0;      ///< ν there; negative: not begun
-    double now = 0.0;         ///< ν
-    double turns = 0.0;       ///< ∫ ν dt
-    double shift = 0.0;       ///< ∫ (ν − ν(start)) dt
-    double worst = 0.0;       ///< largest |shift|
-    double time = 0.0;        ///< of it
-  };
-  std::vector<Seen> seen_;
-  double pause_, next_;
-  double time_ = 0.0;  ///< of the latest look
 };
 
 }  // namespace tisserand::mechanism

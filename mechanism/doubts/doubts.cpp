@@ -9,81 +9,44 @@
 
 namespace tisserand::mechanism {
 
+bool has_alpha_steps(const formats::Scene& scene) {
+  const formats::Method method = scene.integrator.method;
+  return scene.analysis == formats::AnalysisKind::dynamics &&
+         (method == formats::Method::generalised_alpha || method == formats::Method::hht);
+}
+
 Doubts::Doubts(const formats::Scene& scene, const Model& model)
-    : energy_(scene.integrator.start, scene.integrator.end),
-      momentum_(scene, model),
-      tumbling_(scene, model),
-      range_(model, scene.integrator.start),
-      beams_(model),
-      bushings_(model),
-      tables_(model),
-      inertia_(scene, model),
-      torsion_(scene, model),
-      spin_(model),
-      tyres_(model),
-      resolution_(scene, model),
-      touches_(scene, model),
-      swing_(scene),
-      vibration_(scene, model) {}
-
-void Doubts::after_step(const Model& model, const State& before, const State& state, const Evaluation& evaluation) {
-  range_.observe(model, state, evaluation);
-  beams_.observe(state, evaluation);
-  bushings_.observe(state, evaluation);
-  tables_.observe(model, state, evaluation);
-  inertia_.observe(model, state, evaluation);
-  torsion_.observe(model, state, evaluation);
-  spin_.observe(model, state, evaluation);
-  tyres_.observe(model, state, evaluation);
-  resolution_.observe(model, before, state);
-  touches_.observe(model, state, evaluation);
-  swing_.observe(before, state);
-  vibration_.observe(state);
-  momentum_.after_step(model, state, evaluation);
-  tumbling_.observe(model, state.time(), evaluation);
+    : energy_(scene.integrator.start, scene.integrator.end) {
+  for (MakeDoubt* const make :
+       {momentum_balance, tumbling_balance, multiplier_swing, reaction_vibration, step_resolution, touch_resolution,
+        linear_range, beam_range, bushing_range, table_range, inertia_choice, torsion, axial_spin, tyre_range})
+    if (std::unique_ptr<Doubt> doubt = make(scene, model)) all_.push_back(std::move(doubt));
 }
 
-void Doubts::at_state(const Model& model, const State& state, const Evaluation& evaluation) {
-  range_.observe(model, state, evaluation);
-  beams_.observe(state, evaluation);
-  bushings_.observe(state, evaluation);
-  tables_.observe(model, state, evaluation);
-  inertia_.observe(model, state, evaluation);
-  torsion_.observe(model, state, evaluation);
-  spin_.observe(model, state, evaluation);
-  tyres_.observe(model, state, evaluation);
-  tumbling_.observe(model, state.time(), evaluation);
+void Doubts::after_step(const State& before, const Instant& end) {
+  for (const auto& doubt : all_) doubt->after_step(before, end);
 }
 
-void Doubts::at_row(const Model& model, const State& state, const Evaluation& evaluation,
-                    const formats::ResultsRow& row) {
-  energy_.observe(row, std::max(evaluation.force_scale[0], force_round_off(model, state)) * model.length);
+void Doubts::at_state(const Instant& at) {
+  for (const auto& doubt : all_) doubt->observe(at);
 }
 
-std::vector<std::string> Doubts::of_model(const Model& model, const StressedBodies& stressed) const {
-  std::vector<std::string> all = told_;
-  for (auto&& some : {momentum_.doubts(), tumbling_.doubts(model), swing_.doubts(), vibration_.doubts(), resolution_.doubts(model),
-                      touches_.doubts(model), range_.doubts(model, stressed), beams_.doubts(model),
-                      bushings_.doubts(model), tables_.doubts(model), inertia_.doubts(model), torsion_.doubts(model),
-                      spin_.doubts(model), tyres_.doubts(model), damping_doubts(model)})
-    for (const std::string& doubt : some)
-      if (std::ranges::find(all, doubt) == all.end()) all.push_back(doubt);
-  return all;
-}
-
-void Doubts::leave(const Model& model) { told_ = of_model(model, {}); }
-
-void Doubts::enter(const formats::Scene& scene, const Model& model) {
-  Doubts anew(scene, model);
-  anew.energy_ = energy_;
-  anew.told_ = std::move(told_);
-  *this = std::move(anew);
+void Doubts::at_row(const Instant& at, const formats::ResultsRow& row) {
+  energy_.observe(row, std::max(at.evaluation.force_scale[0], force_round_off(at.model, at.state)) * at.model.length);
 }
 
 std::vector<std::string> Doubts::tell(const Model& model, const StressedBodies& stressed) const {
-  std::vector<std::string> all = energy_.doubts(bushings_.cause_of_jumps(model));
-  for (std::string& doubt : of_model(model, stressed)) all.push_back(std::move(doubt));
-  return all;
+  std::vector<std::string> told = energy_.doubts(explanation(Puzzle::energy, model));
+  for (const auto& doubt : all_)
+    for (std::string& text : doubt->doubts(model, stressed)) told.push_back(std::move(text));
+  for (std::string& text : damping_doubts(model)) told.push_back(std::move(text));
+  return told;
+}
+
+std::string Doubts::explanation(Puzzle puzzle, const Model& model) const {
+  for (const auto& doubt : all_)
+    if (std::string text = doubt->explanation(puzzle, model); !text.empty()) return text;
+  return {};
 }
 
 }  // namespace tisserand::mechanism

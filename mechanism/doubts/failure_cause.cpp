@@ -84,9 +84,7 @@ std::string unreachable(const Model& model, double size, State state, Evaluation
 std::string failure_cause(const Model& model, const formats::IntegratorSpec& options, const Doubts& doubts,
                           const Failure& failure, State& state, Workspace& workspace) {
   if (failure.step.outcome == StepOutcome::inaccurate) return {};
-  if (const std::string swing = doubts.latest_swing(); !swing.empty()) return "; " + swing;
-  if (const std::vector<std::string> soft = doubts.soft_torsion(model); !soft.empty()) return "; " + soft.front();
-  const double change = doubts.latest_change();
+  if (const std::string seen = doubts.explanation(Puzzle::failure, model); !seen.empty()) return "; " + seen;
   if (const std::string open = unreachable(model, failure.size, state, workspace.now); !open.empty()) return open;
   evaluate(model, state, workspace.now);
   const double condition = constraint_condition(model, state, workspace.now);
@@ -112,14 +110,13 @@ std::string failure_cause(const Model& model, const formats::IntegratorSpec& opt
             ? fmt::format(", {}", coordinate_name(model, factors.singular_column))
             : "");
   }
-  return fmt::format(
-      "; the equations are regular there (reciprocal condition {:.1e}{}), {}", factors.reciprocal_condition,
-      condition > 0.0 ? fmt::format(", condition {:.1e} of the constraints", condition) : "",
-      change > 0.3 ? fmt::format("but velocities changed by {:.2g} of themselves in the step before: set a "
-                                 "shorter 'step', or 'error_control'",
-                                 change)
-                   : "so that what fails comes with the step: a load, a stop or friction that sets in; set "
-                     "a shorter 'step', or more 'max_halvings'");
+  const std::string seen = doubts.explanation(Puzzle::regular_failure, model);
+  return fmt::format("; the equations are regular there (reciprocal condition {:.1e}{}), {}",
+                     factors.reciprocal_condition,
+                     condition > 0.0 ? fmt::format(", condition {:.1e} of the constraints", condition) : "",
+                     !seen.empty() ? "but " + seen
+                                   : "so that what fails comes with the step: a load, a stop or friction that sets in; "
+                                     "set a shorter 'step', or more 'max_halvings'");
 }
 
 }  // namespace tisserand::mechanism

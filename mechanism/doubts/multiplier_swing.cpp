@@ -1,10 +1,13 @@
-// Signs and sizes of the changes of multipliers.
-#include "mechanism/doubts/multiplier_swing.hpp"
-
+// Whether reactions can be told by the steps of a run: multipliers that swing from step to step, and vibrations that
+// nothing damps.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
+#include <Eigen/Core>
+
+#include "mechanism/doubts/doubt.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -23,81 +26,123 @@ constexpr double large = 0.3;      ///< of the largest reaction of the run
 bool is_damped(const SuperelementBody& body) { return body.damping.active; }
 bool bends(const SuperelementBody& body) { return body.boundary_size + body.modes > (body.planar ? 3 : 6); }
 
+/// Index 3 without numerical damping is weakly unstable: errors of multipliers change their sign at every step and grow
+/// (Cardona, Geradin, Computers and Structures 33, 1989). Measured over stretches of 16 steps with the changes
+/// d_n = λ_n − λ_{n−1}: they swing where −Σ d_n·d_{n−1} exceeds half of Σ |d_n|², by √(Σ |d_n|²/Σ |λ_n|²) of their
+/// size.
+class MultiplierSwing : public Doubt {
+ public:
+  explicit MultiplierSwing(const formats::Scene& scene)
+      : settings_(scene.integrator.method == formats::Method::hht ? fmt::format("alpha = {:g}", scene.integrator.alpha)
+                                                                  : fmt::format("rho = {:g}", scene.integrator.rho)),
+        remedy_(scene.integrator.method == formats::Method::generalised_alpha && scene.integrator.rho > 0.9
+                    ? "set 'rho: 0.9' or 'formulation: stabilised_index2'"
+                    : "set a shorter 'step' or 'formulation: stabilised_index2'") {}
+
+  void after_step(const State& before, const Instant& end) override {
+    const State& state = end.state;
+    if (state.lambda().size() == 0) return;
+    if (change_.size() > 0) turned_ -= (state.lambda() - before.lambda()).dot(change_);
+    change_ = state.lambda() - before.lambda();
+    changed_ += change_.squaredNorm();
+    size_ += state.lambda().squaredNorm();
+    if (++steps_ < swing_stretch) return;
+    latest_ = {turned_ > 0.5 * changed_ && size_ > 0.0 ? std::sqrt(changed_ / size_) : 0.0, state.time()};
+    if (latest_.size > worst_.size) worst_ = latest_;
+    turned_ = changed_ = size_ = 0.0;
+    steps_ = 0;
+  }
+
+  /// At most one: of the worst stretch.
+  std::vector<std::string> doubts(const Model&, const StressedBodies&) const override {
+    std::string worst = text(worst_);
+    return worst.empty() ? std::vector<std::string>{} : std::vector<std::string>{std::move(worst)};
+  }
+  /// Of the latest stretch.
+  std::string explanation(Puzzle puzzle, const Model&) const override {
+    return puzzle == Puzzle::failure ? text(latest_) : "";
+  }
+
+ private:
+  struct Swing {
+    double size = 0.0;
+    double time = 0.0;
+  };
+  std::string text(const Swing& swing) const {
+    if (!(swing.size > visible)) return {};
+    return fmt::format(
+        "the multipliers swing from step to step by {:.2g} of their size (around t = {:.6g}): index 3 with {} "
+        "does not damp them; {}",
+        swing.size, swing.time, settings_, remedy_);
+  }
+
+  std::string settings_, remedy_;  ///< of the integrator, in words
+  Eigen::VectorXd change_;
+  double turned_ = 0.0, changed_ = 0.0, size_ = 0.0;
+  int steps_ = 0;
+  Swing worst_, latest_;
+};
+
+/// Reactions that vibrate with flexible bodies which nothing damps. Where vibrations of few steps per period make the
+/// largest reactions, peaks depend on the step: its numerical damping and the phases of what excites them anew.
+class ReactionVibration : public Doubt {
+ public:
+  explicit ReactionVibration(std::string body) : body_(std::move(body)) {}
+
+  void after_step(const State&, const Instant& end) override {
+    const State& state = end.state;
+    size_[static_cast<std::size_t>(++steps_)] = state.lambda().norm();
+    if (steps_ < stretch) return;
+    const double most = *std::max_element(size_.begin() + 1, size_.end());
+    int changes = 0;
+    for (std::size_t k = 1; k <= stretch; ++k)
+      changes += std::abs(size_[k] - size_[k - 1]) > fast_change * most ? 1 : 0;
+    largest_ = std::max(largest_, most);
+    if (changes >= fast_changes && most > large * largest_) {
+      ++count_;
+      if (most > fast_) {
+        fast_ = most;
+        time_ = state.time();
+      }
+    }
+    size_[0] = size_[stretch];
+    steps_ = 0;
+  }
+
+  /// At most one.
+  std::vector<std::string> doubts(const Model&, const StressedBodies&) const override {
+    if (count_ < fast_stretches || !(fast_ > large * largest_)) return {};
+    return {fmt::format(
+        "reactions vibrate with '{}', which has no damping: in most steps around t = {:.6g} they change by more than a "
+        "quarter of their largest, so that peaks depend on the step. Give it 'damping', or compare with shorter steps",
+        body_, time_)};
+  }
+
+ private:
+  static constexpr int stretch = 16;  ///< steps
+
+  std::string body_;                        ///< one of those that nothing damps
+  std::array<double, stretch + 1> size_{};  ///< |λ| of the last steps
+  int steps_ = 0;
+  double largest_ = 0.0;  ///< of the run
+  double fast_ = 0.0;     ///< of a stretch that vibrates
+  double time_ = 0.0;     ///< of that
+  int count_ = 0;         ///< stretches that vibrate
+};
+
 }  // namespace
 
-MultiplierSwing::MultiplierSwing(const formats::Scene& scene)
-    : active_(scene.analysis == formats::AnalysisKind::dynamics &&
-              scene.integrator.formulation == formats::Formulation::index3 &&
-              (scene.integrator.method == formats::Method::generalised_alpha ||
-               scene.integrator.method == formats::Method::hht)),
-      settings_(scene.integrator.method == formats::Method::hht ? fmt::format("alpha = {:g}", scene.integrator.alpha)
-                                                                : fmt::format("rho = {:g}", scene.integrator.rho)),
-      remedy_(scene.integrator.method == formats::Method::generalised_alpha && scene.integrator.rho > 0.9
-                  ? "set 'rho: 0.9' or 'formulation: stabilised_index2'"
-                  : "set a shorter 'step' or 'formulation: stabilised_index2'") {}
-
-void MultiplierSwing::observe(const State& before, const State& state) {
-  if (!active_ || state.lambda().size() == 0) return;
-  if (change_.size() > 0) turned_ -= (state.lambda() - before.lambda()).dot(change_);
-  change_ = state.lambda() - before.lambda();
-  changed_ += change_.squaredNorm();
-  size_ += state.lambda().squaredNorm();
-  if (++steps_ < swing_stretch) return;
-  latest_ = {turned_ > 0.5 * changed_ && size_ > 0.0 ? std::sqrt(changed_ / size_) : 0.0, state.time()};
-  if (latest_.size > worst_.size) worst_ = latest_;
-  turned_ = changed_ = size_ = 0.0;
-  steps_ = 0;
+std::unique_ptr<Doubt> multiplier_swing(const formats::Scene& scene, const Model&) {
+  const bool can_swing = has_alpha_steps(scene) && scene.integrator.formulation == formats::Formulation::index3;
+  return can_swing ? std::make_unique<MultiplierSwing>(scene) : nullptr;
 }
 
-std::string MultiplierSwing::text(const Swing& swing) const {
-  if (!(swing.size > visible)) return {};
-  return fmt::format(
-      "the multipliers swing from step to step by {:.2g} of their size (around t = {:.6g}): index 3 with {} "
-      "does not damp them; {}",
-      swing.size, swing.time, settings_, remedy_);
-}
-
-std::string MultiplierSwing::latest() const { return text(latest_); }
-
-std::vector<std::string> MultiplierSwing::doubts() const {
-  std::string worst = text(worst_);
-  return worst.empty() ? std::vector<std::string>{} : std::vector<std::string>{std::move(worst)};
-}
-
-ReactionVibration::ReactionVibration(const formats::Scene& scene, const Model& model) {
-  if (scene.analysis != formats::AnalysisKind::dynamics || model.sizes.constraints == 0) return;
-  if (scene.integrator.method != formats::Method::generalised_alpha && scene.integrator.method != formats::Method::hht)
-    return;
-  if (std::ranges::any_of(model.superelement_bodies, is_damped)) return;
-  for (std::size_t i = 0; i < model.superelements.size() && body_.empty(); ++i)
-    if (bends(body_of(model, i))) body_ = model.superelements[i].name;
-}
-
-void ReactionVibration::observe(const State& state) {
-  if (body_.empty()) return;
-  size_[static_cast<std::size_t>(++steps_)] = state.lambda().norm();
-  if (steps_ < stretch) return;
-  const double most = *std::max_element(size_.begin() + 1, size_.end());
-  int changes = 0;
-  for (std::size_t k = 1; k <= stretch; ++k) changes += std::abs(size_[k] - size_[k - 1]) > fast_change * most ? 1 : 0;
-  largest_ = std::max(largest_, most);
-  if (changes >= fast_changes && most > large * largest_) {
-    ++count_;
-    if (most > fast_) {
-      fast_ = most;
-      time_ = state.time();
-    }
-  }
-  size_[0] = size_[stretch];
-  steps_ = 0;
-}
-
-std::vector<std::string> ReactionVibration::doubts() const {
-  if (count_ < fast_stretches || !(fast_ > large * largest_)) return {};
-  return {fmt::format(
-      "reactions vibrate with '{}', which has no damping: in most steps around t = {:.6g} they change by more than a "
-      "quarter of their largest, so that peaks depend on the step. Give it 'damping', or compare with shorter steps",
-      body_, time_)};
+std::unique_ptr<Doubt> reaction_vibration(const formats::Scene& scene, const Model& model) {
+  if (!has_alpha_steps(scene) || model.sizes.constraints == 0) return nullptr;
+  if (std::ranges::any_of(model.superelement_bodies, is_damped)) return nullptr;
+  for (std::size_t i = 0; i < model.superelements.size(); ++i)
+    if (bends(body_of(model, i))) return std::make_unique<ReactionVibration>(model.superelements[i].name);
+  return nullptr;
 }
 
 }  // namespace tisserand::mechanism

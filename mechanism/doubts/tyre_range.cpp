@@ -1,11 +1,12 @@
-// Values against the ends of ranges.
-#include "mechanism/doubts/tyre_range.hpp"
-
+// Whether tyres stayed in the ranges for which the coefficients of their files were fitted.
+#include <array>
 #include <cmath>
 #include <utility>
 #include <variant>
 
 #include <fmt/format.h>
+
+#include "mechanism/doubts/doubt.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -30,51 +31,72 @@ struct Name {
   const char* quantity;
   const char* unit;
 };
-constexpr std::array<Name, TyreRange::quantities> names{
+constexpr int quantities = 4;
+constexpr std::array<Name, quantities> names{
     {{"load", ""}, {"longitudinal slip", ""}, {"slip angle", " rad"}, {"camber", " rad"}}};
+
+/// Load, longitudinal slip, slip angle and camber of tyres of the Magic Formula against FZMIN .. CAMMAX of their files.
+/// A load below the range is not told: every wheel that lifts passes through it.
+class TyreRange : public Doubt {
+ public:
+  explicit TyreRange(const Model& model) : worst_(model.tyres.size()) {}
+
+  void observe(const Instant& at) override {
+    const auto& [model, state, evaluation] = at;
+    for (std::size_t i = 0; i < model.tyres.size(); ++i) {
+      const auto* law = std::get_if<MagicFormulaLaw>(&model.tyres[i].law);
+      const TyreTerms& now = evaluation.tyres[i];
+      if (law == nullptr || !(now.force.z() > 0.0)) continue;
+      const formats::MagicFormula& p = law->p;
+      const double side = law->mirrored ? -1.0 : 1.0;
+      const auto [slip, angle] = wheel_slips(model.tyres[i], now, evaluation);
+      const std::array<std::array<double, 3>, quantities> values{{{now.force.z(), 0.0, p.FZMAX},
+                                                                  {slip, p.KPUMIN, p.KPUMAX},
+                                                                  {side * angle, p.ALPMIN, p.ALPMAX},
+                                                                  {side * now.camber, p.CAMMIN, p.CAMMAX}}};
+      for (int k = 0; k < quantities; ++k) {
+        const auto [value, low, high] = values[k];
+        const double limit = value < 0.0 ? low : high;
+        if (limit == 0.0 || !(value / limit > worst_[i][k].ratio)) continue;
+        worst_[i][k] = {value / limit, value, limit, state.time()};
+      }
+    }
+  }
+
+  /// At most one: the tyre and quantity farthest outside, and how many others were.
+  std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
+    Excess worst;
+    std::size_t tyre = 0;
+    int quantity = 0, count = 0;
+    for (std::size_t i = 0; i < worst_.size(); ++i)
+      for (int k = 0; k < quantities; ++k) {
+        count += worst_[i][k].ratio > rounding ? 1 : 0;
+        if (worst_[i][k].ratio <= worst.ratio) continue;
+        worst = worst_[i][k];
+        tyre = i;
+        quantity = k;
+      }
+    if (!(worst.ratio > rounding)) return {};
+    const std::string others = count > 1 ? fmt::format(", and {} more beyond theirs", count - 1) : std::string();
+    return {fmt::format(
+        "tyre '{}' was outside of what its file was fitted for: {} {:.3g}{} at t = {:.6g}, range to {:.3g}{}{}; "
+        "its forces there are led on from the end of the range",
+        model.tyres[tyre].name, names[quantity].quantity, worst.value, names[quantity].unit, worst.time, worst.limit,
+        names[quantity].unit, others)};
+  }
+
+ private:
+  struct Excess {
+    double ratio = 0.0;  ///< |value| over the end of the range
+    double value = 0.0, limit = 0.0, time = 0.0;
+  };
+  std::vector<std::array<Excess, quantities>> worst_;
+};
 
 }  // namespace
 
-void TyreRange::observe(const Model& model, const State& state, const Evaluation& evaluation) {
-  for (std::size_t i = 0; i < model.tyres.size(); ++i) {
-    const auto* law = std::get_if<MagicFormulaLaw>(&model.tyres[i].law);
-    const TyreTerms& now = evaluation.tyres[i];
-    if (law == nullptr || !(now.force.z() > 0.0)) continue;
-    const formats::MagicFormula& p = law->p;
-    const double side = law->mirrored ? -1.0 : 1.0;
-    const auto [slip, angle] = wheel_slips(model.tyres[i], now, evaluation);
-    const std::array<std::array<double, 3>, quantities> values{{{now.force.z(), 0.0, p.FZMAX},
-                                                                {slip, p.KPUMIN, p.KPUMAX},
-                                                                {side * angle, p.ALPMIN, p.ALPMAX},
-                                                                {side * now.camber, p.CAMMIN, p.CAMMAX}}};
-    for (int k = 0; k < quantities; ++k) {
-      const auto [value, low, high] = values[k];
-      const double limit = value < 0.0 ? low : high;
-      if (limit == 0.0 || !(value / limit > worst_[i][k].ratio)) continue;
-      worst_[i][k] = {value / limit, value, limit, state.time()};
-    }
-  }
-}
-
-std::vector<std::string> TyreRange::doubts(const Model& model) const {
-  Excess worst;
-  std::size_t tyre = 0;
-  int quantity = 0, count = 0;
-  for (std::size_t i = 0; i < worst_.size(); ++i)
-    for (int k = 0; k < quantities; ++k) {
-      count += worst_[i][k].ratio > rounding ? 1 : 0;
-      if (worst_[i][k].ratio <= worst.ratio) continue;
-      worst = worst_[i][k];
-      tyre = i;
-      quantity = k;
-    }
-  if (!(worst.ratio > rounding)) return {};
-  const std::string others = count > 1 ? fmt::format(", and {} more beyond theirs", count - 1) : std::string();
-  return {fmt::format(
-      "tyre '{}' was outside of what its file was fitted for: {} {:.3g}{} at t = {:.6g}, range to {:.3g}{}{}; "
-      "its forces there are led on from the end of the range",
-      model.tyres[tyre].name, names[quantity].quantity, worst.value, names[quantity].unit, worst.time, worst.limit,
-      names[quantity].unit, others)};
+std::unique_ptr<Doubt> tyre_range(const formats::Scene&, const Model& model) {
+  return std::make_unique<TyreRange>(model);
 }
 
 }  // namespace tisserand::mechanism

@@ -43,7 +43,7 @@ void store(Run& run, const Bdf& bdf, StepReport& step, double size, RowWriter& o
   if (run.built.state.time() < run.scene.output.from) return;
   step.constraint = bdf.violation();
   write_row(run, step, size, out);
-  run.doubts.at_state(run.built.model, run.built.state, run.workspace.now);
+  run.doubts.at_state(run.instant());
 }
 
 /// Rows of a step from `before` to the present state.

@@ -97,7 +97,7 @@ void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, St
   RunReport& report = run.report;
   State& state = run.built.state;
   ++report.steps;
-  run.doubts.after_step(run.built.model, run.workspace.memory.previous, state, run.workspace.now);
+  run.doubts.after_step(run.workspace.memory.previous, run.instant());
   loop.last = step;
   loop.last_size = size;
   report.least_step = report.steps == 1 ? size : std::min(report.least_step, size);
@@ -222,7 +222,7 @@ void equilibrate(Run& run, RowWriter& out) {
   step.iterations = statics.iterations;
   step.residual = statics.residual;
   step.constraint = statics.constraint;
-  run.doubts.at_state(run.built.model, run.built.state, run.workspace.now);
+  run.doubts.at_state(run.instant());
   FrameAngles angles(run.built.model);
   run.report.reason = angles.observe(run.built.model, run.built.state, run.workspace.now);
   if (run.report.reason.empty()) run.report.reason = off_road(run.built.model, run.built.state, run.workspace.now);

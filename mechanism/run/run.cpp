@@ -417,7 +417,7 @@ void write_row(Run& run, const StepReport& step, double size, RowWriter& out, co
     run.listener->state(run.built.state);
   }
   RunReport& report = run.report;
-  if (report.analysis == formats::AnalysisKind::dynamics) run.doubts.at_row(run.built.model, run.built.state, run.workspace.now, row);
+  if (report.analysis == formats::AnalysisKind::dynamics) run.doubts.at_row(run.instant(), row);
   ++report.rows;
   foretell_size(row.time, run);
   report.balance = row.balance;

@@ -63,6 +63,8 @@ struct Run {
   AutomaticEffects* automatic = nullptr;               ///< null: nothing is
 
   Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunControl& run_control);
+  /// After an evaluation of the present state.
+  Instant instant() const { return {built.model, built.state, workspace.now}; }
   double seconds() const { return control.clock ? control.clock() : 0.0; }
 };
 

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "mechanism/doubts/balances.hpp"
-#include "mechanism/doubts/linear_range.hpp"
 #include "mechanism/simulate.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/bodies/lumped_bodies.hpp"

@@ -8,7 +8,7 @@
 #include "formats/tyres/tyre_property_file.hpp"
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/bdf/bdf.hpp"
-#include "mechanism/doubts/tyre_range.hpp"
+#include "mechanism/doubts/doubt.hpp"
 #include "mechanism/run/off_road.hpp"
 #include "tests/support/scenes/model_tangent.hpp"
 #include "tests/support/scenes/wheels.hpp"
@@ -326,9 +326,9 @@ TEST(TyreRange, IsToldWhereItIsLeft) {
     std::get<formats::RigidBodySpec>(scene.bodies[0]).start.angular_velocity = Vector3d(0, spins ? 100.0 : 32.0, 0);
     Simulation run(scene, {});
     run.start();
-    TyreRange range(run.model());
-    run.run(0.2, [&] { range.observe(run.model(), run.state(), run.workspace.now); });
-    const std::vector<std::string> doubts = range.doubts(run.model());
+    const std::unique_ptr<Doubt> range = tyre_range(scene, run.model());
+    run.run(0.2, [&] { range->observe({run.model(), run.state(), run.workspace.now}); });
+    const std::vector<std::string> doubts = range->doubts(run.model(), {});
     ASSERT_EQ(doubts.size(), spins ? 1u : 0u);
     EXPECT_TRUE(!spins || doubts[0].find("longitudinal slip") != std::string::npos);
   }

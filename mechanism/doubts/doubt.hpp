@@ -1,0 +1,53 @@
+// A doubt of a run: a quantity that is measured at its states, and sentences where it leaves the limit that has a
+// source.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "formats/scene/scene.hpp"
+#include "mechanism/equations/evaluation.hpp"
+#include "mechanism/model/model.hpp"
+#include "mechanism/model/state.hpp"
+
+namespace tisserand::mechanism {
+
+/// An accepted state, evaluated.
+struct Instant {
+  const Model& model;
+  const State& state;
+  const Evaluation& evaluation;
+};
+
+/// Per superelement, whether joints can stress it though no load acts (switching/constraint_stress.hpp); empty: not
+/// known.
+using StressedBodies = std::function<std::vector<bool>()>;
+
+/// What others ask doubts for: why a run fails, also where its equations are regular, and where energy went.
+enum class Puzzle { failure, regular_failure, energy };
+
+class Doubt {
+ public:
+  virtual ~Doubt() = default;
+
+  virtual void observe(const Instant&) {}
+  /// The state is the end of a step from `before`.
+  virtual void after_step(const State& /*before*/, const Instant& end) { observe(end); }
+
+  /// The worst of each kind, mostly with the number of others. `stressed`: asked only where it matters.
+  virtual std::vector<std::string> doubts(const Model& model, const StressedBodies& stressed) const = 0;
+  /// What has been seen that solves it; empty: nothing.
+  virtual std::string explanation(Puzzle, const Model&) const { return {}; }
+};
+
+/// Whether it is dynamics by steps of generalised alpha or HHT.
+bool has_alpha_steps(const formats::Scene& scene);
+
+/// One kind for a run; null where it cannot arise.
+using MakeDoubt = std::unique_ptr<Doubt>(const formats::Scene& scene, const Model& model);
+MakeDoubt axial_spin, beam_range, bushing_range, inertia_choice, linear_range, momentum_balance, multiplier_swing,
+    reaction_vibration, step_resolution, table_range, torsion, touch_resolution, tumbling_balance, tyre_range;
+
+}  // namespace tisserand::mechanism
