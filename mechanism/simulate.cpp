@@ -25,7 +25,7 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
 
 RunReport simulate(const formats::Scene& scene, const std::string& path, const RunControl& control) {
   const BodyFiles files = read_body_files(scene);
-  return simulate(RunRequest{scene, files, std::nullopt, path, "", std::nullopt}, control).report;
+  return simulate(RunRequest{scene, files, {}, path}, control).report;
 }
 
 RunReport inspect(const formats::Scene& scene, const RunControl& control) {

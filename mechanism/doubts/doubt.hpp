@@ -42,6 +42,14 @@ class Doubt {
   virtual std::string explanation(Puzzle, const Model&) const { return {}; }
 };
 
+/// How far something is beyond its limit, and the sentence on it.
+struct Excess {
+  double ratio = 0.0;
+  std::string text;
+};
+/// The largest alone, "(and 3 <others>)"; none: nothing.
+std::vector<std::string> worst_of(const std::vector<Excess>& excesses, const char* others);
+
 /// Whether it is dynamics by steps of generalised alpha or HHT.
 bool has_alpha_steps(const formats::Scene& scene);
 

@@ -4,10 +4,18 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "mechanism/doubts/damping_reach.hpp"
 #include "mechanism/equations/round_off.hpp"
 
 namespace tisserand::mechanism {
+
+std::vector<std::string> worst_of(const std::vector<Excess>& excesses, const char* others) {
+  if (excesses.empty()) return {};
+  const Excess& worst = *std::ranges::max_element(excesses, {}, &Excess::ratio);
+  return {excesses.size() == 1 ? worst.text : fmt::format("{} (and {} {})", worst.text, excesses.size() - 1, others)};
+}
 
 bool has_alpha_steps(const formats::Scene& scene) {
   const formats::Method method = scene.integrator.method;

@@ -96,26 +96,21 @@ class InertiaChoice : public Doubt {
 
   /// The largest excess, and how many others there are.
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
-    double worst = 0.0;
-    std::string text;
-    int count = 0;
+    std::vector<Excess> excesses;
     for (std::size_t i = 0; i < uses_.size(); ++i) {
       if (uses_[i].beam != static_cast<int>(i)) continue;
       const Seen& seen = seen_[i];
       const double ratio = std::sqrt(seen.difference / seen.strain);
       if (!(seen.strain > 0.0 && ratio > most_difference)) continue;
-      ++count;
-      if (ratio <= worst) continue;
-      worst = ratio;
-      text = fmt::format(
-          "the deflection of '{}' hangs on its inertia option: {} in place of {} would change it by {:.2g} of "
-          "its largest (at t = {:.6g}), beyond {:g}: cut it into several, or use second_order with its "
-          "companion file",
-          model.superelements[i].name, letter(seen.option), letter(body_of(model, i).inertia), ratio, seen.time,
-          most_difference);
+      excesses.push_back(
+          {ratio, fmt::format(
+                      "the deflection of '{}' hangs on its inertia option: {} in place of {} would change it by {:.2g} "
+                      "of its largest (at t = {:.6g}), beyond {:g}: cut it into several, or use second_order with its "
+                      "companion file",
+                      model.superelements[i].name, letter(seen.option), letter(body_of(model, i).inertia), ratio,
+                      seen.time, most_difference)});
     }
-    if (count == 0) return {};
-    return {count == 1 ? text : fmt::format("{} (and {} more)", text, count - 1)};
+    return worst_of(excesses, "more");
   }
 
  private:

@@ -87,15 +87,6 @@ double missing_share(double r, int pieces) {
   return pi * pi / 12.0 * std::abs(r) / (1.0 + pieces * pieces * std::max(0.0, r));
 }
 
-/// The largest excess in words, with the number of others.
-template <class Excesses>
-std::vector<std::string> worst_of(const Excesses& excesses) {
-  if (excesses.empty()) return {};
-  const auto worst = std::ranges::max_element(excesses, [](const auto& a, const auto& b) { return a.ratio < b.ratio; });
-  return {excesses.size() == 1 ? worst->text
-                               : fmt::format("{} (and {} more bodies)", worst->text, excesses.size() - 1)};
-}
-
 /// Largest values over the accepted states of a run, of superelements without stiffening or without internal modes and
 /// of modal bodies. The turn of their nodes is FrameAngles' (mechanism/run).
 class LinearRange : public Doubt {
@@ -209,7 +200,7 @@ class LinearRange : public Doubt {
             modal_seen_[i], [&](double spin) { return modal_[i].first_frequency(model, spin); });
     std::vector<std::string> doubts;
     for (const auto* kind : {&bent, &pressed, &displaced, &spun, &coarse, &swung})
-      for (std::string& text : worst_of(*kind)) doubts.push_back(std::move(text));
+      for (std::string& text : worst_of(*kind, "more bodies")) doubts.push_back(std::move(text));
     return doubts;
   }
 
@@ -250,10 +241,6 @@ class LinearRange : public Doubt {
   double displaced_share(const Seen& seen) const {
     return seen.moment > 0.0 ? seen.displaced.value / seen.moment : 0.0;
   }
-  struct Excess {
-    double ratio = 0.0;
-    std::string text;
-  };
   static Limits limits_of(const SuperelementBody& body) {
     Limits limits;
     limits.linear = !body.second_order.stiffening;

@@ -98,7 +98,7 @@ RunEnd run_with_fewest(const RunRequest& request, const RunControl& control, Aut
     const formats::Scene scene = automatic.scene();
     if (!from_file) {
       const formats::Scene first = first_window(scene, automatic.window());
-      const RunRequest nowhere{first, request.files, request.begin, "", "", std::nullopt};
+      const RunRequest nowhere{first, request.files, request.begin};
       Attempt attempt(nowhere, first, silent);
       attempt.start_from(begin_of(attempt));
       if (!attempt.finish(&automatic)) continue;

@@ -18,10 +18,10 @@ namespace tisserand::mechanism {
 struct RunRequest {
   const formats::Scene& scene;  ///< with the kind and the settings of this analysis (formats::scene_of)
   const BodyFiles& files;
-  std::optional<State> begin;        ///< end of another analysis of the same scene, in place of the poses of the bodies
-  std::string path;                  ///< of the results
-  std::string restart;               ///< checkpoint or results file to go on from; empty: none
-  std::optional<double> at;          ///< instant in a results file; absent: the last one
+  std::optional<State> begin = {};   ///< end of another analysis of the same scene, in place of the poses of the bodies
+  std::string path = {};             ///< of the results; empty: none are stored
+  std::string restart = {};          ///< checkpoint or results file to go on from; empty: none
+  std::optional<double> at = {};     ///< instant in a results file; absent: the last one
   Joining joining = Joining::apart;  ///< with `restart`: whether the rows until then are taken over
   ChangedValues changed = ChangedValues::refused;  ///< with `restart`
   RunListener* listener = nullptr;

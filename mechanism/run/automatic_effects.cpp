@@ -13,7 +13,6 @@
 #include "mechanism/step/step_control.hpp"
 #include "mechanism/switching/constraint_stress.hpp"
 #include "mechanism/switching/deformation.hpp"
-#include "mechanism/switching/welds.hpp"
 
 namespace tisserand::mechanism {
 namespace {

@@ -9,8 +9,6 @@
 #include "mechanism/bdf/bdf.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/run/automatic_effects.hpp"
-#include "mechanism/run/frame_angles.hpp"
-#include "mechanism/run/off_road.hpp"
 #include "mechanism/step/road_ahead.hpp"
 
 namespace tisserand::mechanism {
@@ -68,12 +66,11 @@ void store_rows(Run& run, Bdf& bdf, Instants& instants, double before, RowWriter
 }
 
 /// Why the run must end at the accepted state, or nothing. CVODE's last evaluation is of another state.
-std::string observe(Run& run, FrameAngles& angles) {
+std::string observe(Run& run) {
   const Model& model = run.built.model;
   if (model.superelements.empty() && model.tyres.empty()) return {};
   evaluate(model, run.built.state, run.workspace.now);
-  const std::string end = angles.observe(model, run.built.state, run.workspace.now);
-  return end.empty() ? off_road(model, run.built.state, run.workspace.now) : end;
+  return why_to_end(run);
 }
 
 /// The end of the next step at the latest: where loads may jump, or the next mark of a road.
@@ -103,22 +100,16 @@ void integrate_bdf(Run& run, RowWriter& out) {
   Bdf bdf(run.scene, run.built.model, state, run.workspace);
   Instants instants{run.scene, run.built.model.breakpoints, same_instant * (options.end - options.start)};
   instants.pass(options.start);
-  FrameAngles angles(run.built.model);
   const RoadAhead ahead(run.scene, run.built.model);
   StepReport none;
   store(run, bdf, none, 0.0, out);
   while (state.time() < options.end - instants.round_off) {
-    if (run.control.interrupted && run.control.interrupted()) {
-      report.outcome = RunOutcome::interrupted;
-      report.reason = fmt::format("interrupted at t = {:.6g}", state.time());
-      break;
-    }
+    if (is_interrupted(run)) break;
     const double before = state.time();
-    report.reason = bdf.step(bounded(run, ahead, instants.stop(), report.greatest_step));
-    if (!report.reason.empty()) {
-      report.outcome = RunOutcome::not_converged;
+    const std::string failure = bdf.step(bounded(run, ahead, instants.stop(), report.greatest_step));
+    if (!failure.empty()) {
       const std::string load = nonfinite_load(run, before);
-      report.reason = fmt::format("t = {:.6g}: {}", before, load.empty() ? report.reason : load);
+      report.end(RunOutcome::not_converged, fmt::format("t = {:.6g}: {}", before, load.empty() ? failure : load));
       break;
     }
     const double size = state.time() - before;
@@ -127,7 +118,7 @@ void integrate_bdf(Run& run, RowWriter& out) {
     report.largest_constraint = std::max(report.largest_constraint, bdf.violation());
     store_rows(run, bdf, instants, before, out);
     note_counts(run, bdf.counts());
-    report.reason = observe(run, angles);
+    report.reason = observe(run);
     const bool ends = !report.reason.empty() || state.time() >= options.end - instants.round_off;
     if (run.automatic != nullptr && run.automatic->missed(run, ends)) return;
     if (!report.reason.empty()) {
@@ -141,7 +132,7 @@ void integrate_bdf(Run& run, RowWriter& out) {
     if (run.control.progress) run.control.progress(state.time());
   }
   report.time = state.time();
-  angles.tell(run.built.model, report);
+  run.angles.tell(run.built.model, report);
   report.solver_health = run.workspace.matrix.health();
 }
 

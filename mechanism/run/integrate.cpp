@@ -10,8 +10,6 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/run/automatic_effects.hpp"
 #include "mechanism/run/checkpoint.hpp"
-#include "mechanism/run/frame_angles.hpp"
-#include "mechanism/run/off_road.hpp"
 #include "mechanism/run/output.hpp"
 #include "mechanism/run/run.hpp"
 #include "mechanism/run/schedule.hpp"
@@ -26,7 +24,6 @@ namespace {
 struct StepLoop {
   Schedule schedule;
   Checkpoints checkpoints;
-  FrameAngles angles;
   StepReport last;  ///< of the last accepted step
   double last_size = 0.0;
   double tried_at, first_tried = 0.0;  ///< where the present step begins, and its size before it was shortened
@@ -122,24 +119,16 @@ void integrate(Run& run, RowWriter& out) {
   Stepper stepper(model, run.scene.integrator);
   StepLoop loop{Schedule(run.scene, model.breakpoints),
                 Checkpoints(run.scene, out.results, state.time()),
-                FrameAngles(model),
                 {},
                 0.0,
                 std::numeric_limits<double>::quiet_NaN()};
   if (!run.schedule_memory.empty()) loop.schedule.restore(run.schedule_memory);
   const RoadAhead ahead(run.scene, model);
-  const auto stop = [&](RunOutcome outcome, std::string reason) {
-    report.outcome = outcome;
-    report.reason = std::move(reason);
-  };
   // A run that is appended has the row of this instant, if the run before it was to store one.
   const bool begins_with_row = run.schedule_memory.empty() ? loop.schedule.output_at_start() : !run.beginning;
   if (begins_with_row) write_row(run, {}, 0.0, out);
   while (!loop.schedule.finished(state.time())) {
-    if (run.control.interrupted && run.control.interrupted()) {
-      stop(RunOutcome::interrupted, fmt::format("interrupted at t = {:.6g}", state.time()));
-      break;
-    }
+    if (is_interrupted(run)) break;
     const double before = state.time();
     if (loop.tried_at != before) look_ahead(run, ahead, loop.schedule);
     const StepEnd target = loop.schedule.next(before);
@@ -154,23 +143,22 @@ void integrate(Run& run, RowWriter& out) {
     if (step.outcome != StepOutcome::accepted) {
       std::string failure = failure_of(run, step, target, loop);
       if (failure.empty()) continue;
-      stop(RunOutcome::not_converged, std::move(failure));
+      report.end(RunOutcome::not_converged, std::move(failure));
       break;
     }
     take_note(run, step, state.time() - before, loop, stepper, out);
-    std::string end = loop.angles.observe(model, state, run.workspace.now);
-    if (end.empty()) end = off_road(model, state, run.workspace.now);
+    std::string end = why_to_end(run);
     const bool ends = loop.schedule.finished(state.time()) || !end.empty();
     if (run.automatic != nullptr && run.automatic->missed(run, ends)) return loop.checkpoints.discard();
     loop.checkpoints.after_step(run, loop.schedule, stepper, out.writer);
     if (run.control.progress) run.control.progress(state.time());
     if (!end.empty()) {
-      stop(RunOutcome::not_converged, std::move(end));
+      report.end(RunOutcome::not_converged, std::move(end));
       break;
     }
   }
   report.time = state.time();
-  loop.angles.tell(model, report);
+  run.angles.tell(model, report);
   report.solver_health = stepper.health(run.workspace);
   if (report.outcome != RunOutcome::completed) write_last_row(run, loop.last, loop.last_size, out);
 }
@@ -199,9 +187,9 @@ void tell_stability(const StaticsReport& statics, RunReport& report) {
     return;
   }
   if (stability.unstable == 0) return;
-  report.outcome = RunOutcome::unstable;
-  report.reason =
-      fmt::format("the equilibrium is unstable in {}: `statics: {{stable: yes}}` goes on to a stable one", count);
+  report.end(
+      RunOutcome::unstable,
+      fmt::format("the equilibrium is unstable in {}: `statics: {{stable: yes}}` goes on to a stable one", count));
 }
 
 }  // namespace
@@ -214,20 +202,17 @@ void equilibrate(Run& run, RowWriter& out) {
   run.report.largest_constraint = statics.constraint;
   run.report.time = run.built.state.time();
   if (statics.outcome != StepOutcome::accepted) {
-    run.report.outcome = statics.interrupted ? RunOutcome::interrupted : RunOutcome::not_converged;
-    run.report.reason = statics.interrupted ? "interrupted" : statics.explanation;
-    return;
+    if (statics.interrupted) return run.report.end(RunOutcome::interrupted, "interrupted");
+    return run.report.end(RunOutcome::not_converged, statics.explanation);
   }
   StepReport step;
   step.iterations = statics.iterations;
   step.residual = statics.residual;
   step.constraint = statics.constraint;
   run.doubts.at_state(run.instant());
-  FrameAngles angles(run.built.model);
-  run.report.reason = angles.observe(run.built.model, run.built.state, run.workspace.now);
-  if (run.report.reason.empty()) run.report.reason = off_road(run.built.model, run.built.state, run.workspace.now);
-  if (!run.report.reason.empty()) run.report.outcome = RunOutcome::not_converged;
-  angles.tell(run.built.model, run.report);
+  if (std::string reason = why_to_end(run); !reason.empty())
+    run.report.end(RunOutcome::not_converged, std::move(reason));
+  run.angles.tell(run.built.model, run.report);
   if (run.report.outcome == RunOutcome::completed && !run.scene.statics.rotation) tell_stability(statics, run.report);
   write_row(run, step, 0.0, out);
 }

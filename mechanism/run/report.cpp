@@ -12,17 +12,8 @@ namespace tisserand::mechanism {
 namespace {
 
 const char* outcome_name(RunOutcome outcome) {
-  switch (outcome) {
-    case RunOutcome::completed:
-      return "completed";
-    case RunOutcome::unstable:
-      return "unstable";
-    case RunOutcome::not_converged:
-      return "not converged";
-    case RunOutcome::interrupted:
-      return "interrupted";
-  }
-  return "";
+  static constexpr const char* names[] = {"completed", "unstable", "not converged", "interrupted"};
+  return names[static_cast<int>(outcome)];
 }
 
 /// "flexibility off: crank, block (at most 0.2 tolerances: crank, t = 0.3); on: rod (9 tolerances at t = 0.01)".

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/units.hpp"
@@ -64,6 +65,11 @@ struct RunReport {
   SolverHealth solver_health;
   int unknowns = 0, nonzeros = 0;
   double seconds_model = 0.0, seconds_start = 0.0, seconds_steps = 0.0, seconds_output = 0.0;
+
+  void end(RunOutcome how, std::string why) {
+    outcome = how;
+    reason = std::move(why);
+  }
 };
 
 /// As JSON (stored in the results file) and as the lines that the command prints.

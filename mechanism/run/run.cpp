@@ -239,6 +239,7 @@ Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunCo
       built(build_model(scene, files)),
       workspace(built.model),
       doubts(scene, built.model),
+      angles(built.model),
       at_start(built.state),
       values(scene_values(scene_to_run, files)) {
   report.analysis = scene.analysis;
@@ -386,6 +387,18 @@ void foretell_size(double time, Run& run) {
 }
 
 }  // namespace
+
+std::string why_to_end(Run& run) {
+  std::string reason = run.angles.observe(run.built.model, run.built.state, run.workspace.now);
+  return reason.empty() ? off_road(run.built.model, run.built.state, run.workspace.now) : reason;
+}
+
+bool is_interrupted(Run& run) {
+  const bool interrupted = run.control.interrupted && run.control.interrupted();
+  if (interrupted)
+    run.report.end(RunOutcome::interrupted, fmt::format("interrupted at t = {:.6g}", run.built.state.time()));
+  return interrupted;
+}
 
 void tell_doubts(Run& run) {
   std::vector<std::string>& doubts = run.report.doubts;

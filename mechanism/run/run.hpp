@@ -9,6 +9,7 @@
 #include "formats/results/results.hpp"
 #include "mechanism/build/build_model.hpp"
 #include "mechanism/doubts/doubts.hpp"
+#include "mechanism/run/limits.hpp"
 #include "mechanism/run/report.hpp"
 #include "mechanism/step/step.hpp"
 #include "mechanism/step/workspace.hpp"
@@ -32,7 +33,7 @@ class RunListener {
   /// After each row: the state that it tells.
   virtual void state(const State&) {}
   /// Before the report is stored.
-  virtual void end(RunReport& report) = 0;
+  virtual void end(RunReport&) {}
 };
 
 /// Foretells the size of results from those that are stored, where nothing else tells how many rows there will be.
@@ -53,6 +54,7 @@ struct Run {
   BuiltModel built;
   Workspace workspace;
   Doubts doubts;
+  FrameAngles angles;
   StartFrom from = StartFrom::poses;
   bool massless = false;                               ///< some directions without mass: they jump to their balance
   State at_start;                                      ///< as the model was built, before anything moved
@@ -79,6 +81,11 @@ void start(Run& run);
 
 /// After start() or resume(): the model keeps the places that are stored.
 formats::ResultsLayout begin_rows(Run& run, const BodyFiles& files);
+
+/// Why it must end at the accepted, evaluated state where it stands, or nothing.
+std::string why_to_end(Run& run);
+/// Whether the outside world wants it to end; the report says so.
+bool is_interrupted(Run& run);
 
 /// What the run has come to doubt, into the report.
 void tell_doubts(Run& run);

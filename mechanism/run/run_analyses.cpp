@@ -12,7 +12,6 @@
 #include "mechanism/analyses/steady_axes.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/model/node_coordinates.hpp"
-#include "mechanism/run/off_road.hpp"
 #include "mechanism/run/output.hpp"
 #include "mechanism/run/run.hpp"
 #include "mechanism/run/schedule.hpp"
@@ -67,13 +66,13 @@ void write_motion_row(Run& run, const StepReport& step, double size, RowWriter& 
 }
 
 void stop_at_dead_point(Run& run, double time, const StepReport& step) {
-  run.report.outcome = RunOutcome::not_converged;
-  run.report.reason =
+  run.report.end(
+      RunOutcome::not_converged,
       fmt::format("t = {:.6g}: {} (after {} halvings of the step)", time,
                   step.outcome == StepOutcome::singular
                       ? "the drives do not determine the motion: a dead point, where it could go on in several ways"
                       : "the joints cannot be closed any further: the drive leaves what the mechanism can reach",
-                  run.scene.integrator.max_halvings);
+                  run.scene.integrator.max_halvings));
 }
 
 }  // namespace
@@ -92,11 +91,7 @@ void move_along(Run& run, RowWriter& out) {
   begin(model, state, run.workspace);
   if (schedule.output_at_start()) write_motion_row(run, step, 0.0, out);
   while (!schedule.finished(state.time())) {
-    if (run.control.interrupted && run.control.interrupted()) {
-      report.outcome = RunOutcome::interrupted;
-      report.reason = fmt::format("interrupted at t = {:.6g}", state.time());
-      break;
-    }
+    if (is_interrupted(run)) break;
     const double before = state.time();
     step = move_along(model, run.scene.integrator, schedule.next(before), state, run.workspace);
     report.iterations += step.iterations;
@@ -141,18 +136,17 @@ void assemble(Run& run, RowWriter& out) {
   step.constraint = assembly.gap * model.length;
   write_row(run, step, 0.0, out, [](formats::ResultsRow& row) { blank(formats::AnalysisKind::assembly, row); });
   if (assembly.interrupted) {
-    report.outcome = RunOutcome::interrupted;
-    report.reason = "interrupted";
+    report.end(RunOutcome::interrupted, "interrupted");
   } else if (!assembly.closed) {
     std::vector<std::string> open;
     for (const JointGap& gap : assembly.open)
       open.push_back(fmt::format("'{}' by {:.3g} and {:.3g} rad", gap.name, gap.length, gap.angle));
-    report.outcome = RunOutcome::not_converged;
-    report.reason = fmt::format("joints stay open: {}; give better guesses, or correct what cannot meet", listed(open));
+    report.end(RunOutcome::not_converged,
+               fmt::format("joints stay open: {}; give better guesses, or correct what cannot meet", listed(open)));
   } else if (!(assembly.velocity_gap <= 1e-9)) {
-    report.outcome = RunOutcome::not_converged;
-    report.reason =
-        fmt::format("no velocities agree with joints and drives: {:.3g} of the largest is left", assembly.velocity_gap);
+    report.end(RunOutcome::not_converged, fmt::format("no velocities agree with joints and drives: {:.3g} of the "
+                                                      "largest is left",
+                                                      assembly.velocity_gap));
   }
 }
 

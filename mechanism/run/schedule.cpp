@@ -29,8 +29,7 @@ bool Schedule::finished(double time) const { return reached(time, integrator_.en
 
 double Schedule::controlled_end(double time) const {
   double t = integrator_.end;
-  if (output_.interval && !interpolates_)
-    t = std::min(t, integrator_.start + static_cast<double>(rows_) * *output_.interval);
+  if (output_.interval && !interpolates_) t = std::min(t, due());
   if (integrator_.end - t < round_off_) t = integrator_.end;
   if (breakpoint_ < breakpoints_.size()) t = std::min(t, breakpoints_[breakpoint_]);
   // The last two steps before an instant share what is left, so that none is tiny.
@@ -90,22 +89,21 @@ void Schedule::adapt(const StepReport& report, double size) {
 
 bool Schedule::output_due(double time, bool on_grid) {
   if (!output_.interval) {
-    const bool due = (on_grid && grid_ % output_.every == 0) || finished(time);
-    return due && time >= output_.from - round_off_;
+    const bool is_due = (on_grid && grid_ % output_.every == 0) || finished(time);
+    return is_due && time >= output_.from - round_off_;
   }
-  const double due = integrator_.start + static_cast<double>(rows_) * *output_.interval;
-  const bool now = reached(time, due) || finished(time);
-  while (reached(time, integrator_.start + static_cast<double>(rows_) * *output_.interval)) ++rows_;
+  const bool now = reached(time, due()) || finished(time);
+  while (reached(time, due())) ++rows_;
   return now && time >= output_.from - round_off_;
 }
 
 std::optional<double> Schedule::pass_instant(double time) {
   if (!interpolates_ || !output_.interval) return std::nullopt;
   while (true) {
-    const double due = integrator_.start + static_cast<double>(rows_) * *output_.interval;
-    if (due >= time - round_off_ || finished(due)) return std::nullopt;
+    const double next = due();
+    if (next >= time - round_off_ || finished(next)) return std::nullopt;
     ++rows_;
-    if (due >= output_.from - round_off_) return due;
+    if (next >= output_.from - round_off_) return next;
   }
 }
 

@@ -56,6 +56,8 @@ class Schedule {
 
  private:
   bool reached(double time, double target) const;
+  /// The next row of `interval`.
+  double due() const { return integrator_.start + static_cast<double>(rows_) * *output_.interval; }
   bool controlled() const { return integrator_.error_control.active; }
   double target() const;
   double controlled_end(double time) const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -38,5 +39,8 @@ Eigen::VectorXd y_of(const Model& model, std::size_t index, const Evaluation& no
 Deformation deformation_of(const Model& model, std::size_t index, const Evaluation& now);
 /// Largest speed of a node that has translations.
 double largest_speed(const Model& model, const State& state);
+
+/// Number of the part that each of them is a piece of: welded_beams(), and fixed joints with modal bodies.
+std::vector<int> welded_parts(const Model& model);
 
 }  // namespace tisserand::mechanism

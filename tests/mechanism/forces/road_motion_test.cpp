@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "mechanism/run/off_road.hpp"
+#include "mechanism/run/limits.hpp"
 #include "tests/support/scenes/wheels.hpp"
 #include "tests/support/thrown.hpp"
 

@@ -9,7 +9,7 @@
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/bdf/bdf.hpp"
 #include "mechanism/doubts/doubt.hpp"
-#include "mechanism/run/off_road.hpp"
+#include "mechanism/run/limits.hpp"
 #include "tests/support/scenes/model_tangent.hpp"
 #include "tests/support/scenes/wheels.hpp"
 

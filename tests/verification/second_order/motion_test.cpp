@@ -14,7 +14,7 @@
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/build/superelements.hpp"
 #include "mechanism/run/checkpoint.hpp"
-#include "mechanism/run/frame_angles.hpp"
+#include "mechanism/run/limits.hpp"
 #include "mechanism/run/run.hpp"
 #include "tests/support/reference_table.hpp"
 #include "tests/support/scenes/scenes.hpp"

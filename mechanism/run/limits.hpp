@@ -1,4 +1,5 @@
-// How far the nodes of superelements turn against their floating frames in a run: what their theory can bear.
+// Why a run must end where it stands: nodes of superelements that turn far against their floating frames, tyres at the
+// ends of their roads.
 #pragma once
 
 #include <string>
@@ -31,5 +32,9 @@ class FrameAngles {
   };
   std::vector<Seen> seen_;
 };
+
+/// After an evaluation of an accepted state: why the run must end, since a tyre has come to an end of its road; or
+/// nothing.
+std::string off_road(const Model& model, const State& state, const Evaluation& evaluation);
 
 }  // namespace tisserand::mechanism
