@@ -2,7 +2,7 @@
 #include "mechanism/history_commands.hpp"
 
 #include <algorithm>
-#include <array>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -43,8 +43,10 @@ void draw(PlotWords& words) {
   say_of(options.output, fmt::format("{}picture: {}\n", told, options.output));
 }
 
-void add_plot(CLI::App& app, PlotWords& words) {
-  CLI::App* command = app.add_subcommand("plot", first_line(help::about_plot));
+void add_plot(CLI::App& app) {
+  const auto kept = std::make_shared<PlotWords>();  // by the callback
+  PlotWords& words = *kept;
+  CLI::App* command = add_command(app, "plot", help::about_plot);
   PlotOptions& options = words.options;
   add_series_arguments(*command, words.series);
   command->add_option("-o,--output", options.output, "picture, .png, .svg, .pdf or .eps")->required();
@@ -65,7 +67,7 @@ void add_plot(CLI::App& app, PlotWords& words) {
       "--log-y", [&options] { options.y_scale = AxisScale::logarithmic; }, "logarithmic ordinate");
   command->add_flag_callback(
       "--points", [&options] { options.mark = Mark::line_with_points; }, "mark the points");
-  command->callback([&words] { draw(words); });
+  command->callback([kept] { draw(*kept); });
 }
 
 struct TableWords {
@@ -73,24 +75,26 @@ struct TableWords {
   std::vector<std::string> channels;
 };
 
-void add_export(CLI::App& app, TableWords& words) {
-  CLI::App* command = app.add_subcommand("export", first_line(help::about_export));
-  command->add_option("results", words.file, "results file, also of an interrupted run")->required();
-  command->add_option("--channel,-c", words.channels, "channel, group or pattern; default: all")
+void add_export(CLI::App& app) {
+  const auto words = std::make_shared<TableWords>();
+  CLI::App* command = add_command(app, "export", help::about_export);
+  command->add_option("results", words->file, "results file, also of an interrupted run")->required();
+  command->add_option("--channel,-c", words->channels, "channel, group or pattern; default: all")
       ->allow_extra_args(false);
-  command->add_option("-o,--output", words.output, "CSV file; - is standard output")->required();
-  command->callback([&words] {
-    require_output(words.output, {".csv"}, {words.file});
-    export_table(words.file, words.channels, words.output);
-    if (!is_stream(words.output)) say(fmt::format("table: {}\n", words.output));
+  command->add_option("-o,--output", words->output, "CSV file; - is standard output")->required();
+  command->callback([words] {
+    require_output(words->output, {".csv"}, {words->file});
+    export_table(words->file, words->channels, words->output);
+    if (!is_stream(words->output)) say(fmt::format("table: {}\n", words->output));
   });
 }
 
-void add_channels(CLI::App& app, TableWords& words) {
-  CLI::App* command = app.add_subcommand("channels", first_line(help::about_channels));
-  command->add_option("results", words.file, "results file, also of an interrupted run")->required();
-  command->add_option("--channel,-c", words.channels, "group or pattern; default: all")->allow_extra_args(false);
-  command->callback([&words] { say(channels_table(words.file, words.channels)); });
+void add_channels(CLI::App& app) {
+  const auto words = std::make_shared<TableWords>();
+  CLI::App* command = add_command(app, "channels", help::about_channels);
+  command->add_option("results", words->file, "results file, also of an interrupted run")->required();
+  command->add_option("--channel,-c", words->channels, "group or pattern; default: all")->allow_extra_args(false);
+  command->callback([words] { say(channels_table(words->file, words->channels)); });
 }
 
 struct CompareWords {
@@ -98,30 +102,30 @@ struct CompareWords {
   TimeWindow window;
 };
 
-void add_compare(CLI::App& app, CompareWords& words) {
-  CLI::App* command = app.add_subcommand("compare", first_line(help::about_compare));
-  add_series_arguments(*command, words.series);
-  command->add_option("--from", words.window.from, "first instant compared [time of the run]; default: all");
-  command->add_option("--to", words.window.to, "last instant compared; default: all");
-  command->callback([&words] { say(deviations_table(compare(complete(words.series), words.window))); });
+void add_compare(CLI::App& app) {
+  const auto words = std::make_shared<CompareWords>();
+  CLI::App* command = add_command(app, "compare", help::about_compare);
+  add_series_arguments(*command, words->series);
+  command->add_option("--from", words->window.from, "first instant compared [time of the run]; default: all");
+  command->add_option("--to", words->window.to, "last instant compared; default: all");
+  command->callback([words] { say(deviations_table(compare(complete(words->series), words->window))); });
 }
 
 }  // namespace
 
-struct HistoryCommands::Words {
-  TableWords exported, listed;
-  PlotWords plotted;
-  CompareWords compared;
-};
-
-HistoryCommands::HistoryCommands(CLI::App& app) : words_(std::make_unique<Words>()) {
-  add_export(app, words_->exported);
-  add_channels(app, words_->listed);
-  add_plot(app, words_->plotted);
-  add_compare(app, words_->compared);
+void add_history_commands(CLI::App& app) {
+  add_export(app);
+  add_channels(app);
+  add_plot(app);
+  add_compare(app);
 }
 
-HistoryCommands::~HistoryCommands() = default;
+CLI::App* add_command(CLI::App& app, const char* name, const char* about) {
+  const std::string whole = about;
+  CLI::App* command = app.add_subcommand(name, whole.substr(0, whole.find('\n')));
+  command->preparse_callback([command, whole](std::size_t) { command->description(whole + "\n"); });
+  return command;
+}
 
 void add_series_arguments(CLI::App& command, SeriesArguments& arguments) {
   command.add_option("results", arguments.request.files, "results files, also of interrupted runs");
@@ -161,7 +165,5 @@ std::vector<std::string> drawn_files(const SeriesArguments& arguments) {
   for (const ComparedRun& run : request.reference_runs) files.push_back(run.file);
   return files;
 }
-
-std::string first_line(const char* text) { return std::string(text).substr(0, std::string(text).find('\n')); }
 
 }  // namespace tisserand::mechanism

@@ -1,7 +1,6 @@
 // The commands that read results files and draw or list channels: channels, export, plot, compare.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,20 +26,9 @@ SeriesRequest complete_for_page(const SeriesArguments& arguments);
 /// All files that are read.
 std::vector<std::string> drawn_files(const SeriesArguments& arguments);
 
-/// The first line of a help text.
-std::string first_line(const char* text);
+/// A command that tells `about` in its own help, and the first line of it in that of the program.
+CLI::App* add_command(CLI::App& app, const char* name, const char* about);
 
-/// Where the words of the commands are kept while the command line is read.
-class HistoryCommands {
- public:
-  explicit HistoryCommands(CLI::App& app);
-  ~HistoryCommands();
-  HistoryCommands(const HistoryCommands&) = delete;
-  HistoryCommands& operator=(const HistoryCommands&) = delete;
-
- private:
-  struct Words;
-  std::unique_ptr<Words> words_;
-};
+void add_history_commands(CLI::App& app);
 
 }  // namespace tisserand::mechanism

@@ -26,6 +26,7 @@
 #include "mechanism/help.hpp"
 #include "mechanism/history_commands.hpp"
 #include "mechanism/ledger/perform.hpp"
+#include "mechanism/ledger/table.hpp"
 #include "mechanism/run/analyses.hpp"
 #include "mechanism/run/checkpoint.hpp"
 #include "mechanism/simulate.hpp"
@@ -38,7 +39,7 @@
 namespace {
 
 using namespace tisserand;
-using mechanism::first_line;
+using mechanism::add_command;
 using mechanism::SeriesArguments;
 using namespace tisserand::mechanism::help;
 
@@ -188,17 +189,20 @@ int check(const RunArguments& arguments) {
 
 struct LedgerArguments {
   RunArguments run;
-  mechanism::LedgerCommand command;
+  mechanism::LedgerSettings settings;
+  bool json = false;
 };
 
 int ledger(const LedgerArguments& arguments) {
   listen_for_interrupts();
   Progress progress("ledger", 1.0);
-  const std::string told =
-      mechanism::perform_ledger(read(arguments.run), arguments.run.analysis, arguments.command, ledger_control(),
+  const formats::Scene scene = read(arguments.run);
+  const mechanism::Ledger made =
+      mechanism::perform_ledger(scene, arguments.run.analysis, arguments.settings, ledger_control(),
                                 [&](double done, const std::string& next) { progress.update(done, next); });
   if (!interrupt_requested) progress.finish();
-  say(told);
+  say(arguments.json ? mechanism::ledger_json(made)
+                     : fmt::format("{}: {}: {}", scene.file, scene.name, mechanism::ledger_text(made, scene.units)));
   return interrupt_requested ? exit_interrupted : 0;
 }
 
@@ -218,7 +222,7 @@ int study(const mechanism::StudyRequest& request) {
 }
 
 void add_study(CLI::App& app, mechanism::StudyRequest& request, int& code) {
-  CLI::App* command = app.add_subcommand("study", first_line(about_study));
+  CLI::App* command = add_command(app, "study", about_study);
   command->add_option("study", request.file, "study file (formats/STUDY.md)")->required();
   command->add_option("-o,--output", request.folder, "folder of what has run and of tables; default: <study>.study");
   command->add_option("--tolerance", request.tolerance, "the cheapest setting whose errors stay within it")
@@ -231,8 +235,8 @@ void add_study(CLI::App& app, mechanism::StudyRequest& request, int& code) {
 }
 
 void add_ledger(CLI::App& app, LedgerArguments& arguments, int& code) {
-  mechanism::LedgerCommand& ledger = arguments.command;
-  CLI::App* command = app.add_subcommand("ledger", first_line(about_ledger));
+  mechanism::LedgerSettings& ledger = arguments.settings;
+  CLI::App* command = add_command(app, "ledger", about_ledger);
   add_run_arguments(*command, arguments.run);
   command->add_option("--analysis", arguments.run.analysis,
                       "one of the scene's `analyses`; default: the last of dynamics");
@@ -252,7 +256,7 @@ void add_ledger(CLI::App& app, LedgerArguments& arguments, int& code) {
       ->allow_extra_args(false);
   command->add_option("--active", ledger.least_activity, "effects with a smaller share of activity are not tried")
       ->check(CLI::Range(0.0, 1.0));
-  command->add_flag("--json", ledger.json, "the same as JSON, with all figures");
+  command->add_flag("--json", arguments.json, "the same as JSON, with all figures");
   command->callback([&] { code = ::ledger(arguments); });
 }
 
@@ -274,7 +278,7 @@ struct PictureArguments {
 
 void add_picture(CLI::App& app, PictureArguments& arguments) {
   mechanism::PictureRequest& request = arguments.request;
-  CLI::App* command = app.add_subcommand("picture", first_line(about_picture));
+  CLI::App* command = add_command(app, "picture", about_picture);
   mechanism::add_series_arguments(*command, arguments.runs);
   add_page_options(*command, request.page);
   command->add_option("-o,--output", request.output, "picture, .png; default: arm.png beside arm.results.h5");
@@ -293,12 +297,12 @@ void add_picture(CLI::App& app, PictureArguments& arguments) {
       ->check(CLI::NonNegativeNumber);
   command->add_option("--follow", request.follow, "body that the camera follows; default: the heaviest, if all travel");
   command->add_option("--stress-unit", request.stress_unit, "Pa, kPa, MPa or GPa; default: of the scene, MPa for mm")
-      ->check(CLI::IsMember(mechanism::picture_stress_units()));
+      ->check(CLI::IsMember(mechanism::picture_stress_units));
   command->add_flag_callback(
       "--no-sandbox", [&] { request.sandbox = mechanism::Sandbox::off; },
       "run Chromium without its sandbox, which it does not have for root");
   command->add_option("--colour", request.colouring, "body, displacement, deformation or stress")
-      ->check(CLI::IsMember(mechanism::picture_colourings()));
+      ->check(CLI::IsMember(mechanism::picture_colourings));
   command->add_option("--trace", request.traces, "node whose path is drawn")->allow_extra_args(false);
   for (auto& [option, things] : {std::pair{"--show", &request.shown}, std::pair{"--hide", &request.hidden}})
     command->add_option(option, *things, join(mechanism::picture_things(), ", "))
@@ -333,11 +337,6 @@ int tell_usage(const CLI::App& app, const CLI::ParseError& error, int argc, char
   return exit_usage;
 }
 
-void describe(CLI::App& app, const std::vector<std::pair<std::string, std::string>>& abouts, int argc, char** argv) {
-  for (const auto& [name, about_command] : abouts)
-    if (argc > 1 && name == argv[1]) app.get_subcommand(name)->description(about_command + "\n");
-}
-
 int command_line(int argc, char** argv) {
   CLI::App app{about};
   app.name("mechanism");
@@ -346,7 +345,7 @@ int command_line(int argc, char** argv) {
   int code = 0;
 
   RunArguments run_arguments;
-  CLI::App* run_command = app.add_subcommand("run", first_line(about_run));
+  CLI::App* run_command = add_command(app, "run", about_run);
   add_run_arguments(*run_command, run_arguments);
   run_command->add_option("-o,--output", run_arguments.output,
                           "results file; default: <scene>.results.h5 beside the scene");
@@ -365,7 +364,7 @@ int command_line(int argc, char** argv) {
   run_command->callback([&] { code = run(run_arguments); });
 
   RunArguments check_arguments;
-  CLI::App* check_command = app.add_subcommand("check", first_line(about_check));
+  CLI::App* check_command = add_command(app, "check", about_check);
   add_run_arguments(*check_command, check_arguments);
   check_command->callback([&] { code = check(check_arguments); });
 
@@ -375,12 +374,12 @@ int command_line(int argc, char** argv) {
   LedgerArguments ledger_arguments;
   add_ledger(app, ledger_arguments, code);
 
-  const mechanism::HistoryCommands histories(app);
+  mechanism::add_history_commands(app);
 
   SeriesArguments view_arguments;
   mechanism::ViewRequest view_request;
   std::string paraview;
-  CLI::App* view_command = app.add_subcommand("view", first_line(about_view));
+  CLI::App* view_command = add_command(app, "view", about_view);
   mechanism::add_series_arguments(*view_command, view_arguments);
   CLI::Option* page = view_command->add_option("-o,--output", view_request.output,
                                                "page, .html; default: arm.html beside arm.results.h5");
@@ -398,18 +397,6 @@ int command_line(int argc, char** argv) {
   PictureArguments picture_arguments;
   add_picture(app, picture_arguments);
 
-  describe(app,
-           {{"run", about_run},
-            {"check", about_check},
-            {"export", about_export},
-            {"channels", about_channels},
-            {"plot", about_plot},
-            {"view", about_view},
-            {"picture", about_picture},
-            {"study", about_study},
-            {"ledger", about_ledger},
-            {"compare", about_compare}},
-           argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -152,25 +152,13 @@ void PanelScript::line(std::size_t index, std::size_t rank, std::size_t count, b
 }
 
 void PanelScript::other(std::size_t index, std::size_t rank, bool named) {
-  const std::string last = title(index, named);
-  switch (series[index].kind) {
-    case SeriesKind::front:
-      commands.push_back(fmt::format("$d{} with lines lw 7 lc rgb '#DDDDDD' {}", index, last));
-      break;
-    case SeriesKind::backdrop:
-      commands.push_back(fmt::format("$d{} with points pt 7 ps 0.4 lc rgb '#BBBBBB' {}", index, last));
-      break;
-    case SeriesKind::marks:
-      commands.push_back(fmt::format("$d{} with points pt 2 ps 1.3 lw 2 lc rgb '#BB0000' {}", index, last));
-      break;
-    case SeriesKind::reference:
-      commands.push_back(fmt::format("$d{} with lines lw 3.6 lc rgb '{}' {}", index,
-                                     kReferenceGreys[rank % kReferenceGreys.size()], last));
-      break;
-    case SeriesKind::run:
-    case SeriesKind::difference:
-      break;
-  }
+  const SeriesKind kind = series[index].kind;
+  const std::string pen = kind == SeriesKind::front      ? "lines lw 7 lc rgb '#DDDDDD'"
+                          : kind == SeriesKind::backdrop ? "points pt 7 ps 0.4 lc rgb '#BBBBBB'"
+                          : kind == SeriesKind::marks
+                              ? "points pt 2 ps 1.3 lw 2 lc rgb '#BB0000'"
+                              : fmt::format("lines lw 3.6 lc rgb '{}'", kReferenceGreys[rank % kReferenceGreys.size()]);
+  commands.push_back(fmt::format("$d{} with {} {}", index, pen, title(index, named)));
 }
 
 /// Bars over the numbers of modes, those of several series side by side.

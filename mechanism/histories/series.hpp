@@ -18,9 +18,13 @@ enum class SeriesKind {
   marks      ///< single events: crosses above
 };
 
-/// Sizes of a difference: max |y - y_ref|, sqrt(∫(y - y_ref)² dt / ∫dt), and the latter of y_ref alone.
-struct DifferenceNorms {
-  double largest = 0.0, rms = 0.0, reference_rms = 0.0;
+/// Differences of one history from another one, at the instants from `from` to `to`.
+struct Deviation {
+  double largest = 0.0;         ///< max |y - y_ref|
+  double rms = 0.0;             ///< sqrt(∫(y - y_ref)² dt / ∫dt), trapezoid rule
+  double reference_rms = 0.0;   ///< the same of y_ref alone
+  double from = 0.0, to = 0.0;  ///< first and last instant compared
+  std::size_t instants = 0;
 };
 
 /// One quantity over another, in the units of its file.
@@ -35,7 +39,7 @@ struct Series {
   std::vector<double> y;
   bool has_own_label = false;  ///< `source` was chosen by the user
   bool is_of_run = false;      ///< of a reference: a channel of a results file
-  DifferenceNorms norms;                 ///< of a difference
+  Deviation norms;             ///< of a difference
 };
 
 /// Two columns of a CSV file with a header line.

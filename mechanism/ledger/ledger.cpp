@@ -32,14 +32,15 @@ class LedgerMaker {
   LedgerMaker(const LedgerRequest& request, const BodyFiles& files, const RunControl& control)
       : request_(request),
         control_(control),
-        stage_{files, control, request.windows, request.channels},
+        stage_{files, control, request.settings.windows, request.settings.channels},
         own_(build_model(request.scene, files)) {}
 
   Ledger make() {
-    const std::vector<Toggle> toggles = toggles_of(request_.scene, stage_.files, request_.choice);
+    const std::vector<Toggle> toggles = toggles_of(request_.scene, stage_.files, request_.settings.choice);
     tell(0.0, "the run");
-    reference_ = request_.results.empty() ? run_reference(request_.scene, request_.begin, stage_)
-                                          : windows_of_results(request_.scene, request_.results, stage_);
+    reference_ = request_.settings.results.empty()
+                     ? run_reference(request_.scene, request_.begin, stage_)
+                     : windows_of_results(request_.scene, request_.settings.results, stage_);
     if (interrupted()) return stopped();
     for (const LedgerWindow& window : reference_.windows) {
       own_windows_.push_back(replay(request_.scene, window, window.begin, KeepStates::yes));
@@ -117,7 +118,8 @@ class LedgerMaker {
 
   void judge(LedgerLine& line) {
     if (!line.failure.empty()) return;
-    if (line.activity && request_.least_activity > 0.0 && line.share < request_.least_activity) return;
+    if (line.activity && request_.settings.least_activity > 0.0 && line.share < request_.settings.least_activity)
+      return;
     try {
       replay_toggled(line);
     } catch (const Error& error) {
@@ -182,7 +184,7 @@ class LedgerMaker {
                  const formats::Scene& scene, Cost& own, Cost& changed) const {
     double own_least = std::numeric_limits<double>::infinity(), least = own_least;
     long own_steps = 0, steps = 0;
-    for (int k = 0; k < request_.repeats && !interrupted(); ++k) {
+    for (int k = 0; k < request_.settings.repeats && !interrupted(); ++k) {
       const WindowHistory before = replay(request_.scene, window, own_begin, KeepStates::no);
       const WindowHistory after = replay(scene, window, begin, KeepStates::no);
       own_least = std::min(own_least, before.seconds);

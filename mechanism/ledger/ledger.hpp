@@ -12,18 +12,25 @@
 
 namespace tisserand::mechanism {
 
-/// What is asked of a ledger. The scene is one of dynamics, with the settings of its analysis.
-struct LedgerRequest {
-  const formats::Scene& scene;
-  std::optional<State> begin = {};  ///< end of the analysis that this one goes on from
-  std::string results = {};         ///< of the same scene, whose stored instants begin windows; empty: a run of its own
+/// What a user chooses.
+struct LedgerSettings {
+  std::string results = {};  ///< of the same scene, whose stored instants begin windows; empty: a run of its own
   WindowChoice windows = {};
   int repeats = 3;                         ///< of each window, for times
   std::vector<std::string> channels = {};  ///< that are compared; empty: places, deflections, reactions
   ToggleChoice choice = {};
   double least_activity = 0.0;  ///< share of activity below which an effect is not replayed
-  /// Part that is done, and what comes next.
-  std::function<void(double done, const std::string& next)> progress = {};
+};
+
+/// Hears the part that is done, and what comes next.
+using LedgerProgress = std::function<void(double done, const std::string& next)>;
+
+/// What is asked of a ledger. The scene is one of dynamics, with the settings of its analysis.
+struct LedgerRequest {
+  const formats::Scene& scene;
+  std::optional<State> begin = {};  ///< end of the analysis that this one goes on from
+  LedgerSettings settings = {};
+  LedgerProgress progress = {};
 };
 
 /// One effect of one body.

@@ -23,7 +23,7 @@ std::optional<State> beginning_of_last(const std::vector<PlannedAnalysis>& plann
     std::optional<State> begin;
     if (!one.from.empty()) begin = ends.at(one.from);
     if (&one == &planned.back()) return begin;
-    RunEnd end = simulate(RunRequest{one.scene, files, std::move(begin), "", "", std::nullopt}, control);
+    RunEnd end = simulate(RunRequest{one.scene, files, std::move(begin)}, control);
     if (end.report.outcome == RunOutcome::interrupted) return std::nullopt;
     if (end.report.outcome != RunOutcome::completed)
       throw Error(fmt::format("analysis '{}', from which '{}' begins, did not end: {}", one.name, planned.back().name,
@@ -47,18 +47,10 @@ void require_part(const char* option, double value) {
     throw Error(fmt::format("{}: {} is no part of a whole", option, value), "", "give a number from 0 to 1");
 }
 
-Ledger ledger_of(const formats::Scene& scene, std::optional<State> begin, const LedgerCommand& command,
+Ledger ledger_of(const formats::Scene& scene, std::optional<State> begin, const LedgerSettings& settings,
                  const BodyFiles& files, const RunControl& control, const LedgerProgress& progress) {
   const formats::Scene whole = with_switches(scene, {});  // auto: on
-  LedgerRequest request{whole, std::move(begin)};
-  request.results = command.results;
-  request.windows = command.windows;
-  request.repeats = command.repeats;
-  request.channels = command.channels;
-  request.choice = command.choice;
-  request.least_activity = command.least_activity;
-  request.progress = progress;
-  return make_ledger(request, files, control);
+  return make_ledger({whole, std::move(begin), settings, progress}, files, control);
 }
 
 }  // namespace
@@ -75,16 +67,14 @@ std::string ledger_beside(const PlannedAnalysis& one, std::optional<State> begin
   return fmt::format("ledger: {}  {:<16} {}\n", ledger_text(ledger, one.scene.units), "written", path);
 }
 
-std::string perform_ledger(const formats::Scene& scene, const std::string& analysis, const LedgerCommand& command,
-                           const RunControl& control, const LedgerProgress& progress) {
-  require_part("--share", command.windows.share);
-  require_part("--active", command.least_activity);
+Ledger perform_ledger(const formats::Scene& scene, const std::string& analysis, const LedgerSettings& settings,
+                      const RunControl& control, const LedgerProgress& progress) {
+  require_part("--share", settings.windows.share);
+  require_part("--active", settings.least_activity);
   const std::vector<PlannedAnalysis> planned = planned_for(scene, analysis);
   const BodyFiles files = read_ledger_files(scene);
-  const Ledger ledger =
-      ledger_of(planned.back().scene, beginning_of_last(planned, files, control), command, files, control, progress);
-  if (command.json) return ledger_json(ledger);
-  return fmt::format("{}: {}: {}", scene.file, scene.name, ledger_text(ledger, scene.units));
+  return ledger_of(planned.back().scene, beginning_of_last(planned, files, control), settings, files, control,
+                   progress);
 }
 
 }  // namespace tisserand::mechanism

@@ -1,28 +1,13 @@
-// The command `mechanism ledger`: analyses before the one that is meant, files, and the text of its ledger.
+// The command `mechanism ledger`: analyses before the one that is meant, files, and its ledger.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "mechanism/ledger/ledger.hpp"
 #include "mechanism/run/analyses.hpp"
 
 namespace tisserand::mechanism {
-
-/// As the command line has it.
-struct LedgerCommand {
-  std::string results;  ///< whose instants begin windows; empty: a run of its own
-  WindowChoice windows;
-  int repeats = 3;
-  double least_activity = 0.0;
-  std::vector<std::string> channels;
-  ToggleChoice choice;
-  bool json = false;
-};
-
-using LedgerProgress = std::function<void(double done, const std::string& next)>;
 
 /// Whether a run of it makes a ledger: `output: {ledger: yes}` of dynamics.
 bool wants_ledger(const PlannedAnalysis& one);
@@ -34,7 +19,7 @@ std::string ledger_beside(const PlannedAnalysis& one, std::optional<State> begin
 
 /// Of the named analysis of the scene (empty: the last of dynamics), after those that it starts from. control.clock
 /// counts processor time. Throws Error.
-std::string perform_ledger(const formats::Scene& scene, const std::string& analysis, const LedgerCommand& command,
-                           const RunControl& control, const LedgerProgress& progress);
+Ledger perform_ledger(const formats::Scene& scene, const std::string& analysis, const LedgerSettings& settings,
+                      const RunControl& control, const LedgerProgress& progress);
 
 }  // namespace tisserand::mechanism

@@ -55,7 +55,6 @@ class ReferenceListener : public RunListener {
     if (time < start - round_off || time > scene_.integrator.end - round_off) return;
     run_.windows.push_back({time, end_on_grid(scene_.integrator, time, time + (end - start)), state});
   }
-  void end(RunReport&) override {}
 
  private:
   const formats::Scene& scene_;
@@ -79,7 +78,6 @@ class ReplayListener : public RunListener {
   void state(const State& state) override {
     if (keep_ == KeepStates::yes) history_.states.push_back(state);
   }
-  void end(RunReport&) override {}
 
  private:
   const formats::Scene& scene_;
@@ -153,7 +151,7 @@ ReferenceRun run_reference(const formats::Scene& scene, const std::optional<Stat
   whole.output.from = scene.integrator.start;
   ReferenceRun run;
   ReferenceListener listener(whole, stage, run);
-  RunRequest request{whole, stage.files, begin, "", "", std::nullopt};
+  RunRequest request{whole, stage.files, begin};
   request.listener = &listener;
   const RunReport report = simulate(request, stage.control).report;
   if (report.outcome == RunOutcome::interrupted) return run;
@@ -187,7 +185,7 @@ WindowHistory replay_window(const formats::Scene& scene, const LedgerWindow& win
   const formats::Scene part = windowed(scene, window, whole);
   WindowHistory history;
   ReplayListener listener(part, keep, stage, history);
-  RunRequest request{part, stage.files, begin, "", "", std::nullopt};
+  RunRequest request{part, stage.files, begin};
   request.listener = &listener;
   const RunReport report = simulate(request, stage.control).report;
   history.seconds = report.seconds_steps;

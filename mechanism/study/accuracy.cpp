@@ -1,4 +1,4 @@
-// Trials, what they differ by, and the next tolerance.
+// Trials, and what follows from their differences: the error that is left, the next tolerance, the modes.
 #include "mechanism/study/accuracy.hpp"
 
 #include <algorithm>
@@ -60,6 +60,50 @@ constexpr double most_missing = 0.5;
 /// What twice the modes leave of their error: frequencies rise at least in proportion to their number, what a mode
 /// follows quasi-statically errs with the inverse square of its own.
 constexpr double modes_fall = 0.25;
+
+/// What differences of runs with falling tolerances tell: the error that the last one leaves, and the tolerance after
+/// it.
+class FallingTolerance {
+ public:
+  explicit FallingTolerance(const Rates& rates) : rates_(rates), order_(rates.order) {}
+
+  double first(double error) const {
+    return std::clamp(rates_.first * error, rates_.second_part * least_tolerance, most_tolerance);
+  }
+  double second(double first) const { return first / rates_.second_part; }
+
+  /// A run whose tolerance is `fall` times smaller, with `more` times the steps, has changed the history by `change`.
+  void observe(double change, double fall, double more) {
+    if (change_ > 0.0 && change > 0.0)
+      order_ = std::min(order_, std::max(least_order, trusted_part * std::log(change_ / change) / std::log(fall_)));
+    error_ = std::max({change * std::pow(fall, -order_), change_ * std::pow(fall * fall_, -order_),
+                       change * std::pow(more, -rates_.steps_order * order_)});
+    // Instants of output or the longest step, not the tolerance, chose the steps: the same ones differ by nothing.
+    if (more < rates_.fewest_more) error_ = std::numeric_limits<double>::infinity();
+    change_ = change;
+    fall_ = fall;
+  }
+  /// What was observed has come from something else than the tolerance.
+  void forget() { change_ = 0.0; }
+
+  double change() const { return change_; }
+  double error() const { return error_; }
+  double next(double tolerance, double error) const {
+    const double aimed = std::isfinite(error_) ? tolerance * std::pow(aim * error / error_, 1.0 / order_)
+                                               : tolerance / rates_.second_part;
+    return std::max(least_tolerance, std::clamp(aimed, least_part * tolerance, most_part * tolerance));
+  }
+  /// Of a run with the tolerance `next` after one that has taken `seconds`.
+  double foretold(double seconds, double tolerance, double next) const {
+    return seconds * std::pow(tolerance / next, rates_.work);
+  }
+
+ private:
+  Rates rates_;
+  double order_;
+  double change_ = 0.0, fall_ = 1.0;  ///< by the run before: of the history, and of the tolerance
+  double error_ = 0.0;
+};
 
 /// Modes per body with a choice; empty: all of all.
 using Modes = std::map<std::string, int>;
@@ -142,22 +186,33 @@ class Search {
   RunEnd run();
 
  private:
+  /// What a run was, beside its report.
+  struct Trial {
+    Series history;
+    long steps = 0;
+  };
+  /// What is known of modes.
+  struct Choice {
+    Modes left;               ///< empty: all
+    Series half;              ///< history at the first tolerance with half of them; empty: all of them from the start
+    bool mixed = false;       ///< the run before has half of the modes, and its tolerance
+    double upper_half = 0.0;  ///< what the upper half of all modes adds
+    double left_out = 0.0;    ///< what modes that are left out would change
+  };
+
   void use(formats::Method method);
   /// At the first tolerance; another method, where the chosen one cannot. Nothing is stored, unless it fails.
   RunEnd begin(const Modes& modes);
-  double first_tolerance() const;
   RunEnd take(double tolerance, const Modes& modes, const std::string& path, Recorder& recorder);
   formats::Scene scene_with(double tolerance, const Modes& modes) const;
   Modes halved() const;
   void leave_out_modes(double tolerance);
-  /// Of what the tolerance leaves, from the run before; returns what modes that are missing may change.
-  double estimate(double fall, long steps);
+  /// Returns what modes that are missing may change.
+  double compare(double fall, long steps);
   /// The run before with all of its modes, where it had half of them and differs by too much.
   void separate(double tolerance);
   void judge(RunReport& report, double before, double tolerance, bool last);
-  double next_after(double tolerance) const;
-  /// Of a run with tolerance `next` after one with `tolerance` that has taken `taken` [s].
-  double foretold(double taken, double tolerance, double next) const;
+  bool is_reached() const { return tolerance_.error() <= room_; }
   std::string told_of_modes() const;
   std::string told_of_method() const;
   static std::string told_of_error(double error);
@@ -169,22 +224,15 @@ class Search {
   formats::StudyQuantity quantity_;
   Recorder recorder_;
   formats::Method method_ = formats::Method::generalised_alpha;
-  Rates rates_ = shared;
-  long most_steps_ = 0;            ///< of the present run; 0: any number
+  FallingTolerance tolerance_{shared};
+  Choice modes_;
+  Trial previous_;                 ///< the run before
   std::vector<std::string> cost_;  ///< of each run: tolerance and seconds
-  Series previous_;                ///< of the run before
-  Series half_;                    ///< at the first tolerance, with half of the modes
-  bool mixed_ = false;             ///< the run before has half of the modes, and its tolerance
-  Modes modes_;                    ///< that are left; empty: all
-  double half_changes_ = 0.0;      ///< what the upper half of all modes adds
-  double left_out_ = 0.0;          ///< what modes that are left out would change
-  double order_ = 0.0;
-  double began_ = 0.0, first_took_ = 0.0;  ///< the present run, and the first one [s]
-  bool too_long_ = false;                  ///< the next run would be
-  long steps_ = 0;                         ///< of the run before
-  double change_ = 0.0, fall_ = 1.0;       ///< by the run before: of the history, and of the tolerance
-  double estimate_ = 0.0;                  ///< of what the tolerance leaves
-  double room_ = 0.0;                      ///< for it
+  double began_ = 0.0;             ///< the present run
+  double first_took_ = 0.0;
+  long most_steps_ = 0;    ///< of the present run; 0: any number
+  bool too_long_ = false;  ///< the next run would be
+  double room_ = 0.0;      ///< for the error that the tolerance leaves
 };
 
 namespace {
@@ -217,7 +265,7 @@ formats::Scene Search::scene_with(double tolerance, const Modes& modes) const {
 
 RunEnd Search::take(double tolerance, const Modes& modes, const std::string& path, Recorder& recorder) {
   const formats::Scene scene = scene_with(tolerance, modes);
-  RunRequest request{scene, request_.files, request_.begin, path, "", std::nullopt};
+  RunRequest request{scene, request_.files, request_.begin, path};
   request.listener = &recorder;
   RunControl control = control_;
   long steps = 0;
@@ -245,8 +293,8 @@ Modes Search::halved() const {
       continue;
     const std::vector<int>& node = request_.files.superelements.at(spec->file).superelement.dof_node;
     const auto all = static_cast<int>(std::ranges::count(node, -1));
-    const auto found = modes_.find(spec->name);
-    const int now = found == modes_.end() ? all : found->second;
+    const auto found = modes_.left.find(spec->name);
+    const int now = found == modes_.left.end() ? all : found->second;
     half[spec->name] = now / 2;
     any = any || now > 1;
   }
@@ -255,90 +303,85 @@ Modes Search::halved() const {
 
 /// After the second run, while halves of the modes change what it found by little: further runs go without them.
 void Search::leave_out_modes(double tolerance) {
-  if (half_.x.empty() || half_changes_ > modes_part * accuracy_.error) return;
-  left_out_ = half_changes_;
-  modes_ = halved();
+  if (modes_.half.x.empty() || modes_.upper_half > modes_part * accuracy_.error) return;
+  modes_.left_out = modes_.upper_half;
+  modes_.left = halved();
   for (Modes half = halved(); !half.empty(); half = halved()) {
     if (take(tolerance, half, "", recorder_).report.outcome != RunOutcome::completed) return;
-    const double change = error_of(recorder_.history, previous_, quantity_);
+    const double change = error_of(recorder_.history, previous_.history, quantity_);
     if (change > modes_part * accuracy_.error) return;
-    left_out_ = change;
-    modes_ = std::move(half);
+    modes_.left_out = change;
+    modes_.left = std::move(half);
   }
 }
 
 std::string Search::told_of_modes() const {
-  if (half_.x.empty()) return {};
-  if (mixed_)
-    return "; half of the modes and the tolerance before together change it by " + fmt::format("{:.2g}", change_);
-  if (modes_.empty()) return fmt::format("; the upper half of the modes changes it by {:.2g}", half_changes_);
+  if (modes_.half.x.empty()) return {};
+  if (modes_.mixed)
+    return fmt::format("; half of the modes and the tolerance before together change it by {:.2g}",
+                       tolerance_.change());
+  if (modes_.left.empty()) return fmt::format("; the upper half of the modes changes it by {:.2g}", modes_.upper_half);
   std::vector<std::string> counts;
-  for (const auto& [name, count] : modes_) counts.push_back(fmt::format("{} of '{}'", count, name));
-  return fmt::format("; modes: {}, the others change it by {:.1g}", listed(counts), left_out_);
+  for (const auto& [name, count] : modes_.left) counts.push_back(fmt::format("{} of '{}'", count, name));
+  return fmt::format("; modes: {}, the others change it by {:.1g}", listed(counts), modes_.left_out);
 }
 
-double Search::estimate(double fall, long steps) {
-  const double change = error_of(previous_, recorder_.history, quantity_);
-  const double missing = mixed_ ? modes_fall * change : modes_.empty() ? modes_fall * half_changes_ : left_out_;
-  if (change_ > 0.0 && change > 0.0)
-    order_ = std::min(order_, std::max(least_order, trusted_part * std::log(change_ / change) / std::log(fall_)));
-  const double more = static_cast<double>(steps) / static_cast<double>(std::max(1L, steps_));
-  estimate_ = std::max(change * std::pow(fall, -order_), change_ * std::pow(fall * fall_, -order_));
-  estimate_ = std::max(estimate_, change * std::pow(more, -rates_.steps_order * order_));
-  // Instants of output or the longest step, not the tolerance, chose the steps: the same ones differ by nothing.
-  if (more < rates_.fewest_more) estimate_ = std::numeric_limits<double>::infinity();
-  change_ = change;
+double Search::compare(double fall, long steps) {
+  const double change = error_of(previous_.history, recorder_.history, quantity_);
+  tolerance_.observe(change, fall, static_cast<double>(steps) / static_cast<double>(std::max(1L, previous_.steps)));
+  const double missing = modes_.mixed          ? modes_fall * change
+                         : modes_.left.empty() ? modes_fall * modes_.upper_half
+                                               : modes_.left_out;
   // What files do not hold is no matter of the tolerance; a doubt will say so.
   room_ = missing > most_missing * accuracy_.error ? accuracy_.error : accuracy_.error - missing;
   return missing;
 }
 
 void Search::separate(double tolerance) {
-  mixed_ = false;
-  change_ = 0.0;
+  modes_.mixed = false;
+  tolerance_.forget();
   const double began = began_;
   Recorder whole(accuracy_.of, request_.scene.file);
   const RunEnd end = take(tolerance, {}, "", whole);
   began_ = began + now() - began_;
   if (end.report.outcome != RunOutcome::completed) {
-    half_ = {};
+    modes_.half = {};
     return;
   }
-  half_changes_ = error_of(half_, whole.history, quantity_);
-  previous_ = std::move(whole.history);
-  steps_ = end.report.steps;
+  modes_.upper_half = error_of(modes_.half, whole.history, quantity_);
+  previous_ = {std::move(whole.history), end.report.steps};
 }
 
 void Search::judge(RunReport& report, double before, double tolerance, bool last) {
   const double fall = before / tolerance;
-  double missing = estimate(fall, report.steps);
-  if (mixed_ && (estimate_ > room_ || missing > most_missing * accuracy_.error)) {
+  double missing = compare(fall, report.steps);
+  if (modes_.mixed && (!is_reached() || missing > most_missing * accuracy_.error)) {
     separate(before);
-    missing = estimate(fall, report.steps);
+    missing = compare(fall, report.steps);
   }
-  fall_ = fall;
-  steps_ = report.steps;
-  const double next = next_after(tolerance), needed = foretold(now() - began_, tolerance, next);
-  too_long_ = estimate_ > room_ && needed > std::max(longest_run, longest_of_first * first_took_);
+  previous_.steps = report.steps;
+  const double next = tolerance_.next(tolerance, room_), needed = tolerance_.foretold(now() - began_, tolerance, next);
+  too_long_ = !is_reached() && needed > std::max(longest_run, longest_of_first * first_took_);
   report.notes.push_back(
       fmt::format("accuracy: the error of '{}' is {} ({:g} asked for), with tolerance {:.3g}{}{}; "
                   "runs before, by tolerance: {}",
-                  accuracy_.of, told_of_error(estimate_ + missing), accuracy_.error, tolerance, told_of_method(),
-                  told_of_modes(), join(cost_, ", ")));
-  if (!last && !too_long_ && estimate_ > room_) return;
-  if (modes_.empty() && missing > most_missing * accuracy_.error)
+                  accuracy_.of, told_of_error(tolerance_.error() + missing), accuracy_.error, tolerance,
+                  told_of_method(), told_of_modes(), join(cost_, ", ")));
+  if (!last && !too_long_ && !is_reached()) return;
+  if (modes_.left.empty() && missing > most_missing * accuracy_.error)
     report.doubts.push_back(
         fmt::format("'{}' may miss modes that the superelement files do not hold: the upper half of "
                     "those that they hold changes it by {:.2g}; raise 'modes' in the part",
-                    accuracy_.of, half_changes_));
-  if (estimate_ <= room_) return;
+                    accuracy_.of, modes_.upper_half));
+  if (is_reached()) return;
   const char* const other = method_ == formats::Method::radau ? "" : ", or take method: radau";
   const std::string cost =
       !too_long_ ? "" : fmt::format(", and the next run would take some {:.0f} min", needed / 60.0);
   const std::string longer =
       !too_long_ ? "" : fmt::format(", or give error_control: {{tolerance: {:.2g}}} in place of accuracy", next);
   report.doubts.push_back(fmt::format("an error of {:g} of '{}' was not reached: it is {}{}; ask for less{}{}",
-                                      accuracy_.error, accuracy_.of, told_of_error(estimate_), cost, other, longer));
+                                      accuracy_.error, accuracy_.of, told_of_error(tolerance_.error()), cost, other,
+                                      longer));
 }
 
 std::string Search::told_of_error(double error) {
@@ -351,26 +394,12 @@ std::string Search::told_of_method() const {
   return method_ == formats::Method::radau ? " of radau" : " of generalised_alpha";
 }
 
-double Search::next_after(double tolerance) const {
-  const double aimed = std::isfinite(estimate_) ? tolerance * std::pow(aim * room_ / estimate_, 1.0 / order_)
-                                                : tolerance / rates_.second_part;
-  return std::max(least_tolerance, std::clamp(aimed, least_part * tolerance, most_part * tolerance));
-}
-
-double Search::foretold(double taken, double tolerance, double next) const {
-  return taken * std::pow(tolerance / next, rates_.work);
-}
-
 void Search::use(formats::Method method) {
   method_ = method;
-  rates_ = method == formats::Method::radau ? of_radau : shared;
+  Rates rates = method == formats::Method::radau ? of_radau : shared;
   if (method == formats::Method::radau && !is_place(accuracy_.of) && may_vibrate(request_.scene))
-    rates_.first = first_of_rates, rates_.second_part = second_of_rates;
-  order_ = rates_.order;
-}
-
-double Search::first_tolerance() const {
-  return std::clamp(rates_.first * accuracy_.error, rates_.second_part * least_tolerance, most_tolerance);
+    rates.first = first_of_rates, rates.second_part = second_of_rates;
+  tolerance_ = FallingTolerance(rates);
 }
 
 RunEnd Search::begin(const Modes& modes) {
@@ -379,7 +408,7 @@ RunEnd Search::begin(const Modes& modes) {
   most_steps_ = replaceable ? most_first_steps : 0;
   std::optional<RunEnd> end;
   try {
-    end = take(first_tolerance(), modes, "", recorder_);
+    end = take(tolerance_.first(accuracy_.error), modes, "", recorder_);
   } catch (const Error&) {
     if (!replaceable) throw;
   }
@@ -388,10 +417,11 @@ RunEnd Search::begin(const Modes& modes) {
                             (end->report.outcome == RunOutcome::interrupted && end->report.steps <= most_first_steps));
   if (replaceable && !fits) {
     use(formats::Method::generalised_alpha);
-    end = take(first_tolerance(), modes, "", recorder_);
+    end = take(tolerance_.first(accuracy_.error), modes, "", recorder_);
   }
   first_took_ = now() - began_;
-  if (end->report.outcome != RunOutcome::completed) end = take(first_tolerance(), {}, request_.path, recorder_);
+  if (end->report.outcome != RunOutcome::completed)
+    end = take(tolerance_.first(accuracy_.error), {}, request_.path, recorder_);
   return std::move(*end);
 }
 
@@ -399,22 +429,20 @@ RunEnd Search::run() {
   const Modes half = halved();
   RunEnd end = begin(half);
   if (end.report.outcome != RunOutcome::completed) return end;
-  double tolerance = first_tolerance();
-  previous_ = recorder_.history;
-  mixed_ = !half.empty();
-  if (mixed_) half_ = previous_;
-  steps_ = end.report.steps;
-  double next = tolerance / rates_.second_part;
+  double tolerance = tolerance_.first(accuracy_.error), next = tolerance_.second(tolerance);
+  previous_ = {recorder_.history, end.report.steps};
+  modes_.mixed = !half.empty();
+  if (modes_.mixed) modes_.half = previous_.history;
   for (int run = 2;; ++run) {
     const double before = std::exchange(tolerance, next);
     const bool last = run == most_runs || tolerance <= least_tolerance;
     recorder_.judge = [&](RunReport& report) { judge(report, before, tolerance, last); };
-    end = take(tolerance, modes_, request_.path, recorder_);
+    end = take(tolerance, modes_.left, request_.path, recorder_);
     recorder_.judge = nullptr;
-    if (end.report.outcome != RunOutcome::completed || last || too_long_ || estimate_ <= room_) return end;
-    previous_ = recorder_.history;
+    if (end.report.outcome != RunOutcome::completed || last || too_long_ || is_reached()) return end;
+    previous_.history = recorder_.history;
     if (run == 2) leave_out_modes(tolerance);
-    next = next_after(tolerance);
+    next = tolerance_.next(tolerance, room_);
   }
 }
 

@@ -55,9 +55,7 @@ std::string answer(const Campaign& campaign, const std::vector<StudyRow>& rows, 
     const StudyRow* best = nullptr;
     for (const StudyRow& row : rows) {
       if (!row.is_measured()) continue;
-      double worst = 0.0;
-      for (const int q : quantities) worst = std::max(worst, row.errors[q]);
-      if (worst < least) least = worst, best = &row;
+      if (const double worst = row.worst_error(quantities); worst < least) least = worst, best = &row;
     }
     throw Error(fmt::format("no setting keeps the error within {:g}, there and at all finer ones; the least error is "
                             "{:.2e}, of '{}'",
@@ -68,10 +66,8 @@ std::string answer(const Campaign& campaign, const std::vector<StudyRow>& rows, 
   const std::string scene = write_scene(study, *row.cell, tolerance);
   const std::string benchmark = fmt::format("{}/benchmark_{:g}.txt", campaign.folder, tolerance);
   write_text_file(benchmark, benchmark_text(study, row, histories_of(campaign, *row.cell)));
-  double error = 0.0;
-  for (const int q : quantities) error = std::max(error, row.errors[q]);
   return fmt::format("{:g}: {}, error {:.1e} in {:.3g} s [{:.3g}, {:.3g}]; scene {}\n", tolerance, row.cell->label,
-                     error, row.time.median, row.time.least, row.time.greatest, scene);
+                     row.worst_error(quantities), row.time.median, row.time.least, row.time.greatest, scene);
 }
 
 }  // namespace
@@ -121,7 +117,7 @@ void require_own_runs(const Journal& journal, const StudyCells& plan, const std:
 std::string conclude(const Campaign& campaign, const StudyCells& plan, const std::vector<double>& agreement,
                      const StudyRequest& request, const std::vector<int>& quantities) {
   const formats::Study& study = campaign.study;
-  const std::vector<StudyRow> rows = rows_of(plan, campaign.journal);
+  const std::vector<StudyRow> rows = rows_of(study, plan, campaign.journal);
   write_text_file(campaign.folder + "/table.csv", csv_text(study, rows));
   write_text_file(campaign.folder + "/table.json", json_text(study, rows, agreement));
   write_page(study, rows, agreement, campaign.folder);

@@ -13,12 +13,6 @@ namespace tisserand::mechanism {
 
 namespace {
 
-double worst_error(const StudyRow& row, const std::vector<int>& quantities) {
-  double worst = 0.0;
-  for (const int q : quantities) worst = std::max(worst, row.errors[q]);
-  return worst;
-}
-
 int axis_of_lines(const formats::Study& study, int series) {
   const std::vector<formats::StudyAxis>& axes = study.series[series].axes;
   const auto found = std::ranges::find(axes, study.along, &formats::StudyAxis::name);
@@ -27,7 +21,13 @@ int axis_of_lines(const formats::Study& study, int series) {
 
 }  // namespace
 
-std::vector<StudyRow> rows_of(const StudyCells& plan, const Journal& journal) {
+double StudyRow::worst_error(const std::vector<int>& quantities) const {
+  double worst = 0.0;
+  for (const int q : quantities) worst = std::max(worst, errors[q]);
+  return worst;
+}
+
+std::vector<StudyRow> rows_of(const formats::Study& study, const StudyCells& plan, const Journal& journal) {
   std::vector<StudyRow> rows;
   for (const Cell& cell : plan.cells) {
     StudyRow row;
@@ -51,6 +51,11 @@ std::vector<StudyRow> rows_of(const StudyCells& plan, const Journal& journal) {
     }
     rows.push_back(std::move(row));
   }
+  for (const StudyLine& line : lines_of(study, rows))
+    for (int q = 0; q < static_cast<int>(study.quantities.size()); ++q) {
+      const std::vector<std::optional<double>> orders = observed_orders(rows, line, q);
+      for (std::size_t k = 0; k < orders.size(); ++k) rows[line.rows[k]].orders.push_back(orders[k]);
+    }
   return rows;
 }
 
@@ -148,7 +153,7 @@ int cheapest(const std::vector<StudyRow>& rows, const std::vector<StudyLine>& li
     // From the finest on, as long as all that has been measured stays within.
     for (auto row = line.rows.rbegin(); row != line.rows.rend(); ++row) {
       if (!rows[*row].is_measured()) continue;
-      if (worst_error(rows[*row], quantities) > tolerance) break;
+      if (rows[*row].worst_error(quantities) > tolerance) break;
       if (best < 0 || rows[*row].time.median < rows[best].time.median) best = *row;
     }
   }

@@ -21,6 +21,10 @@ struct StudyRow {
   int coordinates = 0;
   long steps = 0, iterations = 0;
   std::vector<double> errors;  ///< of the quantities; empty unless completed
+  std::vector<std::optional<double>> orders;  ///< of the quantities: observed_orders() along its line
+
+  /// Of these quantities.
+  double worst_error(const std::vector<int>& quantities) const;
 
   bool is_measured() const { return has_run && !is_reference && outcome == CellOutcome::completed; }
 };
@@ -33,7 +37,7 @@ struct StudyLine {
   std::vector<int> rows;
 };
 
-std::vector<StudyRow> rows_of(const StudyCells& plan, const Journal& journal);
+std::vector<StudyRow> rows_of(const formats::Study& study, const StudyCells& plan, const Journal& journal);
 
 /// All lines along an axis of each series: `along`, or the last one.
 std::vector<StudyLine> lines_of(const formats::Study& study, const std::vector<StudyRow>& rows);

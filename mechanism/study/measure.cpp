@@ -6,7 +6,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
-#include "mechanism/histories/tables.hpp"
+#include "mechanism/histories/difference.hpp"
 
 namespace tisserand::mechanism {
 

@@ -36,23 +36,13 @@ svg{filter:invert(1) hue-rotate(180deg)}
 )html";
 
 std::string escaped(const std::string& text) {
+  static const std::map<char, const char*> entities{{'<', "&lt;"}, {'>', "&gt;"}, {'&', "&amp;"}, {'"', "&quot;"}};
   std::string result;
-  for (const char c : printable(text)) switch (c) {
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '&':
-        result += "&amp;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
+  for (const char c : printable(text))
+    if (const auto entity = entities.find(c); entity != entities.end())
+      result += entity->second;
+    else
+      result += c;
   return result;
 }
 
@@ -191,14 +181,13 @@ struct Book {
   }
 
   void along_axis(const std::string& axis, const std::vector<StudyLine>& lines) {
-    const bool has_numbers = std::ranges::all_of(lines, [&](const StudyLine& line) {
-      return std::ranges::all_of(line.rows,
-                                 [&](int i) { return number_of(rows[i].cell->values[line.axis]).has_value(); });
-    });
-    const bool is_positive = has_numbers && std::ranges::all_of(lines, [&](const StudyLine& line) {
-                               return std::ranges::all_of(
-                                   line.rows, [&](int i) { return *number_of(rows[i].cell->values[line.axis]) > 0.0; });
-                             });
+    bool has_numbers = true, is_positive = true;
+    for (const StudyLine& line : lines)
+      for (const int i : line.rows) {
+        const std::optional<double> number = number_of(rows[i].cell->values[line.axis]);
+        has_numbers = has_numbers && number;
+        is_positive = has_numbers && is_positive && *number > 0.0;
+      }
     const auto abscissa = [&](const StudyLine& line, std::size_t k) {
       return has_numbers ? *number_of(rows[line.rows[k]].cell->values[line.axis]) : static_cast<double>(k + 1);
     };
@@ -236,16 +225,12 @@ struct Book {
     for (const formats::StudyQuantity& quantity : study.quantities)
       html += fmt::format("<th>error of {}<th>order", escaped(quantity.name));
     html += "</tr>\n";
-    for (const StudyLine& line : lines_of(study, rows)) {
-      std::vector<std::vector<std::optional<double>>> orders;
-      for (std::size_t q = 0; q < study.quantities.size(); ++q)
-        orders.push_back(observed_orders(rows, line, static_cast<int>(q)));
-      for (std::size_t k = 0; k < line.rows.size(); ++k) table_row(rows[line.rows[k]], orders, k);
-    }
+    for (const StudyLine& line : lines_of(study, rows))
+      for (const int i : line.rows) table_row(rows[i]);
     html += "</table></div>\n";
   }
 
-  void table_row(const StudyRow& row, const std::vector<std::vector<std::optional<double>>>& orders, std::size_t k) {
+  void table_row(const StudyRow& row) {
     html += fmt::format("<tr><td>{}", escaped(row.cell->label));
     if (row.is_reference) {
       html += "<td>reference</tr>\n";
@@ -256,9 +241,9 @@ struct Book {
     } else {
       html += fmt::format("<td>{:.3g}<td>{:.3g}, {:.3g}<td>{}<td>{}<td>{}", row.time.median, row.time.least,
                           row.time.greatest, row.repeats, row.steps, row.iterations);
-      for (std::size_t q = 0; q < orders.size(); ++q)
+      for (std::size_t q = 0; q < row.orders.size(); ++q)
         html +=
-            fmt::format("<td>{:.2e}<td>{}", row.errors[q], orders[q][k] ? fmt::format("{:.2f}", *orders[q][k]) : "");
+            fmt::format("<td>{:.2e}<td>{}", row.errors[q], row.orders[q] ? fmt::format("{:.2f}", *row.orders[q]) : "");
       html += "</tr>\n";
     }
   }

@@ -15,17 +15,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string outcome_of(const StudyRow& row) {
-  if (!row.has_run) return row.is_reference ? "reference" : "not run";
-  if (row.is_reference) return "reference";
-  switch (row.outcome) {
-    case CellOutcome::completed:
-      return "completed";
-    case CellOutcome::failed:
-      return "failed";
-    case CellOutcome::over_budget:
-      return "over budget";
-  }
-  return "";
+  static constexpr const char* words[] = {"completed", "failed", "over budget"};
+  return row.is_reference ? "reference" : row.has_run ? words[static_cast<int>(row.outcome)] : "not run";
 }
 
 std::string quoted(const std::string& text) {
@@ -51,33 +42,17 @@ std::string value_of(const formats::Study& study, const StudyRow& row, const std
   return "";
 }
 
-/// Orders along the lines of each quantity, by row.
-std::vector<std::vector<std::optional<double>>> all_orders(const formats::Study& study,
-                                                           const std::vector<StudyRow>& rows) {
-  std::vector<std::vector<std::optional<double>>> orders(study.quantities.size());
-  for (std::size_t q = 0; q < orders.size(); ++q) {
-    orders[q].resize(rows.size());
-    for (const StudyLine& line : lines_of(study, rows)) {
-      const std::vector<std::optional<double>> of_line = observed_orders(rows, line, static_cast<int>(q));
-      for (std::size_t k = 0; k < of_line.size(); ++k) orders[q][line.rows[k]] = of_line[k];
-    }
-  }
-  return orders;
-}
-
 }  // namespace
 
 std::string csv_text(const formats::Study& study, const std::vector<StudyRow>& rows) {
   const std::vector<std::string> axes = axis_names(study);
-  const auto orders = all_orders(study, rows);
   std::string text = "series";
   for (const std::string& axis : axes) text += "," + quoted(axis);
   text += ",outcome,cpu [s],cpu least [s],cpu greatest [s],repeats,coordinates,steps,iterations";
   for (const formats::StudyQuantity& quantity : study.quantities)
     text += fmt::format(",error {},order {}", quantity.name, quantity.name);
   text += ",message\n";
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const StudyRow& row = rows[i];
+  for (const StudyRow& row : rows) {
     text += study.series[row.cell->series].name;
     for (const std::string& axis : axes) text += "," + quoted(value_of(study, row, axis));
     text += "," + outcome_of(row);
@@ -86,7 +61,7 @@ std::string csv_text(const formats::Study& study, const std::vector<StudyRow>& r
                         : ",,,,,,,";
     for (std::size_t q = 0; q < study.quantities.size(); ++q) {
       text += row.is_measured() ? fmt::format(",{:.4e},", row.errors[q]) : ",,";
-      if (orders[q][i]) text += fmt::format("{:.2f}", *orders[q][i]);
+      if (row.orders[q]) text += fmt::format("{:.2f}", *row.orders[q]);
     }
     text += "," + quoted(printable_line(row.message, 500)) + "\n";
   }
@@ -95,12 +70,10 @@ std::string csv_text(const formats::Study& study, const std::vector<StudyRow>& r
 
 std::string json_text(const formats::Study& study, const std::vector<StudyRow>& rows,
                       const std::vector<double>& agreement) {
-  const auto orders = all_orders(study, rows);
   Json json{{"study", study.name}, {"tisserand", TISSERAND_VERSION}};
   for (std::size_t q = 0; q < agreement.size(); ++q) json["agreement"][study.quantities[q].name] = agreement[q];
   json["rows"] = Json::array();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const StudyRow& row = rows[i];
+  for (const StudyRow& row : rows) {
     const formats::StudySeries& series = study.series[row.cell->series];
     Json one{{"series", series.name}, {"outcome", outcome_of(row)}};
     for (std::size_t k = 0; k < series.axes.size(); ++k) one["at"][series.axes[k].name] = row.cell->values[k];
@@ -117,7 +90,7 @@ std::string json_text(const formats::Study& study, const std::vector<StudyRow>& 
       one["iterations"] = row.iterations;
       for (std::size_t q = 0; q < study.quantities.size(); ++q) {
         one["errors"][study.quantities[q].name] = row.errors[q];
-        if (orders[q][i]) one["orders"][study.quantities[q].name] = *orders[q][i];
+        if (row.orders[q]) one["orders"][study.quantities[q].name] = *row.orders[q];
       }
     }
     json["rows"].push_back(std::move(one));

@@ -27,7 +27,7 @@ const std::map<std::string, std::string> settings_of_things{
 
 /// "-30,20" -> azimuth and elevation [rad]; a name stays one.
 Json view_of(const std::string& text) {
-  if (std::ranges::find(picture_views(), text) != picture_views().end()) return text;
+  if (std::ranges::find(picture_views, text) != picture_views.end()) return text;
   double azimuth = 0.0, elevation = 0.0;
   const char *end = text.data() + text.size(), *comma = std::find(text.data(), end, ',');
   const auto first = std::from_chars(text.data(), comma, azimuth);
@@ -36,7 +36,7 @@ Json view_of(const std::string& text) {
       !(std::abs(elevation) <= 90.0) || !(std::abs(azimuth) <= 360.0))
     throw Error(
         fmt::format("'{}' is no view", printable_line(text, 60)), "picture",
-        fmt::format("give {}, or azimuth,elevation of the camera in degrees, as -50,25", join(picture_views(), ", ")));
+        fmt::format("give {}, or azimuth,elevation of the camera in degrees, as -50,25", join(picture_views, ", ")));
   return {azimuth * radian, elevation * radian};
 }
 
@@ -129,21 +129,6 @@ class PageFile {
 };
 
 }  // namespace
-
-const std::vector<std::string>& picture_views() {
-  static const std::vector<std::string> views{"iso", "front", "back", "left", "right", "top", "bottom"};
-  return views;
-}
-
-const std::vector<std::string>& picture_colourings() {
-  static const std::vector<std::string> colourings{"body", "displacement", "deformation", "stress"};
-  return colourings;
-}
-
-const std::vector<std::string>& picture_stress_units() {
-  static const std::vector<std::string> units{"Pa", "kPa", "MPa", "GPa"};
-  return units;
-}
 
 const std::vector<std::string>& picture_things() {
   static const std::vector<std::string> things = [] {

@@ -13,6 +13,10 @@ namespace tisserand::mechanism {
 
 enum class Captions { written, none };
 
+inline const std::vector<std::string> picture_views{"iso", "front", "back", "left", "right", "top", "bottom"};
+inline const std::vector<std::string> picture_colourings{"body", "displacement", "deformation", "stress"};
+inline const std::vector<std::string> picture_stress_units{"Pa", "kPa", "MPa", "GPa"};
+
 struct PictureRequest {
   ViewRequest page;                    ///< runs and shapes; its own output is not written
   std::string output;                  ///< .png
@@ -20,21 +24,18 @@ struct PictureRequest {
   int mode = 0;                        ///< from 1: this mode in place of times; 0: none
   std::vector<double> phases_deg;      ///< of the mode, states from left to right; empty: 0
   std::array<int, 2> size{1200, 700};  ///< pixels, width and height
-  std::string view = "iso";            ///< a name of picture_views(), or "azimuth,elevation" of the camera in degrees
+  std::string view = "iso";            ///< a name of picture_views, or "azimuth,elevation" of the camera in degrees
   double zoom = 1.0;                   ///< 1: what is shown fills the picture
   std::optional<double> exaggeration;  ///< of deformations; none: 1, or a round factor where motion is invisible
   std::optional<std::string> follow;   ///< body that the camera follows, "none"; none: one, where all leave their place
-  std::string stress_unit;             ///< one of picture_stress_units(); empty: of the scene, MPa where lengths are mm
-  std::string colouring = "body";      ///< one of picture_colourings()
+  std::string stress_unit;             ///< one of picture_stress_units; empty: of the scene, MPa where lengths are mm
+  std::string colouring = "body";      ///< one of picture_colourings
   std::vector<std::string> traces;     ///< nodes whose paths are drawn
   std::vector<std::string> shown, hidden;  ///< of picture_things()
   Captions captions = Captions::written;
   Sandbox sandbox = Sandbox::on;
 };
 
-const std::vector<std::string>& picture_views();
-const std::vector<std::string>& picture_colourings();
-const std::vector<std::string>& picture_stress_units();
 /// What can be shown or hidden: edges, grid, axes, ...
 const std::vector<std::string>& picture_things();
 

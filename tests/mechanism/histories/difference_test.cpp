@@ -38,22 +38,22 @@ double raised(double t) { return std::sin(20.0 * t) + 0.25; }
 TEST(Difference, IsTakenAtTheInstantsOfTheCoarserHistory) {
   const Series coarse = sampled(SeriesKind::run, 0.0, 1.0, 19, raised);
   const Series fine = sampled(SeriesKind::reference, 0.0, 1.0, 311, wave);
-  const Difference d = difference(coarse, fine, {});
-  EXPECT_EQ(d.curve.x.size(), 20u);
+  const Series d = difference(coarse, fine, {});
+  EXPECT_EQ(d.x.size(), 20u);
   EXPECT_NEAR(d.norms.largest, 0.25, 1e-6);
   EXPECT_NEAR(d.norms.rms, 0.25, 1e-6);
-  for (const double y : d.curve.y) EXPECT_NEAR(y, 0.25, 1e-6);
-  const Difference other = difference(sampled(SeriesKind::run, 0.0, 1.0, 311, raised),
+  for (const double y : d.y) EXPECT_NEAR(y, 0.25, 1e-6);
+  const Series other = difference(sampled(SeriesKind::run, 0.0, 1.0, 311, raised),
                                       sampled(SeriesKind::reference, 0.0, 1.0, 19, wave), {});
-  EXPECT_EQ(other.curve.x.size(), 20u);
+  EXPECT_EQ(other.x.size(), 20u);
   EXPECT_NEAR(other.norms.largest, 0.25, 1e-6);
 }
 
 TEST(Difference, CoversTheCommonTime) {
-  const Difference d = difference(sampled(SeriesKind::run, 0.0, 2.0, 200, raised),
+  const Series d = difference(sampled(SeriesKind::run, 0.0, 2.0, 200, raised),
                                   sampled(SeriesKind::reference, 1.0, 3.0, 150, wave), {});
-  EXPECT_NEAR(d.curve.x.front(), 1.0, 0.02);
-  EXPECT_NEAR(d.curve.x.back(), 2.0, 0.02);
+  EXPECT_NEAR(d.x.front(), 1.0, 0.02);
+  EXPECT_NEAR(d.x.back(), 2.0, 0.02);
 }
 
 TEST(Difference, TakesRepeatedInstantsOnceAndLeavesGapsOut) {
@@ -61,8 +61,8 @@ TEST(Difference, TakesRepeatedInstantsOnceAndLeavesGapsOut) {
   run.x.insert(run.x.begin() + 50, run.x[50]);  // the instant of a switch is stored twice
   run.y.insert(run.y.begin() + 50, run.y[50]);
   run.y[20] = std::numeric_limits<double>::quiet_NaN();
-  const Difference d = difference(run, sampled(SeriesKind::reference, 0.0, 1.0, 200, wave), {});
-  EXPECT_EQ(d.curve.x.size(), 100u);
+  const Series d = difference(run, sampled(SeriesKind::reference, 0.0, 1.0, 200, wave), {});
+  EXPECT_EQ(d.x.size(), 100u);
   EXPECT_NEAR(d.norms.largest, 0.25, 1e-5);
 }
 

@@ -159,10 +159,10 @@ TEST_F(ResultsFile, FaultsNameWhatIsMissing) {
 TEST_F(ResultsFile, IsComparedWithItsOwnExport) {
   const std::string a = write_results("first.results.h5"), csv = (folder_ / "first.csv").string();
   export_table(a, {"energy/total"}, csv);
-  const std::vector<Deviation> same = compare({{a}, {}, {"energy/total"}, {{csv, "time", "energy/total", ""}}}, {});
+  const std::vector<Series> same = compare({{a}, {}, {"energy/total"}, {{csv, "time", "energy/total", ""}}}, {});
   ASSERT_EQ(same.size(), 1u);
-  EXPECT_EQ(same[0].instants, 20u);
-  EXPECT_EQ(same[0].largest, 0.0);
+  EXPECT_EQ(same[0].norms.instants, 20u);
+  EXPECT_EQ(same[0].norms.largest, 0.0);
   EXPECT_THAT(error_of([&] {
                 (void)compare({{a}, {}, {"energy/total"}, {}}, {});
               }),
@@ -178,9 +178,9 @@ TEST_F(ResultsFile, AreComparedChannelByChannel) {
   EXPECT_EQ(series[5].kind, SeriesKind::reference);
   EXPECT_EQ(series[5].channel, series[1].channel);
   EXPECT_EQ(series[5].source, "second");
-  const std::vector<Deviation> same = compare(request, {});
+  const std::vector<Series> same = compare(request, {});
   ASSERT_EQ(same.size(), 4u);
-  for (const Deviation& one : same) EXPECT_EQ(one.largest, 0.0);
+  for (const Series& one : same) EXPECT_EQ(one.norms.largest, 0.0);
 }
 
 TEST_F(ResultsFile, ModesAreListedAndReadOverTheirNumbers) {
@@ -262,7 +262,11 @@ TEST(Deviation, LooksOnlyAtTheWindowAndTheCommonTime) {
 }
 
 TEST(Deviation, TableHasOneLinePerRun) {
-  const Deviation d{"floating_b", "energy/total", "J", 0.0, 1.0, 11, 0.5, 0.25, 0.5};
+  Series d;
+  d.source = "floating_b";
+  d.channel = "energy/total";
+  d.unit = "J";
+  d.norms = {0.5, 0.25, 0.5, 0.0, 1.0, 11};
   const std::string table = deviations_table({d});
   EXPECT_THAT(table, HasSubstr("floating_b  energy/total"));
   EXPECT_THAT(table, HasSubstr("5.000e-01"));

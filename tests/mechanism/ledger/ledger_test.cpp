@@ -38,10 +38,10 @@ RunControl counted() {
 Ledger ledger_of(const formats::Scene& scene, const BodyFiles& files, const WindowChoice& windows,
                  const ToggleChoice& choice = {}, const std::vector<std::string>& channels = {}) {
   LedgerRequest request{scene};
-  request.windows = windows;
-  request.repeats = 1;
-  request.choice = choice;
-  request.channels = channels;
+  request.settings.windows = windows;
+  request.settings.repeats = 1;
+  request.settings.choice = choice;
+  request.settings.channels = channels;
   return make_ledger(request, files, counted());
 }
 
@@ -308,8 +308,8 @@ TEST(Ledger, DoubtsResultsOfAnotherScene) {
   simulate(formats::read_scene(file, {}), results, {});
   const auto doubt_of = [&](const std::vector<formats::Override>& overrides) {
     LedgerRequest request{formats::read_scene(file, overrides)};
-    request.results = results;
-    request.repeats = 1;
+    request.settings.results = results;
+    request.settings.repeats = 1;
     return make_ledger(request, {}, counted()).doubt;
   };
   EXPECT_EQ(doubt_of({}), "");
