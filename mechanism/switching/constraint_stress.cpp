@@ -7,7 +7,7 @@
 #include <Eigen/SparseCore>
 
 #include "common/math/rotation.hpp"
-#include "mechanism/equations/carriers.hpp"
+#include "mechanism/equations/constraint_rows.hpp"
 #include "mechanism/model/connected_bodies.hpp"
 #include "mechanism/solver/matrix_rank.hpp"
 #include "mechanism/switching/deformation.hpp"
@@ -31,21 +31,10 @@ constexpr double deforming = 1e-4;
 /// Bᵀ, boundary coordinates x constraint rows, rows of angles times the characteristic length.
 Matrix transposed_jacobian(const Model& model, const Evaluation& now) {
   Entries entries;
-  const auto add = [&](const ElementMap& map, int row, const Row12& values) {
-    const Eigen::MatrixXd columns = model_rows(model, map, local_view(values), now);
+  for_each_row(model, now, [&](int row, const ElementMap& map, const auto&, const Row12& values) {
     const double scale = model.length_row[row] ? 1.0 : model.length;
-    for (std::size_t j = 0; j < map.coordinates.size(); ++j)
-      if (map.coordinates[j] >= 0)
-        entries.emplace_back(map.coordinates[j], row, scale * columns(0, static_cast<Eigen::Index>(j)));
-  };
-  for (std::size_t i = 0; i < model.joints.size(); ++i)
-    for (int k = 0; k < model.joints[i].size(); ++k)
-      add(model.joints.maps[i], model.joints[i].row + k, now.joints[i].B.row(k));
-  for (const Coupling& coupling : model.couplings)
-    for (const CouplingTerm& term : coupling.terms) {
-      const auto at = static_cast<std::size_t>(term.coordinate);
-      add(model.coordinates.maps[at], coupling.row, term.factor * now.coordinates[at].G);
-    }
+    for_each_entry(model, map, values, now, [&](int j, double value) { entries.emplace_back(j, row, scale * value); });
+  });
   Matrix B(model.sizes.boundary, model.sizes.constraints);
   B.setFromTriplets(entries.begin(), entries.end());
   return B;
