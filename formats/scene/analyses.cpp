@@ -56,14 +56,11 @@ Analysis read_analysis(const Context& context, const YamlNode& scene, const Yaml
                        const std::vector<Analysis>& before) {
   const YamlNode node = with_groups_of(scene, own);
   const MapReader map(context, node, "analysis");
-  Analysis analysis;
-  analysis.name = own.key;
-  analysis.where = context.entry;
-  read_fields(map, analysis);
+  auto analysis = read_entry<Analysis>(map);
   const Analysis* from = read_from(map, before, analysis);
   std::optional<double> start;
   if (from != nullptr) start = end_time(*from);
-  read_groups(map, context, start, analysis);
+  read_groups(map, start, analysis);
   // A steady rotation goes on in what starts from it.
   if (from != nullptr && from->statics.rotation && from->kind == AnalysisKind::statics && !analysis.modes.rotation)
     analysis.modes.rotation = from->statics.rotation->angular_velocity;
@@ -110,8 +107,8 @@ std::vector<KeySet> analysis_key_sets() {
         {"from", "text",
          "an analysis above: its end gives positions and velocities in place of the poses of the bodies", "none"},
         {"integrator", "integrator", "as below; single values in place of those of the scene", "those of the scene"},
-        {"statics", "statics", ditto},
-        {"modes", "modes", ditto},
+        nested<&Analysis::statics>("statics", "statics", ditto),
+        nested<&Analysis::modes>("modes", "modes", ditto),
         {"output", "output", ditto},
         {"checkpoint", "checkpoint", ditto}}}};
 }
@@ -120,8 +117,8 @@ void read_analyses(const MapReader& map, Scene& scene) {
   const YamlNode* several = map.find("analyses");
   if (several == nullptr) {
     Analysis only;
-    only.kind = map.choice("analysis", analysis_kinds, AnalysisKind::dynamics);
-    read_groups(map, Context{map.context().reader, "", scene.file}, std::nullopt, only);
+    read_fields(map, only);
+    read_groups(map, std::nullopt, only);
     scene = scene_of(scene, only);
     return;
   }

@@ -18,17 +18,6 @@ constexpr Choice<InertiaOption> inertia_options[] = {
 constexpr Choice<StiffeningOption> stiffening_options[] = {
     {"off", StiffeningOption::off}, {"stress", StiffeningOption::stress}, {"full", StiffeningOption::full}};
 
-std::string resolve(const std::string& folder, const std::string& file) {
-  return file.empty() ? file : (std::filesystem::path(folder) / file).lexically_normal().string();
-}
-
-InitialMotion read_start(const MapReader& map) {
-  InitialMotion start;
-  if (const YamlNode* pose = map.find("pose")) start.pose = read_pose(map.context(), *pose, "pose.");
-  read_fields(map, start);
-  return start;
-}
-
 /// `karcher`, `paper`, {node: name}, or the text "node: name".
 void read_frame(const Context& context, const YamlNode& node, SuperelementBodySpec& body) {
   const std::string prefix = "node:";
@@ -60,19 +49,6 @@ Eigen::Vector3d read_mirror(const MapReader& map) {
   return axes;
 }
 
-std::vector<NodeWeight> read_weights(const MapReader& map, std::string_view key) {
-  std::vector<NodeWeight> weights;
-  for (const YamlNode* node : map.entries(key, "node"))
-    weights.push_back({node->key, read_number(map.context(), *node, fmt::format("weight of '{}'", node->key))});
-  return weights;
-}
-
-Damping read_damping(const MapReader& map) {
-  Damping damping;
-  read_fields(map, damping);
-  return damping;
-}
-
 /// Keys of a flexible superelement, which would be ignored where the body is rigid.
 void refuse_flexible_keys(const MapReader& map) {
   for (const char* key :
@@ -97,69 +73,6 @@ void check_second_order(const MapReader& map) {
                          "give second_order, or inertia and stiffening");
 }
 
-/// `modes` or `cutoff`, not both.
-template <class Body>
-void check_mode_choice(const MapReader& map, const Body& body) {
-  if (body.modes && body.cutoff)
-    map.context().fail(map.find("cutoff")->key_place, "both 'modes' and 'cutoff' are given", "give one of them");
-}
-
-SuperelementBodySpec read_superelement(const Context& context, const YamlNode& node,
-                                       const SceneDefinitions& definitions) {
-  const MapReader map(context, node, "body_superelement");
-  SuperelementBodySpec body;
-  body.name = node.key;
-  body.where = context.entry;
-  read_fields(map, body);
-  body.file = resolve(definitions.folder, body.file);
-  body.mirror = read_mirror(map);
-  body.start = read_start(map);
-  body.shapes = read_shapes(map, definitions);
-  if (body.rigid) refuse_flexible_keys(map);
-  check_mode_choice(map, body);
-  check_second_order(map);
-  if (const YamlNode* frame = map.find("frame")) read_frame(context, *frame, body);
-  if (const YamlNode* weights = map.find("weights")) {
-    const MapReader inner(inside(context, "weights"), *weights, "weights", "weights.");
-    body.position_weights = read_weights(inner, "positions");
-    body.rotation_weights = read_weights(inner, "rotations");
-  }
-  if (const YamlNode* damping = map.find("damping"))
-    body.damping = read_damping(MapReader(inside(context, "damping"), *damping, "damping", "damping."));
-  return body;
-}
-
-ModalBodySpec read_modal(const Context& context, const YamlNode& node, const SceneDefinitions& definitions) {
-  const MapReader map(context, node, "body_modal");
-  ModalBodySpec body;
-  body.name = node.key;
-  body.where = context.entry;
-  read_fields(map, body);
-  body.file = resolve(definitions.folder, body.file);
-  body.mirror = read_mirror(map);
-  body.start = read_start(map);
-  body.shapes = read_shapes(map, definitions);
-  check_mode_choice(map, body);
-  if (const YamlNode* damping = map.find("damping"))
-    body.damping = read_damping(MapReader(inside(context, "damping"), *damping, "damping", "damping."));
-  return body;
-}
-
-SuperelementBodySpec read_rigid_from(const Context& context, const YamlNode& node,
-                                     const SceneDefinitions& definitions) {
-  const MapReader map(context, node, "body_rigid_from");
-  SuperelementBodySpec body;
-  body.name = node.key;
-  body.where = context.entry;
-  read_fields(map, body);
-  body.file = resolve(definitions.folder, body.file);
-  body.mirror = read_mirror(map);
-  body.start = read_start(map);
-  body.shapes = read_shapes(map, definitions);
-  body.rigid = true;
-  return body;
-}
-
 std::vector<RigidNodeSpec> read_nodes(const MapReader& map) {
   const Context& context = map.context();
   std::vector<RigidNodeSpec> nodes;
@@ -170,27 +83,28 @@ std::vector<RigidNodeSpec> read_nodes(const MapReader& map) {
   return nodes;
 }
 
-RigidBodySpec read_rigid(const Context& context, const YamlNode& node, const SceneDefinitions& definitions) {
-  const MapReader map(context, node, "body_rigid");
-  RigidBodySpec body;
-  body.name = node.key;
-  body.where = context.entry;
-  body.start = read_start(map);
-  read_fields(map, body);
-  if (const YamlNode* inertia = map.require("inertia")) body.inertia = read_inertia(context, *inertia, "inertia");
-  body.nodes = read_nodes(map);
-  body.shapes = read_shapes(map, definitions);
+/// What bodies have in common, as far as this kind has it; `body`: where absent keys leave it.
+template <class Body>
+Body read_body(const MapReader& map, const SceneDefinitions& definitions, Body body = {}) {
+  body = read_entry<Body>(map, std::move(body));
+  read_fields(map, body.start);
+  if constexpr (requires { body.mirror; }) {
+    if (!body.file.empty()) body.file = (map.context().reader.folder() / body.file).lexically_normal().string();
+    body.mirror = read_mirror(map);
+    if (body.modes && body.cutoff)
+      map.context().fail(map.find("cutoff")->key_place, "both 'modes' and 'cutoff' are given", "give one of them");
+  }
+  if constexpr (requires { body.nodes; }) body.nodes = read_nodes(map);
+  if constexpr (requires { body.shapes; }) body.shapes = read_shapes(map, definitions);
   return body;
 }
 
-VirtualBodySpec read_virtual(const Context& context, const YamlNode& node, const SceneDefinitions& definitions) {
-  const MapReader map(context, node, "body_virtual");
-  VirtualBodySpec body;
-  body.name = node.key;
-  body.where = context.entry;
-  body.start = read_start(map);
-  body.nodes = read_nodes(map);
-  body.shapes = read_shapes(map, definitions);
+SuperelementBodySpec read_superelement(const MapReader& map, const SceneDefinitions& definitions) {
+  auto body = read_body<SuperelementBodySpec>(map, definitions);
+  if (body.rigid) refuse_flexible_keys(map);
+  check_second_order(map);
+  if (const YamlNode* frame = map.find("frame")) read_frame(map.context(), *frame, body);
+  if (const YamlNode* weights = map.find("weights")) read_fields(map.inside(*weights, "weights"), body);
   return body;
 }
 
@@ -233,16 +147,10 @@ void read_properties(const MapReader& map, const SceneDefinitions& definitions, 
   }
 }
 
-BeamBodySpec read_beam(const Context& context, const YamlNode& node, const SceneDefinitions& definitions) {
-  const MapReader map(context, node, "body_beam");
-  const Eigen::Vector3d absent = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  BeamBodySpec body;
-  body.name = node.key;
-  body.where = context.entry;
-  body.start = read_start(map);
-  body.from = body.to = absent;
-  body.elements = 0;
-  read_fields(map, body);
+BeamBodySpec read_beam(const MapReader& map, const SceneDefinitions& definitions) {
+  BeamBodySpec none;
+  none.elements = 0;
+  auto body = read_body<BeamBodySpec>(map, definitions, none);
   read_properties(map, definitions, body);
   return body;
 }
@@ -259,8 +167,9 @@ SuperelementBodySpec unreadable_body(const Context& context, const YamlNode& nod
 /// How a body starts, as fields of all kinds; `gravity` is a member of those with mass.
 std::vector<Field> start_fields(std::vector<Field> gravity) {
   std::vector<Field> fields{
-      {"pose", "pose", "`{position: [x, y, z], orientation: ..}` of the part frame in the world",
-       "at the origin, unrotated"},
+      plain<&InitialMotion::pose>("pose", "pose",
+                                  "`{position: [x, y, z], orientation: ..}` of the part frame in the world",
+                                  "at the origin, unrotated"),
       plain<&InitialMotion::velocity>("velocity", "vector", "of the origin of the part frame, world axes [length/time]",
                                       "free: see [initial](#initial)"),
       plain<&InitialMotion::angular_velocity>("angular_velocity", "vector", "world axes [rad/time]", "free")};
@@ -323,29 +232,30 @@ KeySet superelement_fields() {
         "`{positions: {base: 0.5, tip: 0.5}, rotations: {..}}` of the nodes in the mean; the sum of each is 1; an "
         "error beside `frame: {node: ..}`",
         "from the centre of mass"},
-       {"damping", "damping",
-        "`{mass: a, stiffness: b, ratio: z, ratios: [z1, z2]}`: Rayleigh a M + b S [1/time, time], ratio of "
-        "critical damping of every elastic mode of the free body, of the lowest ones; `ratio_internal`, "
-        "`ratios_internal`: of the internal modes, whose boundary is held (see below). All add up",
-        "0"},
+       nested<&SuperelementBodySpec::damping>(
+           "damping", "damping",
+           "`{mass: a, stiffness: b, ratio: z, ratios: [z1, z2]}`: Rayleigh a M + b S [1/time, time], ratio of "
+           "critical damping of every elastic mode of the free body, of the lowest ones; `ratio_internal`, "
+           "`ratios_internal`: of the internal modes, whose boundary is held (see below). All add up",
+           "0"),
        shape_field()},
       start_fields<SuperelementBodySpec>()};
 }
 
 KeySet modal_fields() {
-  return {
-      "body_modal",
-      {{"type", "'modal'", "", "required"},
-       plain<&ModalBodySpec::file>("file", "text", "modal body file, relative to the scene file", "required"),
-       {"mirror", "mirror", "as of superelements", "no"},
-       plain<&ModalBodySpec::modes>("modes", "number_of", "use only the lowest modes, 0 or more", "all"),
-       plain<&ModalBodySpec::cutoff>("cutoff", "positive", "instead: modes below this frequency [1/time of the scene]",
-                                     "all"),
-       {"damping", "damping",
-        "`{mass, stiffness, ratio, ratios}` of the modes of the file, added to its ratios: rigid motion is not damped",
-        "0"},
-       shape_field()},
-      start_fields<ModalBodySpec>()};
+  return {"body_modal",
+          {{"type", "'modal'", "", "required"},
+           plain<&ModalBodySpec::file>("file", "text", "modal body file, relative to the scene file", "required"),
+           {"mirror", "mirror", "as of superelements", "no"},
+           plain<&ModalBodySpec::modes>("modes", "number_of", "use only the lowest modes, 0 or more", "all"),
+           plain<&ModalBodySpec::cutoff>("cutoff", "positive",
+                                         "instead: modes below this frequency [1/time of the scene]", "all"),
+           nested<&ModalBodySpec::damping>("damping", "damping",
+                                           "`{mass, stiffness, ratio, ratios}` of the modes of the file, added to its "
+                                           "ratios: rigid motion is not damped",
+                                           "0"),
+           shape_field()},
+          start_fields<ModalBodySpec>()};
 }
 
 KeySet beam_fields() {
@@ -380,8 +290,9 @@ std::vector<KeySet> body_key_sets() {
        {{"type", "'rigid'", "", "required"},
         plain<&RigidBodySpec::mass>("mass", "positive", "positive [mass]", "required"),
         plain<&RigidBodySpec::center_of_mass>("center_of_mass", "vector", "in the part frame [length]"),
-        {"inertia", "inertia_tensor",
-         "about the centre of mass, part axes [mass length²]; forms and limits as in PART.md", "required"},
+        plain<&RigidBodySpec::inertia>(
+            "inertia", "inertia_tensor",
+            "about the centre of mass, part axes [mass length²]; forms and limits as in PART.md", "required"),
         nodes,
         shape_field()},
        start_fields<RigidBodySpec>()},
@@ -392,9 +303,12 @@ std::vector<KeySet> body_key_sets() {
         {"shape", "shape_of_body | [shape_of_body]", ""}},
        start_fields<SuperelementBodySpec>()},
       {"body_virtual", {{"type", "'virtual'", "", "required"}, nodes, shape_field()}, start_fields({})},
-      {"pose", {plain<&Pose::position>("position", "vector", ""), {"orientation", "rotation", ""}}},
+      {"pose",
+       {plain<&Pose::position>("position", "vector", ""), plain<&Pose::orientation>("orientation", "rotation", "")}},
       {"frame", {{"node", "text", "", "required"}}},
-      {"weights", {{"positions", "{text: number}+", ""}, {"rotations", "{text: number}+", ""}}},
+      {"weights",
+       {plain<&SuperelementBodySpec::position_weights>("positions", "{text: number}+", ""),
+        plain<&SuperelementBodySpec::rotation_weights>("rotations", "{text: number}+", "")}},
       {"damping",
        {plain<&Damping::mass>("mass", "not_negative", ""), plain<&Damping::stiffness>("stiffness", "not_negative", ""),
         plain<&Damping::ratio>("ratio", "not_negative", ""), plain<&Damping::ratios>("ratios", "[not_negative]", ""),
@@ -406,9 +320,17 @@ Pose read_pose(const Context& context, const YamlNode& node, const std::string& 
   const MapReader map(context, node, "pose", prefix);
   Pose pose;
   read_fields(map, pose);
-  if (const YamlNode* orientation = map.find("orientation"))
-    pose.orientation = read_orientation(context, *orientation, "orientation");
   return pose;
+}
+
+void read_value(const MapReader& map, const Field& field, Pose& value) {
+  if (const YamlNode* node = find_or_require(map, field))
+    value = read_pose(map.context(), *node, fmt::format("{}.", field.key));
+}
+
+void read_value(const MapReader& map, const Field& field, std::vector<NodeWeight>& value) {
+  for (const YamlNode* node : map.entries(field.key, "node"))
+    value.push_back({node->key, read_number(map.context(), *node, fmt::format("weight of '{}'", node->key))});
 }
 
 std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& definitions) {
@@ -426,23 +348,25 @@ std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& 
     }
     switch (read_word(context, *type, "type", {"superelement", "rigid", "beam", "virtual", "modal"}).value_or(5)) {
       case 0:
-        bodies.emplace_back(read_superelement(context, *node, definitions));
+        bodies.emplace_back(read_superelement(MapReader(context, *node, "body_superelement"), definitions));
         break;
       case 1:
         if (find_child(*node, "from") != nullptr) {
-          bodies.emplace_back(read_rigid_from(context, *node, definitions));
+          auto body = read_body<SuperelementBodySpec>(MapReader(context, *node, "body_rigid_from"), definitions);
+          body.rigid = true;
+          bodies.emplace_back(std::move(body));
         } else {
-          bodies.emplace_back(read_rigid(context, *node, definitions));
+          bodies.emplace_back(read_body<RigidBodySpec>(MapReader(context, *node, "body_rigid"), definitions));
         }
         break;
       case 2:
-        bodies.emplace_back(read_beam(context, *node, definitions));
+        bodies.emplace_back(read_beam(MapReader(context, *node, "body_beam"), definitions));
         break;
       case 3:
-        bodies.emplace_back(read_virtual(context, *node, definitions));
+        bodies.emplace_back(read_body<VirtualBodySpec>(MapReader(context, *node, "body_virtual"), definitions));
         break;
       case 4:
-        bodies.emplace_back(read_modal(context, *node, definitions));
+        bodies.emplace_back(read_body<ModalBodySpec>(MapReader(context, *node, "body_modal"), definitions));
         break;
       default:
         bodies.emplace_back(unreadable_body(context, *node));

@@ -1,6 +1,5 @@
 // `channels` and `inputs` of scene.yaml: reading and findings.
 #include <algorithm>
-#include <filesystem>
 
 #include "formats/scene/check_parts.hpp"
 #include "formats/scene/expand/expression.hpp"
@@ -48,12 +47,7 @@ Eigen::Vector3d read_axis(const Context& context, const YamlNode& node) {
   return Eigen::Vector3d::UnitX();
 }
 
-ChannelSpec read_channel(const Context& context, const YamlNode& node) {
-  const MapReader map(context, node, "channel");
-  ChannelSpec channel;
-  channel.name = node.key;
-  channel.where = context.entry;
-  read_fields(map, channel);
+void read_channel(const MapReader& map, ChannelSpec& channel) {
   if (channel.kind == ChannelKind::distance) {
     channel.a = read_marker(map, "a");
     channel.b = read_marker(map, "b");
@@ -72,32 +66,25 @@ ChannelSpec read_channel(const Context& context, const YamlNode& node) {
     refuse(map, "b", "distance");
   }
   if (is_point(channel.kind)) {
-    if (const YamlNode* axis = map.require("axis")) channel.axis = read_axis(context, *axis);
+    if (const YamlNode* axis = map.require("axis")) channel.axis = read_axis(map.context(), *axis);
   } else {
     refuse(map, "axis", "position and velocity");
   }
   if (channel.kind != ChannelKind::position) refuse(map, "origin", "position");
   if (channel.kind != ChannelKind::tyre) refuse(map, "tyre", "tyre");
-  return channel;
 }
 
-InputSpec read_input(const Context& context, const YamlNode& node, const SceneDefinitions& definitions) {
-  const MapReader map(context, node, "input");
-  InputSpec input;
-  input.name = node.key;
-  input.where = context.entry;
-  read_fields(map, input);
+void read_input(const MapReader& map, InputSpec& input) {
+  const Context& context = map.context();
   const std::string time = map.has("time") ? map.text("time") : "1", value = map.has("value") ? map.text("value") : "2";
   const YamlNode* file = map.require("file");
   const std::string name = file == nullptr ? "" : read_text(context, *file, "file");
-  if (name.empty()) return input;
-  context.reader.note(context.entry, "file", *file);
+  if (name.empty()) return;
   try {
-    input.table = read_input_table({(std::filesystem::path(definitions.folder) / name).string(), time, value});
+    input.table = read_input_table({(context.reader.folder() / name).string(), time, value});
   } catch (const Error& error) {
     context.fail(file->place, error.what(), "");
   }
-  return input;
 }
 
 /// Names that can stand in expressions, there with '.' for '/'.
@@ -114,18 +101,9 @@ void check_expression_name(const std::string& noun, const std::string& name, con
 
 }  // namespace
 
-std::vector<ChannelSpec> read_channels(const MapReader& map) {
-  std::vector<ChannelSpec> channels;
-  for (const YamlNode* node : map.entries("channels", "channel"))
-    channels.push_back(read_channel(entry_context(map.context().reader, "channel", *node), *node));
-  return channels;
-}
-
-std::vector<InputSpec> read_inputs(const MapReader& map, const SceneDefinitions& definitions) {
-  std::vector<InputSpec> inputs;
-  for (const YamlNode* node : map.entries("inputs", "input"))
-    inputs.push_back(read_input(entry_context(map.context().reader, "input", *node), *node, definitions));
-  return inputs;
+void read_channels(const MapReader& map, Scene& scene) {
+  read_entries(map, "inputs", "input", scene.inputs, read_input);
+  read_entries(map, "channels", "channel", scene.channels, read_channel);
 }
 
 std::vector<KeySet> channel_key_sets() {

@@ -3,7 +3,6 @@
 
 #include "formats/scene/reader.hpp"
 #include "formats/yaml/fields.hpp"
-#include "formats/yaml/geometry.hpp"
 
 namespace tisserand::formats {
 
@@ -12,30 +11,31 @@ MarkerSpec read_marker(const MapReader& map, const std::string& key) {
   marker.where = map.context().entry;
   const YamlNode* node = map.require(key);
   if (node == nullptr) return marker;
-  const Context context{map.context().reader, fmt::format("{}: {}", map.context().subject, key), map.context().entry};
-  marker.where = context.reader.where(node->place);
+  marker.where = map.context().reader.where(node->place);
   if (node->kind != YamlKind::map) {
     marker.node = read_text(map.context(), *node, key);
     return marker;
   }
-  const MapReader inner(context, *node, "marker", key + ".");
+  const MapReader inner = map.inside(*node, "marker");
   read_fields(inner, marker);
-  if (const YamlNode* place = inner.find("node")) marker.where = context.reader.where(place->place);
-  if (const YamlNode* orientation = inner.find("orientation"))
-    marker.orientation = read_orientation(context, *orientation, "orientation");
+  if (const YamlNode* place = inner.find("node")) marker.where = map.context().reader.where(place->place);
   return marker;
 }
 
-void read_marker_pair(const MapReader& map, MarkerPairSpec& pair) {
-  pair.a = read_marker(map, "a");
-  pair.b = read_marker(map, "b");
-  pair.axis = read_optional_vector(map, "axis");
-  pair.x_axis = read_optional_vector(map, "x_axis");
-  pair.position = read_optional_vector(map, "position");
+void read_value(const MapReader& map, const Field& field, MarkerSpec& value) {
+  value = read_marker(map, std::string(field.key));
 }
 
 CoordinateRef read_coordinate(const MapReader& map, const YamlNode& node, const std::string& key) {
   return {read_text(map.context(), node, key), map.context().reader.where(node.place)};
+}
+
+void read_value(const MapReader& map, const Field& field, CoordinateRef& value) {
+  if (const YamlNode* node = find_or_require(map, field)) value = read_coordinate(map, *node, std::string(field.key));
+}
+
+void read_value(const MapReader& map, const Field& field, std::optional<CoordinateRef>& value) {
+  if (map.has(field.key)) read_value(map, field, value.emplace());
 }
 
 namespace {
@@ -80,8 +80,7 @@ void read_own_key(const MapReader& map, JointSpec& joint) {
   }
 }
 
-FrictionSpec read_friction(const Context& context, const YamlNode& node, JointKind kind) {
-  const MapReader map({context.reader, context.subject + ": friction", context.entry}, node, "friction", "friction.");
+FrictionSpec read_friction(const MapReader& map, JointKind kind) {
   FrictionSpec friction;
   read_fields(map, friction);
   const FrictionKeys keys = joint_kind(kind).friction;
@@ -93,43 +92,32 @@ FrictionSpec read_friction(const Context& context, const YamlNode& node, JointKi
   return friction;
 }
 
-JointSpec read_joint(const Context& context, const YamlNode& node) {
-  const MapReader map(context, node, "joint");
-  JointSpec joint;
-  joint.name = node.key;
-  joint.where = context.entry;
+JointSpec read_joint(const MapReader& map) {
+  auto joint = read_entry<JointSpec>(map);
   joint.kind = read_kind(map);
-  read_marker_pair(map, joint);
+  read_fields<MarkerPairSpec>(map, joint);
   read_own_key(map, joint);
-  if (const YamlNode* friction = map.find("friction")) joint.friction = read_friction(context, *friction, joint.kind);
+  if (const YamlNode* node = map.find("friction"))
+    joint.friction = read_friction(map.inside(*node, "friction"), joint.kind);
   return joint;
 }
 
 /// `{type: gear, between: [hinge_1, hinge_2], ratio: -2}` or `{type: rack_and_pinion, between: [hinge, slide], radius:
 /// r}`.
-GearSpec read_gear(const Context& context, const YamlNode& node, const GearKindRow& kind) {
-  const MapReader map(context, node, kind.word);
-  GearSpec gear;
-  gear.name = node.key;
-  gear.where = context.entry;
+GearSpec read_gear(const MapReader& map, const GearKindRow& kind) {
+  auto gear = read_entry<GearSpec>(map);
   gear.ratio = map.number(kind.key);
   const YamlNode* between = map.require("between");
   if (between == nullptr) return gear;
   if (between->kind != YamlKind::sequence || between->children.size() != 2) {
-    context.fail(between->place, fmt::format("between must name two joint coordinates, not {}", describe(*between)),
-                 "write it as [hinge_1, hinge_2]");
+    map.context().fail(between->place,
+                       fmt::format("between must name two joint coordinates, not {}", describe(*between)),
+                       "write it as [hinge_1, hinge_2]");
     return gear;
   }
   gear.first = read_coordinate(map, between->children[0], "between[0]");
   gear.second = read_coordinate(map, between->children[1], "between[1]");
   return gear;
-}
-
-/// The word after `type`, or nothing.
-std::string type_of(const YamlNode& joint) {
-  for (const YamlNode& child : joint.children)
-    if (child.key == "type" && child.kind == YamlKind::scalar) return child.text;
-  return {};
 }
 
 }  // namespace
@@ -143,19 +131,23 @@ std::vector<KeySet> joint_key_sets() {
   return {
       {"joint",
        {{"type", "", "one of the table below", "required", words},
-        {"a", "place",
-         "markers on two different nodes: `ground`, `block`, `beam/base`, or `{node: beam/base, position: [..], "
-         "orientation: ..}` with an offset in the node's axes",
-         "required"},
-        {"b", "place", ditto},
-        {"position", "vector",
-         "where the markers without a position of their own are at the start, world frame; an error if both have one",
-         "at marker b; at marker a if b is `ground`, or if only a has a position"},
-        {"axis", "vector",
-         "z axis at the start, world axes, of the markers without an orientation of their own; an error if both have "
-         "one",
-         "-"},
-        {"x_axis", "vector", "with `axis`: direction whose part across it is the x axis of these markers", "any"},
+        plain<&MarkerPairSpec::a>(
+            "a", "place",
+            "markers on two different nodes: `ground`, `block`, `beam/base`, or `{node: beam/base, position: [..], "
+            "orientation: ..}` with an offset in the node's axes",
+            "required"),
+        plain<&MarkerPairSpec::b>("b", "place", ditto),
+        plain<&MarkerPairSpec::position>("position", "vector",
+                                         "where the markers without a position of their own are at the start, world "
+                                         "frame; an error if both have one",
+                                         "at marker b; at marker a if b is `ground`, or if only a has a position"),
+        plain<&MarkerPairSpec::axis>("axis", "vector",
+                                     "z axis at the start, world axes, of the markers without an orientation of their "
+                                     "own; an error if both have "
+                                     "one",
+                                     "-"),
+        plain<&MarkerPairSpec::x_axis>(
+            "x_axis", "vector", "with `axis`: direction whose part across it is the x axis of these markers", "any"),
         {"hold", "['x' | 'y' | 'z' | 'rx' | 'ry' | 'rz']1..",
          "`generic`: list of directions of a's axes that are held, of `x y z rx ry rz`", "required there"},
         {"pitch", "number", "`screw`: advance along z per turn [length]; negative: left-handed", "required there"},
@@ -185,18 +177,19 @@ std::vector<KeySet> joint_key_sets() {
       {"marker",
        {plain<&MarkerSpec::node>("node", "text", "", "required"),
         plain<&MarkerSpec::position>("position", "vector", ""),
-        {"orientation", "rotation", ""}}}};
+        plain<&MarkerSpec::orientation>("orientation", "rotation", "")}}};
 }
 
 void read_joints(const MapReader& map, Scene& scene) {
   for (const YamlNode* node : map.entries("joints", "joint")) {
     const Context context = entry_context(map.context().reader, "joint", *node);
-    const std::string type = type_of(*node);
-    const auto gear = std::ranges::find(gear_kinds, type, &GearKindRow::word);
+    const YamlNode* type = find_child(*node, "type");
+    const auto gear =
+        std::ranges::find(gear_kinds, type == nullptr ? "" : std::string_view(type->text), &GearKindRow::word);
     if (gear != gear_kinds.end())
-      scene.gears.push_back(read_gear(context, *node, *gear));
+      scene.gears.push_back(read_gear(MapReader(context, *node, gear->word), *gear));
     else
-      scene.joints.push_back(read_joint(context, *node));
+      scene.joints.push_back(read_joint(MapReader(context, *node, "joint")));
   }
 }
 

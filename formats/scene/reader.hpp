@@ -21,7 +21,6 @@ inline constexpr Choice<bool> yes_or_no[] = {{"yes", true}, {"no", false}, {"tru
 
 /// What bodies may refer to.
 struct SceneDefinitions {
-  std::string folder;  ///< of the scene file: paths are relative to it
   Units units;
   std::vector<Material> materials;
   std::vector<Section> sections;
@@ -29,11 +28,22 @@ struct SceneDefinitions {
 
 /// "ground", "body", "body/node", or {node: .., position: .., orientation: ..}.
 MarkerSpec read_marker(const MapReader& map, const std::string& key);
-/// a, b, position, axis, x_axis.
-void read_marker_pair(const MapReader& map, MarkerPairSpec& pair);
 /// {position: .., orientation: ..}; `prefix` of its keys in findings.
 Pose read_pose(const Context& context, const YamlNode& node, const std::string& prefix);
 CoordinateRef read_coordinate(const MapReader& map, const YamlNode& node, const std::string& key);
+
+// Values of keys that are members (formats/yaml/fields.hpp).
+void read_value(const MapReader& map, const Field& field, Pose& value);
+void read_value(const MapReader& map, const Field& field, MarkerSpec& value);
+void read_value(const MapReader& map, const Field& field, CoordinateRef& value);
+void read_value(const MapReader& map, const Field& field, std::optional<CoordinateRef>& value);
+void read_value(const MapReader& map, const Field& field, std::vector<NodeWeight>& value);
+void read_value(const MapReader& map, const Field& field, TimeFunctionSpec& value);
+void read_value(const MapReader& map, const Field& field, std::optional<TimeFunctionSpec>& value);
+void read_value(const MapReader& map, const Field& field, LawSpec& value);
+void read_value(const MapReader& map, const Field& field, Eigen::Matrix<double, 6, 6>& value);
+void read_value(const MapReader& map, const Field& field, Eigen::Matrix<double, 6, 1>& value);
+void read_value(const MapReader& map, const Field& field, std::optional<Eigen::Matrix<double, 6, 1>>& value);
 
 /// `shape` of a body.
 std::vector<ShapeSpec> read_shapes(const MapReader& body, const SceneDefinitions& definitions);
@@ -42,24 +52,23 @@ void read_effects(const MapReader& map, Scene& scene);
 std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& definitions);
 /// `joints`: joints, and gears and racks between their coordinates.
 void read_joints(const MapReader& map, Scene& scene);
-std::vector<InputSpec> read_inputs(const MapReader& map, const SceneDefinitions& definitions);
-std::vector<ChannelSpec> read_channels(const MapReader& map);
-std::vector<MotionSpec> read_motions(const MapReader& map, const SceneDefinitions& definitions);
+/// `inputs` and `channels`.
+void read_channels(const MapReader& map, Scene& scene);
 std::vector<InitialSpec> read_initial(const MapReader& map);
-std::vector<SpringSpec> read_springs(const MapReader& map, const SceneDefinitions& definitions);
-std::vector<BushingSpec> read_bushings(const MapReader& map);
+void read_springs(const MapReader& map, std::vector<SpringSpec>& springs);
+void read_bushings(const MapReader& map, std::vector<BushingSpec>& bushings);
 /// `file`, or the axes and `z`, of a road of that kind, grid or crg, in the lengths of the scene; null after an error.
 std::shared_ptr<const RoadHeights> read_road_heights(const MapReader& map, const SceneDefinitions& definitions,
                                                      RoadKind kind);
-std::vector<RoadSpec> read_roads(const MapReader& map, const SceneDefinitions& definitions);
-std::vector<TyreSpec> read_tyres(const MapReader& map, const SceneDefinitions& definitions);
+void read_roads(const MapReader& map, const SceneDefinitions& definitions, std::vector<RoadSpec>& roads);
+void read_tyres(const MapReader& map, const SceneDefinitions& definitions, std::vector<TyreSpec>& tyres);
 /// `loads`: on markers, and those of `type: part_load`.
-void read_loads(const MapReader& map, const SceneDefinitions& definitions, Scene& scene);
+void read_loads(const MapReader& map, Scene& scene);
 /// `analysis` and its groups, or `analyses`.
 void read_analyses(const MapReader& map, Scene& scene);
-/// The groups of settings below `map`, which belong to `entry`: the scene, or one analysis of the given kind. `start`:
-/// of the integrator, if it gives none.
-void read_groups(const MapReader& map, const Context& entry, std::optional<double> start, Analysis& analysis);
+/// The groups of settings below `map`, the scene or one analysis; its kind is known. `start`: of the integrator, if it
+/// gives none.
+void read_groups(const MapReader& map, std::optional<double> start, Analysis& analysis);
 
 // Lists of fields, each beside the functions that read them.
 std::vector<Field> scene_fields();

@@ -1,5 +1,4 @@
 // Roads with heights over a grid: their keys, their files.
-#include <filesystem>
 
 #include "formats/roads/crg.hpp"
 #include "formats/roads/height_grid_file.hpp"
@@ -66,12 +65,11 @@ void refuse_keys(const MapReader& map, std::initializer_list<const char*> keys, 
 
 /// What `read` makes of the file, or nothing and its error.
 template <class Read>
-std::optional<RoadHeights> read_road_file(const MapReader& map, const YamlNode& node, const std::string& folder,
-                                          const Read& read) {
+std::optional<RoadHeights> read_road_file(const MapReader& map, const YamlNode& node, const Read& read) {
   const std::string name = read_text(map.context(), node, "file");
   if (name.empty()) return std::nullopt;
   try {
-    return read((std::filesystem::path(folder) / name).string());
+    return read((map.context().reader.folder() / name).string());
   } catch (const Error& error) {
     map.context().fail(node.place, error.what(), "");
     return std::nullopt;
@@ -83,7 +81,7 @@ std::optional<RoadHeights> read_crg_road(const MapReader& map, const SceneDefini
   const double metre = definitions.units.length.factor;
   if (!(metre > 0.0)) map.fail("OpenCRG files are in metres, and the units of the scene are unnamed", "name the units");
   if (file == nullptr || !(metre > 0.0)) return std::nullopt;
-  return read_road_file(map, *file, definitions.folder, [metre](const std::string& path) {
+  return read_road_file(map, *file, [metre](const std::string& path) {
     RoadHeights road = read_crg(path);
     for (std::vector<double>* axis : {&road.along, &road.across})
       for (double& at : *axis) at /= metre;
@@ -93,7 +91,7 @@ std::optional<RoadHeights> read_crg_road(const MapReader& map, const SceneDefini
   });
 }
 
-std::optional<RoadHeights> read_grid_road(const MapReader& map, const SceneDefinitions& definitions) {
+std::optional<RoadHeights> read_grid_road(const MapReader& map) {
   const YamlNode* file = map.find("file");
   if (file == nullptr) {
     refuse_keys(map, {"x_start", "y_start", "spacing"}, "z");
@@ -102,16 +100,14 @@ std::optional<RoadHeights> read_grid_road(const MapReader& map, const SceneDefin
   refuse_keys(map, {"x", "y", "z"}, "file");
   const std::optional<RegularGrid> regular = read_regular_grid(map);
   if (regular && !(regular->spacing > 0.0)) return std::nullopt;
-  return read_road_file(map, *file, definitions.folder,
-                        [&regular](const std::string& path) { return read_height_grid(path, regular); });
+  return read_road_file(map, *file, [&regular](const std::string& path) { return read_height_grid(path, regular); });
 }
 
 }  // namespace
 
 std::shared_ptr<const RoadHeights> read_road_heights(const MapReader& map, const SceneDefinitions& definitions,
                                                      RoadKind kind) {
-  std::optional<RoadHeights> heights =
-      kind == RoadKind::crg ? read_crg_road(map, definitions) : read_grid_road(map, definitions);
+  std::optional<RoadHeights> heights = kind == RoadKind::crg ? read_crg_road(map, definitions) : read_grid_road(map);
   return heights ? std::make_shared<const RoadHeights>(std::move(*heights)) : nullptr;
 }
 

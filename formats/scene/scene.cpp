@@ -20,50 +20,24 @@ namespace {
 constexpr Choice<VirtualBodies> virtual_body_ways[] = {{"keep", VirtualBodies::keep},
                                                        {"eliminate", VirtualBodies::eliminate}};
 
-RotationSpec read_rotation(const MapReader& map, const YamlNode& node) {
-  const Context context{map.context().reader, map.context().subject + ": rotation", map.context().entry};
-  const MapReader inner(context, node, "steady_rotation", "statics.rotation.");
-  RotationSpec spec;
-  read_fields(inner, spec);
-  return spec;
-}
-
-StaticsSpec read_statics(const MapReader& map) {
-  StaticsSpec spec;
-  if (const YamlNode* rotation = map.find("rotation")) spec.rotation = read_rotation(map, *rotation);
-  read_fields(map, spec);
-  return spec;
-}
-
-ModesSpec read_modes(const MapReader& map) {
-  ModesSpec spec;
-  read_fields(map, spec);
-  return spec;
-}
-
-CheckpointSpec read_checkpoint(const MapReader& map) {
-  CheckpointSpec spec;
+/// A group that says how often something is written.
+template <class Spec>
+void read_rhythm(const MapReader& map, Spec& spec) {
   if (map.has("every") && map.has("interval")) map.fail("both 'every' and 'interval' are given", "give one of them");
   read_fields(map, spec);
-  return spec;
 }
 
-/// `start` is that of the integrator: all is stored unless the file says otherwise.
-OutputSpec read_output(const MapReader& map, double start) {
-  OutputSpec spec;
-  if (map.has("every") && map.has("interval")) map.fail("both 'every' and 'interval' are given", "give one of them");
+/// All is stored from the start of the integrator on unless the file says otherwise.
+void read_output(const MapReader& map, double start, OutputSpec& spec) {
   spec.from = start;
-  read_fields(map, spec);
+  read_rhythm(map, spec);
   const YamlNode* channels = map.find("channels");
-  if (channels == nullptr) return spec;
-  if (channels->kind != YamlKind::sequence) {
+  if (channels == nullptr) return;
+  if (channels->kind != YamlKind::sequence)
     map.context().fail(channels->place, fmt::format("channels must be a list, not {}", describe(*channels)),
                        "write it as [nodes, energy]");
-    return spec;
-  }
   for (const YamlNode& channel : channels->children)
-    spec.channels.push_back(read_text(map.context(), channel, "a channel"));
-  return spec;
+    if (channels->kind == YamlKind::sequence) spec.channels.push_back(read_text(map.context(), channel, "a channel"));
 }
 
 Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
@@ -72,21 +46,19 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
   scene.file = path;
   read_fields(map, scene);
   scene.units = read_units(map);
-  const SceneDefinitions definitions{std::filesystem::path(path).parent_path().string(), scene.units,
-                                     read_materials(map), read_sections(map, scene.units)};
+  const SceneDefinitions definitions{scene.units, read_materials(map), read_sections(map, scene.units)};
   check_definitions(definitions.materials, definitions.sections, faults);
   read_effects(map, scene);
   scene.bodies = read_bodies(map, definitions);
   read_joints(map, scene);
-  scene.inputs = read_inputs(map, definitions);
-  scene.channels = read_channels(map);
-  scene.motions = read_motions(map, definitions);
+  read_channels(map, scene);
+  read_entries(map, "motions", "motion", scene.motions);
   scene.initial = read_initial(map);
-  scene.springs = read_springs(map, definitions);
-  scene.bushings = read_bushings(map);
-  scene.roads = read_roads(map, definitions);
-  scene.tyres = read_tyres(map, definitions);
-  read_loads(map, definitions, scene);
+  read_springs(map, scene.springs);
+  read_bushings(map, scene.bushings);
+  read_roads(map, definitions, scene.roads);
+  read_tyres(map, definitions, scene.tyres);
+  read_loads(map, scene);
   read_analyses(map, scene);
   return scene;
 }
@@ -100,25 +72,18 @@ void add_named_files(const YamlNode& node, const std::filesystem::path& folder, 
 
 }  // namespace
 
-void read_groups(const MapReader& map, const Context& entry, std::optional<double> start, Analysis& analysis) {
-  const std::string before = entry.subject.empty() ? "" : entry.subject + ": ";
-  const auto group = [&](std::string_view key, const YamlNode& node) {
-    return MapReader(Context{entry.reader, fmt::format("{}{}", before, key), entry.entry}, node, key,
-                     fmt::format("{}.", key));
-  };
+void read_groups(const MapReader& map, std::optional<double> start, Analysis& analysis) {
   const YamlNode* integrator = takes_steps(analysis.kind) ? map.require("integrator") : map.find("integrator");
   if (start) analysis.integrator.start = *start;
   if (integrator != nullptr) {
-    const MapReader inner = group("integrator", *integrator);
+    const MapReader inner = map.inside(*integrator, "integrator");
     analysis.integrator = read_integrator(inner, analysis.kind);
     if (start && !inner.has("start")) analysis.integrator.start = *start;
   }
-  if (const YamlNode* node = map.find("statics")) analysis.statics = read_statics(group("statics", *node));
-  if (const YamlNode* node = map.find("modes")) analysis.modes = read_modes(group("modes", *node));
-  if (const YamlNode* node = map.find("checkpoint")) analysis.checkpoint = read_checkpoint(group("checkpoint", *node));
+  if (const YamlNode* node = map.find("checkpoint")) read_rhythm(map.inside(*node, "checkpoint"), analysis.checkpoint);
   analysis.output.from = analysis.integrator.start;
   if (const YamlNode* node = map.find("output"))
-    analysis.output = read_output(group("output", *node), analysis.integrator.start);
+    read_output(map.inside(*node, "output"), analysis.integrator.start, analysis.output);
 }
 
 std::vector<KeySet> settings_key_sets() {
@@ -131,11 +96,13 @@ std::vector<KeySet> settings_key_sets() {
             "stable",
             "`yes`: from an unstable equilibrium the analysis goes on, downhill in potential energy, to one that is "
             "stable. Up to 1000 coordinates"),
-        {"rotation", "steady_rotation",
-         "`{angular_velocity: [x, y, z], about: [x, y, z]}`: equilibrium while everything turns about the axis through "
-         "`about` (default the origin), world axes. Dense matrices: up to 4000 coordinates. Drives of the turn must "
-         "agree with it",
-         "at rest"}}},
+        nested<&StaticsSpec::rotation>(
+            "rotation", "steady_rotation",
+            "`{angular_velocity: [x, y, z], about: [x, y, z]}`: equilibrium while everything turns about the axis "
+            "through "
+            "`about` (default the origin), world axes. Dense matrices: up to 4000 coordinates. Drives of the turn must "
+            "agree with it",
+            "at rest")}},
       {"steady_rotation",
        {plain<&RotationSpec::angular_velocity>("angular_velocity", "vector", "", "required"),
         plain<&RotationSpec::about>("about", "vector", "")}},
@@ -193,14 +160,14 @@ std::vector<Field> scene_fields() {
       {"loads", "{name: load | part_load}", "name -> load", "none"},
       choice<&Scene::virtual_bodies, virtual_body_ways>("virtual_bodies",
                                                         "`eliminate` or `keep`, see [below](#type-virtual)"),
-      words<analysis_kinds>(
+      choice<&Analysis::kind, analysis_kinds>(
           "analysis",
           "kind of the only analysis: `dynamics`, `statics`, `assembly`, `kinematics`, `inverse_dynamics`, `modes`",
           "`dynamics`"),
       {"analyses", "{name: analysis}+", "instead: several by name, see below", "none"},
       {"integrator", "integrator", "see below", "required in dynamics"},
-      {"statics", "statics", "see below", "defaults"},
-      {"modes", "modes", ditto},
+      nested<&Analysis::statics>("statics", "statics", "see below", "defaults"),
+      nested<&Analysis::modes>("modes", "modes", ditto),
       {"output", "output", ditto},
       {"checkpoint", "checkpoint", ditto},
       {"include", "text | [text]", "see [scenes at scale](#scenes-at-scale)", "none"},
@@ -217,9 +184,10 @@ DrawnScene read_drawn_scene(const std::string& text, const std::string& file) {
   YamlReader reader(document, scene_key_sets());
   const MapReader map(Context{reader, "", file}, reader.root(), "scene");
   const Units units = read_units(map);
-  const SceneDefinitions definitions{std::filesystem::path(file).parent_path().string(), units, read_materials(map),
-                                     read_sections(map, units)};
-  DrawnScene drawn{read_bodies(map, definitions), read_roads(map, definitions), read_tyres(map, definitions)};
+  const SceneDefinitions definitions{units, read_materials(map), read_sections(map, units)};
+  DrawnScene drawn{read_bodies(map, definitions), {}, {}};
+  read_roads(map, definitions, drawn.roads);
+  read_tyres(map, definitions, drawn.tyres);
   Faults faults;
   for (const RoadSpec& road : drawn.roads) check_road(road, faults);
   reader.raise(faults);

@@ -60,15 +60,11 @@ void read_one(const Context& context, const YamlNode& node, const SceneDefinitio
   shape.where = context.entry;
   read_fields(map, shape);
   if (shape.kind != ShapeKind::cone) shape.end_radius = shape.radius;
-  if (shape.kind == ShapeKind::box || shape.kind == ShapeKind::mesh)
-    if (const YamlNode* given = map.find("orientation"))
-      shape.orientation = read_orientation(context, *given, "orientation");
   if (shape.kind == ShapeKind::tube)
     if (const YamlNode* points = map.require("points")) shape.points = read_points(context, *points);
   if (shape.kind == ShapeKind::mesh) {
     shape.units = definitions.units;
-    if (!shape.file.empty())
-      shape.file = (std::filesystem::path(definitions.folder) / shape.file).lexically_normal().string();
+    if (!shape.file.empty()) shape.file = (context.reader.folder() / shape.file).lexically_normal().string();
     if (const YamlNode* scale = map.find("scale")) shape.scale = read_scale(context, *scale);
   }
   shapes.push_back(std::move(shape));
@@ -144,7 +140,7 @@ std::vector<KeySet> shape_of_body_key_sets() {
               from = plain<&ShapeSpec::from>("from", "vector", "", "required"),
               to = plain<&ShapeSpec::to>("to", "vector", "", "required"),
               position = plain<&ShapeSpec::position>("position", "vector", ""),
-              orientation{"orientation", "rotation", ""};
+              orientation = plain<&ShapeSpec::orientation>("orientation", "rotation", "");
   return {
       {"shape_box",
        {{"type", "'box'",

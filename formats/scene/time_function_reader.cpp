@@ -2,7 +2,6 @@
 #include "formats/scene/time_function_reader.hpp"
 
 #include <cmath>
-#include <filesystem>
 
 #include "formats/tables/csv_table.hpp"
 #include "formats/yaml/fields.hpp"
@@ -31,22 +30,22 @@ TimeTable read_table(const Context& context, const YamlNode& node) {
   return table;
 }
 
-TimeTable read_file(const Context& context, const YamlNode& node, const std::string& folder) {
+TimeTable read_file(const Context& context, const YamlNode& node) {
   const std::string name = read_text(context, node, "file");
   if (name.empty()) return {};
   try {
-    return read_csv_table((std::filesystem::path(folder) / name).string());
+    return read_csv_table((context.reader.folder() / name).string());
   } catch (const Error& error) {
     context.fail(node.place, error.what(), "");
     return {};
   }
 }
 
-TimeFunctionSpec read_map(const MapReader& map, const std::string& folder) {
+TimeFunctionSpec read_map(const MapReader& map) {
   const int forms = (map.has("table") ? 1 : 0) + (map.has("file") ? 1 : 0) + (map.has("expression") ? 1 : 0);
   if (forms != 1) map.fail(fmt::format("{} of table, file, expression are given", forms), "give one of them");
   if (const YamlNode* table = map.find("table")) return read_table(map.context(), *table);
-  if (const YamlNode* file = map.find("file")) return read_file(map.context(), *file, folder);
+  if (const YamlNode* file = map.find("file")) return read_file(map.context(), *file);
   TimeExpression expression;
   if (const YamlNode* text = map.find("expression")) {
     expression.text = read_text(map.context(), *text, "expression");
@@ -81,23 +80,21 @@ Context inside_function(const Context& context, const std::string& what) {
 
 }  // namespace
 
-TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node, const std::string& what,
-                                    const std::string& folder) {
+TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node, const std::string& what) {
   if (node.kind == YamlKind::map) {
     const Context inner = inside_function(context, what);
-    return read_map(MapReader(inner, node, "time_function", what + "."), folder);
+    return read_map(MapReader(inner, node, "time_function", what + "."));
   }
   if (node.kind == YamlKind::scalar && !looks_like_number(node))
     return TimeExpression{node.text, {}, context.reader.where(node.place)};
   return read_number(context, node, what);
 }
 
-TimeFunctionSpec read_motion_function(const Context& context, const YamlNode& node, const std::string& what,
-                                      const std::string& folder) {
-  if (node.kind != YamlKind::map) return read_time_function(context, node, what, folder);
+TimeFunctionSpec read_motion_function(const Context& context, const YamlNode& node, const std::string& what) {
+  if (node.kind != YamlKind::map) return read_time_function(context, node, what);
   const Context inner = inside_function(context, what);
   const MapReader map(inner, node, "motion_function", what + ".");
-  TimeFunctionSpec function = read_map(map, folder);
+  TimeFunctionSpec function = read_map(map);
   if (auto* table = std::get_if<TimeTable>(&function))
     table->motion = map.choice("interpolation", table_motions, table->motion);
   else if (const YamlNode* key = map.find("interpolation"))
@@ -129,7 +126,7 @@ void check_time_function(const TimeFunctionSpec& function, const std::string& su
   }
 }
 
-CurveSpec read_curve(const Context& context, const YamlNode& node, const std::string& what, const std::string& folder) {
+CurveSpec read_curve(const Context& context, const YamlNode& node, const std::string& what) {
   const Context inner{context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
   const MapReader map(inner, node, "curve", what + ".");
   CurveSpec curve;
@@ -140,7 +137,7 @@ CurveSpec read_curve(const Context& context, const YamlNode& node, const std::st
   if (const YamlNode* table = map.find("table"))
     points = read_table(inner, *table);
   else if (const YamlNode* file = map.find("file"))
-    points = read_file(inner, *file, folder);
+    points = read_file(inner, *file);
   curve.x = std::move(points.time);
   curve.y = std::move(points.value);
   return curve;

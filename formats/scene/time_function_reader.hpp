@@ -16,20 +16,18 @@ inline constexpr Choice<TableMotion> table_motions[] = {
     {"smooth", TableMotion::smooth}, {"natural", TableMotion::natural}, {"linear", TableMotion::linear}};
 
 /// A number, a text (expression in t), {expression: .., breakpoints: [..]}, {table: [[t, value], ..]} or {file:
-/// table.csv} (relative to `folder`).
-TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node, const std::string& what,
-                                    const std::string& folder);
+/// table.csv}.
+TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node, const std::string& what);
 
 /// The same for prescribed motions, whose tables may have an `interpolation`.
-TimeFunctionSpec read_motion_function(const Context& context, const YamlNode& node, const std::string& what,
-                                      const std::string& folder);
+TimeFunctionSpec read_motion_function(const Context& context, const YamlNode& node, const std::string& what);
 
 /// Times of a table and breakpoints increase; values are finite; the expression has a text.
 void check_time_function(const TimeFunctionSpec& function, const std::string& subject, const std::string& where,
                          const std::string& key, Faults& faults);
 
-/// {table: [[x, y], ..], interpolation: linear | cubic} or {file: table.csv, ..} (relative to `folder`).
-CurveSpec read_curve(const Context& context, const YamlNode& node, const std::string& what, const std::string& folder);
+/// {table: [[x, y], ..], interpolation: linear | cubic} or {file: table.csv, ..}.
+CurveSpec read_curve(const Context& context, const YamlNode& node, const std::string& what);
 
 /// At least two points, x increases, values are finite.
 void check_curve(const CurveSpec& curve, const std::string& subject, const std::string& where, const std::string& key,

@@ -1,7 +1,6 @@
 // `roads` and `tyres` of scene.yaml, and their findings.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 
 #include "formats/roads/road_spectrum.hpp"
@@ -37,14 +36,6 @@ constexpr std::size_t required_file_keys = 1;
 /// Parts of the speed of a file below which MF-Tyre changes its formulas, and of that at which the tyre was measured.
 constexpr double low_of_vxlow = 0.1, low_of_longvl = 0.005;
 
-template <std::size_t N>
-void refuse_keys(const MapReader& map, const std::string_view (&keys)[N], const char* kind) {
-  for (const std::string_view key : keys)
-    if (const YamlNode* node = map.find(key))
-      map.context().fail(node->key_place, fmt::format("'{}' has no effect on a tyre of type {}", key, kind),
-                         "remove it");
-}
-
 std::map<std::string, double> read_scale(const MapReader& map) {
   std::map<std::string, double> scale;
   const YamlNode* node = map.find("scale");
@@ -64,9 +55,9 @@ void read_properties(const MapReader& map, const SceneDefinitions& definitions, 
   if (file == nullptr || file->kind != YamlKind::scalar) return;
   const std::map<std::string, double> scale = read_scale(map);
   try {
-    TyreProperties properties = read_tyre_property_file(
-        (std::filesystem::path(definitions.folder) / file->text).string(),  // absolute if the text is
-        definitions.units, scale);
+    TyreProperties properties =
+        read_tyre_property_file((map.context().reader.folder() / file->text).string(),  // absolute if the text is
+                                definitions.units, scale);
     const MagicFormula& p = properties.coefficients;
     if (!map.has("relaxation")) tyre.relaxation = p.transient;
     tyre.radius = p.UNLOADED_RADIUS;
@@ -76,6 +67,24 @@ void read_properties(const MapReader& map, const SceneDefinitions& definitions, 
   } catch (const Error& error) {
     map.context().fail(file->place, error.what(), "");
   }
+}
+
+void read_magic_formula(const MapReader& map, const SceneDefinitions& definitions, TyreSpec& tyre) {
+  for (std::size_t i = 0; i < required_file_keys; ++i) map.require(file_keys[i]);
+  for (const std::string_view key : slip_keys)
+    if (const YamlNode* of_slip = map.find(key); of_slip != nullptr && key != "low_speed")
+      map.context().fail(
+          of_slip->key_place, fmt::format("'{}' has no effect: the file of the tyre has its own", key),
+          key == "friction" ? "remove it; scale: {LMUX: .., LMUY: ..} changes the friction of the file" : "remove it");
+  read_properties(map, definitions, tyre);
+}
+
+void check_slip_keys(const MapReader& map) {
+  for (std::size_t i = 0; i < required_slip_keys; ++i) map.require(slip_keys[i]);
+  for (const std::string_view key : file_keys)
+    if (const YamlNode* node = map.find(key))
+      map.context().fail(node->key_place, fmt::format("'{}' has no effect on a tyre of type comprehensive_slip", key),
+                         "remove it");
 }
 
 /// The keys of a shape; others have no effect on it.
@@ -118,7 +127,7 @@ RoadPieceSpec read_piece(const Context& context, const YamlNode& node, const std
   require_keys(map, piece.shape);
   if (piece.shape != RoadPieceShape::curve) return piece;
   if (const YamlNode* curve = map.find("curve"))
-    piece.curve = read_curve(context, *curve, "curve", definitions.folder);
+    piece.curve = read_curve(context, *curve, "curve");
   else if (const YamlNode* road = map.find("iso_8608"))
     piece.curve = read_iso_road(context, *road, key, definitions);
   return piece;
@@ -220,52 +229,22 @@ void check_properties(const TyreSpec& tyre, const std::string& subject, Faults& 
 
 }  // namespace
 
-std::vector<RoadSpec> read_roads(const MapReader& map, const SceneDefinitions& definitions) {
-  std::vector<RoadSpec> roads;
-  for (const YamlNode* node : map.entries("roads", "road")) {
-    const Context context = entry_context(map.context().reader, "road", *node);
-    const MapReader inner(context, *node, "road");
-    RoadSpec road;
-    road.name = node->key;
-    road.where = context.entry;
-    read_fields(inner, road);
-    if (const YamlNode* pose = inner.find("pose")) road.pose = read_pose(context, *pose, "pose.");
+void read_roads(const MapReader& map, const SceneDefinitions& definitions, std::vector<RoadSpec>& roads) {
+  read_entries(map, "roads", "road", roads, [&](const MapReader& inner, RoadSpec& road) {
     refuse_road_keys(inner, road.kind);
     if (road.kind == RoadKind::profile) read_tracks(inner, definitions, road);
     if (road.kind == RoadKind::grid || road.kind == RoadKind::crg)
       road.heights = read_road_heights(inner, definitions, road.kind);
-    roads.push_back(std::move(road));
-  }
-  return roads;
+  });
 }
 
-std::vector<TyreSpec> read_tyres(const MapReader& map, const SceneDefinitions& definitions) {
-  std::vector<TyreSpec> tyres;
-  for (const YamlNode* node : map.entries("tyres", "tyre")) {
-    const Context context = entry_context(map.context().reader, "tyre", *node);
-    const MapReader inner(context, *node, "tyre");
-    TyreSpec tyre;
-    tyre.name = node->key;
-    tyre.where = context.entry;
-    read_fields(inner, tyre);
-    tyre.wheel = read_marker(inner, "wheel");
-    if (tyre.kind == TyreKind::magic_formula) {
-      for (std::size_t i = 0; i < required_file_keys; ++i) inner.require(file_keys[i]);
-      for (const std::string_view key : slip_keys)
-        if (const YamlNode* of_slip = inner.find(key); of_slip != nullptr && key != "low_speed")
-          context.fail(of_slip->key_place, fmt::format("'{}' has no effect: the file of the tyre has its own", key),
-                       key == "friction" ? "remove it; scale: {LMUX: .., LMUY: ..} changes the friction of the file"
-                                         : "remove it");
-      tyre.relaxation = inner.choice("relaxation", yes_or_no, false);
-      tyre.mirrored = inner.choice("mirrored", yes_or_no, false);
-      read_properties(inner, definitions, tyre);
-    } else if (inner.has("type")) {
-      for (std::size_t i = 0; i < required_slip_keys; ++i) inner.require(slip_keys[i]);
-      refuse_keys(inner, file_keys, "comprehensive_slip");
-    }
-    tyres.push_back(std::move(tyre));
-  }
-  return tyres;
+void read_tyres(const MapReader& map, const SceneDefinitions& definitions, std::vector<TyreSpec>& tyres) {
+  read_entries(map, "tyres", "tyre", tyres, [&](const MapReader& inner, TyreSpec& tyre) {
+    if (tyre.kind == TyreKind::magic_formula)
+      read_magic_formula(inner, definitions, tyre);
+    else if (inner.has("type"))
+      check_slip_keys(inner);
+  });
 }
 
 void check_road(const RoadSpec& road, Faults& faults) {
@@ -339,9 +318,10 @@ std::vector<KeySet> tyre_key_sets() {
                                             "`plane`; `profile`: heights over the distance along it; `grid`: over a "
                                             "rectangular grid; `crg`: an OpenCRG file",
                                             "required"),
-        {"pose", "pose",
-         "`{position: [x, y, z], orientation: ..}` of its axes in the world: x along it, y to its left, z out of it",
-         "those of the world"},
+        plain<&RoadSpec::pose>(
+            "pose", "pose",
+            "`{position: [x, y, z], orientation: ..}` of its axes in the world: x along it, y to its left, z out of it",
+            "those of the world"),
         {"height", "road_piece | [road_piece]", "of a profile, both tracks: a piece or a list of them, which add up",
          "required without tracks"},
         {"left", "road_piece | [road_piece]", "instead: of the tracks y > 0 and y < 0; without one of them it is flat",
@@ -390,7 +370,8 @@ std::vector<KeySet> tyre_key_sets() {
       {"tyre",
        {choice<&TyreSpec::kind, tyre_kinds>("type", "`comprehensive_slip`, or `magic_formula` by a file: see below",
                                             "required"),
-        {"wheel", "place", "centre of the wheel: a node or marker of the body that spins", "required"},
+        plain<&TyreSpec::wheel>("wheel", "place", "centre of the wheel: a node or marker of the body that spins",
+                                "required"),
         plain<&TyreSpec::axis>("axis", "vector",
                                "axle at the start, world axes, to the left of the wheel: it rolls along axis x up",
                                "y axis of the marker"),
@@ -414,12 +395,14 @@ std::vector<KeySet> tyre_key_sets() {
                                             "σ of both directions: slips follow those of the wheel over it [length]",
                                             "none"),
         {"file", "text", "`magic_formula`: tyre property file (.tir), from the folder of the scene", "required there"},
-        words<yes_or_no>("relaxation", "`magic_formula`: slips follow over the relaxation lengths of the file",
-                         "as its USE_MODE says"),
-        words<yes_or_no>("mirrored",
-                         "`magic_formula`: the tyre is on the other side of the vehicle than in the file; a mirrored "
-                         "assembly turns it round",
-                         "`no`"),
+        choice<&TyreSpec::relaxation, yes_or_no>(
+            "relaxation", "`magic_formula`: slips follow over the relaxation lengths of the file",
+            "as its USE_MODE says"),
+        choice<&TyreSpec::mirrored, yes_or_no>(
+            "mirrored",
+            "`magic_formula`: the tyre is on the other side of the vehicle than in the file; a mirrored "
+            "assembly turns it round",
+            "`no`"),
         plain<&TyreSpec::pressure>("pressure", "positive", "`magic_formula`: inflation pressure [force/length²]",
                                    "that of the file"),
         {"scale", "{name: number}",

@@ -41,7 +41,10 @@ void read_value(const MapReader& map, const Field& field, std::string& value) {
 }
 
 void read_value(const MapReader& map, const Field& field, Eigen::Vector3d& value) {
-  if (find_or_require(map, field) != nullptr) value = read_vector(map, field.key, value);
+  if (find_or_require(map, field) != nullptr)
+    value = read_vector(map, field.key, value);
+  else if (field.required())
+    value.setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
 void read_value(const MapReader& map, const Field& field, std::vector<double>& value) {
@@ -61,6 +64,20 @@ void read_value(const MapReader& map, const Field& field, std::optional<int>& va
 
 void read_value(const MapReader& map, const Field& field, std::optional<Eigen::Vector3d>& value) {
   if (find_or_require(map, field) != nullptr) value = read_optional_vector(map, field.key);
+}
+
+void read_value(const MapReader& map, const Field& field, Eigen::Matrix3d& value) {
+  if (const YamlNode* node = find_or_require(map, field))
+    value = read_inertia(map.context(), *node, std::string(field.key));
+}
+
+void read_value(const MapReader& map, const Field& field, Eigen::Quaterniond& value) {
+  if (const YamlNode* node = find_or_require(map, field))
+    value = read_orientation(map.context(), *node, std::string(field.key));
+}
+
+void read_value(const MapReader& map, const Field& field, std::optional<Eigen::Quaterniond>& value) {
+  if (find_or_require(map, field) != nullptr) read_value(map, field, value.emplace());
 }
 
 }  // namespace tisserand::formats

@@ -9,14 +9,15 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "formats/yaml/field.hpp"
 #include "formats/yaml/reader.hpp"
 
 namespace tisserand::formats {
 
-/// The value of the key; an absent one leaves `value` alone. If it is required that is an error, and a number becomes
-/// not-a-number.
+/// The value of the key; an absent one leaves `value` alone. If it is required that is an error, and a number or vector
+/// becomes not-a-number. More of them, for types of one kind of file, stand with its readers.
 void read_value(const MapReader& map, const Field& field, double& value);
 void read_value(const MapReader& map, const Field& field, int& value);
 void read_value(const MapReader& map, const Field& field, std::string& value);
@@ -25,6 +26,10 @@ void read_value(const MapReader& map, const Field& field, std::vector<double>& v
 void read_value(const MapReader& map, const Field& field, std::optional<double>& value);
 void read_value(const MapReader& map, const Field& field, std::optional<int>& value);
 void read_value(const MapReader& map, const Field& field, std::optional<Eigen::Vector3d>& value);
+/// Inertia.
+void read_value(const MapReader& map, const Field& field, Eigen::Matrix3d& value);
+void read_value(const MapReader& map, const Field& field, Eigen::Quaterniond& value);
+void read_value(const MapReader& map, const Field& field, std::optional<Eigen::Quaterniond>& value);
 
 /// The node of the key; null if there is none, an error too where it is required.
 const YamlNode* find_or_require(const MapReader& map, const Field& field);
@@ -103,6 +108,48 @@ template <class Spec>
 void read_fields(const MapReader& map, Spec& spec) {
   for (const Field& field : map.fields())
     if (field.owner == &owner_mark<Spec>) field.read(map, field, &spec);
+}
+
+/// A key whose value is a map with the keys of the list `noun`, which are members of the member.
+template <auto member>
+Field nested(std::string_view key, std::string_view noun, std::string_view meaning, std::string_view fallback = {}) {
+  Field field{key, noun, meaning, fallback};
+  field.owner = &owner_mark<OwnerOf<member>>;
+  field.read = [](const MapReader& map, const Field& read, void* owner) {
+    const YamlNode* node = find_or_require(map, read);
+    if (node == nullptr) return;
+    auto& value = static_cast<OwnerOf<member>*>(owner)->*member;
+    if constexpr (requires { value.emplace(); })
+      read_fields(map.inside(*node, read.type), value.emplace());
+    else
+      read_fields(map.inside(*node, read.type), value);
+  };
+  return field;
+}
+
+/// An entry of a collection: its name, its place, and the keys that are its members.
+template <class Spec>
+Spec read_entry(const MapReader& map, Spec spec = {}) {
+  spec.name = map.node().key;
+  spec.where = map.context().entry;
+  read_fields(map, spec);
+  return spec;
+}
+
+/// The entries of the collection `key`, maps with the keys of the list `noun`; `read_rest` reads what is by hand.
+template <class Spec, class Rest>
+void read_entries(const MapReader& top, std::string_view key, const std::string& noun, std::vector<Spec>& specs,
+                  Rest read_rest) {
+  for (const YamlNode* node : top.entries(key, noun)) {
+    const MapReader map(entry_context(top.context().reader, noun, *node), *node, noun);
+    Spec spec = read_entry<Spec>(map);
+    read_rest(map, spec);
+    specs.push_back(std::move(spec));
+  }
+}
+template <class Spec>
+void read_entries(const MapReader& top, std::string_view key, const std::string& noun, std::vector<Spec>& specs) {
+  read_entries(top, key, noun, specs, [](const MapReader&, Spec&) {});
 }
 
 }  // namespace tisserand::formats

@@ -67,6 +67,10 @@ const KeySet& YamlReader::keys(std::string_view noun) const {
   return *found;
 }
 
+std::filesystem::path YamlReader::folder() const {
+  return std::filesystem::path(document_.sources.front().name).parent_path();
+}
+
 void YamlReader::fail(const std::string& entry, const YamlPlace& place, const std::string& what,
                       const std::string& remedy) {
   errors_.push_back({place, Error(what, where(place), remedy)});
@@ -186,7 +190,7 @@ std::optional<std::size_t> read_word(const Context& context, const YamlNode& nod
 }
 
 MapReader::MapReader(Context context, const YamlNode& node, std::string_view noun, std::string prefix)
-    : context_(std::move(context)), node_(node), keys_(context_.reader.keys(noun)) {
+    : context_(std::move(context)), node_(node), keys_(context_.reader.keys(noun)), prefix_(std::move(prefix)) {
   if (node.kind != YamlKind::map) {
     const bool is_file = &node == &context_.reader.root();  // perhaps of another kind: not quoted
     const std::string found = is_file && node.kind == YamlKind::scalar ? "a text" : describe(node);
@@ -216,7 +220,7 @@ MapReader::MapReader(Context context, const YamlNode& node, std::string_view nou
       context_.fail(child.key_place,
                     fmt::format("key '{}' is given twice (first in line {})", child.key, first->second.line),
                     "remove one");
-    context_.reader.note(context_.entry, prefix + child.key, child);
+    context_.reader.note(context_.entry, prefix_ + child.key, child);
   }
 }
 
@@ -240,6 +244,13 @@ const YamlNode* MapReader::require(std::string_view key) const {
   const YamlNode* node = find(key);
   if (node == nullptr && node_.kind == YamlKind::map) fail(fmt::format("missing key '{}'", key), "");
   return node;
+}
+
+MapReader MapReader::inside(const YamlNode& value, std::string_view noun) const {
+  const std::string& subject = context_.subject;
+  return {
+      Context{context_.reader, subject.empty() ? value.key : fmt::format("{}: {}", subject, value.key), context_.entry},
+      value, noun, fmt::format("{}{}.", prefix_, value.key)};
 }
 
 std::vector<const YamlNode*> MapReader::entries(std::string_view key, const std::string& noun) const {

@@ -1,6 +1,7 @@
 // Strict reading of a tree into structs: legal keys, types, and all errors of a file together.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -29,6 +30,8 @@ class YamlReader {
 
   const YamlNode& root() const { return document_.root; }
   const KeySet& keys(std::string_view noun) const;
+  /// Of the first file: names of files that stand in it count from there.
+  std::filesystem::path folder() const;
   std::string where(const YamlPlace& place) const { return document_.where(place); }
 
   /// An error inside the entry whose `where` is given. Findings of the check about that entry are then dropped, except
@@ -96,12 +99,15 @@ class MapReader {
   MapReader(Context context, const YamlNode& node, std::string_view noun, std::string prefix = "");
 
   const Context& context() const { return context_; }
+  const YamlNode& node() const { return node_; }
   const std::vector<Field>& fields() const { return keys_.fields; }
   bool has(std::string_view key) const { return find(key) != nullptr; }
   /// The value or null. A key without a value is found; reading its value is then an error.
   const YamlNode* find(std::string_view key) const;
   /// The value, or null and an error.
   const YamlNode* require(std::string_view key) const;
+  /// The map that stands under a key of this one, with that key in messages ("body 'arm': damping").
+  MapReader inside(const YamlNode& value, std::string_view noun) const;
   /// Entries of a collection, each once; empty if the key is absent. `noun` ("body") is used in messages.
   std::vector<const YamlNode*> entries(std::string_view key, const std::string& noun) const;
 
@@ -128,6 +134,7 @@ class MapReader {
   Context context_;
   const YamlNode& node_;
   const KeySet& keys_;
+  std::string prefix_;
 };
 
 /// The entry of a collection as a context: "beam 'rod'" at its key.
