@@ -26,143 +26,123 @@ std::optional<Eigen::Vector3d> position_of(const Part& part, const Place& place)
 PartNames check_definitions(const Part& part, Faults& faults) {
   PartNames names;
   for (const Material& material : part.materials) {
-    check_name("material", material.name, material.where, names.layers, faults);
-    check_material(material, fmt::format("material '{}'", material.name), "", faults);
+    check_material(material, check_name("material", material, names.layers, faults));
     names.materials.push_back(material.name);
   }
-  for (const OrthotropicMaterial& material : part.orthotropic)
-    check_name("material", material.name, material.where, names.layers, faults);
-  for (const Section& section : part.sections) {
-    check_name("section", section.name, section.where, names.sections, faults);
-    check_section(section, fmt::format("section '{}'", section.name), "", faults);
-  }
+  for (const OrthotropicMaterial& material : part.orthotropic) check_name("material", material, names.layers, faults);
+  for (const Section& section : part.sections)
+    check_section(section, check_name("section", section, names.sections, faults));
   for (const NamedPoint& point : part.points) {
-    check_name("point", point.name, point.where, names.places, faults);
-    if (!point.position.allFinite())
-      faults.add(point.where, "", fmt::format("point '{}': position must be finite", point.name), "");
+    const Subject subject = check_name("point", point, names.places, faults);
+    if (!point.position.allFinite()) subject.add("", "position must be finite");
   }
-  for (const SpiderLine& spider : part.spiders) check_name("spider", spider.name, spider.where, names.places, faults);
-  for (const GroupDefinition& group : part.groups) check_name("group", group.name, group.where, names.groups, faults);
+  for (const SpiderLine& spider : part.spiders) check_name("spider", spider, names.places, faults);
+  for (const GroupDefinition& group : part.groups) check_name("group", group, names.groups, faults);
   for (const ShellPatch& patch : part.patches) {
-    check_name("group", patch.name, patch.where, names.groups, faults);
+    check_name("group", patch, names.groups, faults);
     for (const std::string& edge : edge_groups(patch)) names.groups.push_back(edge);
   }
   return names;
 }
 
-void check_section_of_beam(const Part& part, const BeamLine& beam, const std::string& subject, Faults& faults) {
+void check_section_of_beam(const Part& part, const BeamLine& beam, const Subject& subject) {
   const auto section = std::ranges::find(part.sections, beam.section, &Section::name);
   if (beam.theory == BeamTheory::timoshenko && section != part.sections.end() && section->shear_area_y == 0.0 &&
       section->area > 0.0 && section->shear_area_z == 0.0 && section->second_moment_y + section->second_moment_z > 0.0)
-    faults.add(beam.where, "section", fmt::format("{}: section '{}' has no shear areas", subject, section->name),
-               section->by_stiffness ? "give GAy and GAz, or set theory: euler_bernoulli"
-                                     : "give shear_area_y and shear_area_z, or set theory: euler_bernoulli");
+    subject.add("section", fmt::format("section '{}' has no shear areas", section->name),
+                section->by_stiffness ? "give GAy and GAz, or set theory: euler_bernoulli"
+                                      : "give shear_area_y and shear_area_z, or set theory: euler_bernoulli");
   const bool by_stiffness = section != part.sections.end() && section->by_stiffness;
   if (by_stiffness && !beam.material.empty())
-    faults.add(beam.where, "material", fmt::format("{}: 'material' beside a section by stiffness", subject),
-               "remove it: the section needs none");
+    subject.add("material", "'material' beside a section by stiffness", "remove it: the section needs none");
   if (!by_stiffness && beam.material.empty())
-    faults.add(beam.where, "", fmt::format("{} has no 'material'", subject),
-               "add it, or give the section by stiffness");
+    subject.faults.add(beam.where, "", subject.name + " has no 'material'", "add it, or give the section by stiffness");
   const auto second = std::ranges::find(part.sections, beam.to_section, &Section::name);
   if (section != part.sections.end() && second != part.sections.end() && second->by_stiffness != section->by_stiffness)
-    faults.add(beam.where, "to_section",
-               fmt::format("{}: only one of sections '{}' and '{}' is given by stiffness", subject, section->name,
-                           second->name),
-               "give both by stiffness or none");
-  if (!std::isfinite(beam.angle))
-    faults.add(beam.where, "angle_deg", fmt::format("{}: angle_deg must be finite", subject), "");
-  if (!beam.from_offset.allFinite() || !beam.to_offset.allFinite())
-    faults.add(beam.where, "offset", fmt::format("{}: offsets must be finite", subject), "");
+    subject.add("to_section",
+                fmt::format("only one of sections '{}' and '{}' is given by stiffness", section->name, second->name),
+                "give both by stiffness or none");
+  subject.finite("angle_deg", beam.angle);
+  if (!beam.from_offset.allFinite() || !beam.to_offset.allFinite()) subject.add("offset", "offsets must be finite");
 }
 
 /// Length, arc and division of a line between two places whose positions are known.
-void check_line_of_beam(const Part& part, const BeamLine& beam, const std::string& subject, Faults& faults) {
-  if (beam.elements < 0)
-    faults.add(beam.where, "elements", fmt::format("{}: elements {} must be 1 or more", subject, beam.elements), "");
-  if (beam.elements == 0 && !(beam.size > 0.0 && std::isfinite(beam.size)))
-    faults.add(beam.where, "size", fmt::format("{}: size {:g} must be positive", subject, beam.size), "");
+void check_line_of_beam(const Part& part, const BeamLine& beam, const Subject& subject) {
+  if (beam.elements < 0) subject.add("elements", fmt::format("elements {} must be 1 or more", beam.elements));
+  if (beam.elements == 0) subject.positive("size", beam.size);
   constexpr double most = 1e6;
   if (beam.elements > most)
-    faults.add(beam.where, "elements", fmt::format("{}: {} elements; the limit is {:g}", subject, beam.elements, most),
-               "give fewer");
+    subject.add("elements", fmt::format("{} elements; the limit is {:g}", beam.elements, most), "give fewer");
   const auto from = position_of(part, beam.from), to = position_of(part, beam.to);
   if (!from || !to) return;
-  check_line({subject, beam.where, *from, *to, beam.through, beam.orientation}, faults);
+  check_line({*from, *to, beam.through, beam.orientation}, subject);
   if (beam.elements != 0 || !(beam.size > 0.0)) return;
   const double count = (*to - *from).norm() / beam.size;
   if (count > most)
-    faults.add(beam.where, "size",
-               fmt::format("{}: size {:g} makes {:.3g} elements; the limit is {:g}", subject, beam.size, count, most),
-               "give a larger size");
+    subject.add("size", fmt::format("size {:g} makes {:.3g} elements; the limit is {:g}", beam.size, count, most),
+                "give a larger size");
 }
 
-void check_beam(const Part& part, const BeamLine& beam, const PartNames& names, Faults& faults) {
-  const std::string subject = fmt::format("beam '{}'", beam.name);
-  check_reference(subject, "section", beam.section, names.sections, beam.where, "section", faults);
-  if (!beam.to_section.empty())
-    check_reference(subject, "section", beam.to_section, names.sections, beam.where, "to_section", faults);
-  if (!beam.material.empty())
-    check_reference(subject, "material", beam.material, names.materials, beam.where, "material", faults);
-  check_section_of_beam(part, beam, subject, faults);
-  if (!beam.on.empty()) return check_group_names(part, names, beam.on, subject, beam.where, "on", faults);
-  check_place(part, names, beam.from, subject, beam.where, "from", faults);
-  check_place(part, names, beam.to, subject, beam.where, "to", faults);
-  check_line_of_beam(part, beam, subject, faults);
+void check_beam(const Part& part, const BeamLine& beam, const PartNames& names, const Subject& subject) {
+  check_reference(subject, "section", "section", beam.section, names.sections);
+  if (!beam.to_section.empty()) check_reference(subject, "to_section", "section", beam.to_section, names.sections);
+  if (!beam.material.empty()) check_reference(subject, "material", "material", beam.material, names.materials);
+  check_section_of_beam(part, beam, subject);
+  if (!beam.on.empty()) return check_group_names(part, names, beam.on, "on", subject);
+  check_place(part, names, beam.from, "from", subject);
+  check_place(part, names, beam.to, "to", subject);
+  check_line_of_beam(part, beam, subject);
 }
 
 void check_modes(const Part& part, Faults& faults) {
   const ModeSelection& modes = part.modes;
+  const Subject subject{"", modes.where, faults};
   if (modes.count < 0)
-    faults.add(modes.where, "modes", fmt::format("modes {} must not be negative", modes.count),
-               "modes: 0 gives Guyan reduction");
+    subject.add("modes", fmt::format("modes {} must not be negative", modes.count), "modes: 0 gives Guyan reduction");
   if (part.double_curvature < 0 || part.double_curvature > 100)
-    faults.add(modes.where, "double_curvature",
-               fmt::format("double_curvature {} must be 0 to 100 shapes", part.double_curvature),
-               "20 hold what plates need");
-  if (modes.cutoff && !(*modes.cutoff > 0.0 && std::isfinite(*modes.cutoff)))
-    faults.add(modes.where, "cutoff", fmt::format("cutoff {:g} must be positive", *modes.cutoff), "");
+    subject.add("double_curvature", fmt::format("double_curvature {} must be 0 to 100 shapes", part.double_curvature),
+                "20 hold what plates need");
+  subject.positive("cutoff", modes.cutoff);
   if (modes.moments && *modes.moments < 0)
-    faults.add(modes.where, "moments", fmt::format("moments {} must not be negative", *modes.moments), "");
+    subject.add("moments", fmt::format("moments {} must not be negative", *modes.moments));
   if (modes.method != ReductionMethod::craig_bampton && (modes.accuracy || modes.moments))
-    faults.add(modes.where, modes.accuracy ? "accuracy" : "moments",
-               fmt::format("'{}' needs modes with the boundary held", modes.accuracy ? "accuracy" : "moments"),
-               "remove it, or write method: craig_bampton");
+    subject.add(modes.accuracy ? "accuracy" : "moments",
+                fmt::format("'{}' needs modes with the boundary held", modes.accuracy ? "accuracy" : "moments"),
+                "remove it, or write method: craig_bampton");
   const bool free_modes = modes.method != ReductionMethod::craig_bampton;
   if (modes.mechanism == Mechanisms::allow && (free_modes || part.modal_body))
-    faults.add(modes.where, "mechanism",
-               free_modes ? "mechanism: allow needs modes with the boundary held"
-                          : "mechanism: allow has no modal body: its modes have stiffness",
-               free_modes ? "write method: craig_bampton" : "remove `modal_body`, or `mechanism`");
+    subject.add("mechanism",
+                free_modes ? "mechanism: allow needs modes with the boundary held"
+                           : "mechanism: allow has no modal body: its modes have stiffness",
+                free_modes ? "write method: craig_bampton" : "remove `modal_body`, or `mechanism`");
   if (!modes.accuracy) return;
   if (modes.moments.value_or(0) > 0)
-    faults.add(modes.where, "moments", "'accuracy' chooses how many moment vectors there are",
-               "remove `moments`, or write moments: 0 for internal modes alone");
+    subject.add("moments", "'accuracy' chooses how many moment vectors there are",
+                "remove `moments`, or write moments: 0 for internal modes alone");
   if (!(modes.accuracy->error > 0.0 && modes.accuracy->error < 1.0))
-    faults.add(modes.where, "error", fmt::format("error {:g} must be between 0 and 1", modes.accuracy->error),
-               "0.001 is a thousandth of each frequency");
-  if (!(modes.accuracy->up_to > 0.0 && std::isfinite(modes.accuracy->up_to)))
-    faults.add(modes.where, "up_to", fmt::format("up_to {:g} must be positive", modes.accuracy->up_to), "");
+    subject.add("error", fmt::format("error {:g} must be between 0 and 1", modes.accuracy->error),
+                "0.001 is a thousandth of each frequency");
+  subject.positive("up_to", modes.accuracy->up_to);
 }
 
 void check_modal_body(const Part& part, PartNames names, Faults& faults) {
   if (!part.modal_body) return;
   const ModalBodyRequest& body = *part.modal_body;
+  const Subject subject{"modal_body", body.where, faults};
   if (body.modes < 1)
-    faults.add(body.where, "modes", fmt::format("modal_body: modes {} must be 1 or more", body.modes),
-               "the superelement beside it, or a rigid body of the scene, has none");
-  if (!(body.damping >= 0.0 && std::isfinite(body.damping)))
-    faults.add(body.where, "damping", fmt::format("modal_body: damping {:g} must not be negative", body.damping), "");
+    subject.add("modes", fmt::format("modes {} must be 1 or more", body.modes),
+                "the superelement beside it, or a rigid body of the scene, has none");
+  subject.not_negative("damping", body.damping);
   int held = 0;
   for (const BoundaryNode& node : part.boundary) names.places.push_back(node.name);
   for (const ModalBodyRequest::Held& place : body.held) {
     held += std::popcount(place.components);
     if (!part.boundary.empty() || part.mesh.file.empty())
-      check_reference("modal_body", "place", place.place, names.places, body.where, "reference", faults);
+      check_reference(subject, "reference", "place", place.place, names.places);
   }
   if (!body.held.empty() && held != 6)
-    faults.add(body.where, "reference", fmt::format("modal_body: {} components are held", held),
-               "hold six: fewer leave the frame loose, more stiffen the body");
+    subject.add("reference", fmt::format("{} components are held", held),
+                "hold six: fewer leave the frame loose, more stiffen the body");
 }
 
 void check_boundary(const Part& part, const PartNames& names, Faults& faults) {
@@ -172,11 +152,9 @@ void check_boundary(const Part& part, const PartNames& names, Faults& faults) {
                "list the points at which it is joined or loaded, boundary: [base, tip]");
   std::vector<std::string> seen;
   for (const BoundaryNode& node : part.boundary) {
-    check_name("boundary node", node.name, node.where, seen, faults);
-    check_place(part, names, node.at, fmt::format("boundary node '{}'", node.name), node.where, "", faults);
-    if (!node.translations && !node.rotations)
-      faults.add(node.where, "", fmt::format("boundary node '{}': keeps neither translations nor rotations", node.name),
-                 "");
+    const Subject subject = check_name("boundary node", node, seen, faults);
+    check_place(part, names, node.at, "", subject);
+    if (!node.translations && !node.rotations) subject.add("", "keeps neither translations nor rotations");
   }
 }
 
@@ -190,10 +168,7 @@ Faults find_faults(const Part& part) {
     faults.add(part.file, "beams", "the part has no elements",
                "give beams, plates, discs, cylinders, extrusions, or a mesh file (mesh: {file: ...})");
   std::vector<std::string> beams;
-  for (const BeamLine& beam : part.beams) {
-    check_name("beam", beam.name, beam.where, beams, faults);
-    check_beam(part, beam, names, faults);
-  }
+  for (const BeamLine& beam : part.beams) check_beam(part, beam, names, check_name("beam", beam, beams, faults));
   check_mesh_and_groups(part, names, faults);
   check_shells(part, names, faults);
   check_attachments(part, names, faults);

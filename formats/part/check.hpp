@@ -30,10 +30,10 @@ void check_shells(const Part& part, const PartNames& names, Faults& faults);
 void check_mesh_and_groups(const Part& part, const PartNames& names, Faults& faults);
 void check_attachments(const Part& part, const PartNames& names, Faults& faults);
 void check_loads(const Part& part, PartNames names, Faults& faults);
-void check_place(const Part& part, const PartNames& names, const Place& place, const std::string& subject,
-                 const std::string& where, const std::string& key, Faults& faults);
+void check_place(const Part& part, const PartNames& names, const Place& place, const std::string& key,
+                 const Subject& subject);
 /// Names of groups: known ones, or any if a mesh file may bring them.
 void check_group_names(const Part& part, const PartNames& names, const std::vector<std::string>& on,
-                       const std::string& subject, const std::string& where, const std::string& key, Faults& faults);
+                       const std::string& key, const Subject& subject);
 
 }  // namespace tisserand::formats

@@ -88,15 +88,15 @@ void read_input(const MapReader& map, InputSpec& input) {
 }
 
 /// Names that can stand in expressions, there with '.' for '/'.
-void check_expression_name(const std::string& noun, const std::string& name, const std::string& where,
-                           std::unordered_set<std::string>& names, Faults& faults) {
-  check_path_name(noun, name, where, names, faults);
+Subject check_expression_name(const std::string& noun, const auto& entry, std::unordered_set<std::string>& names,
+                              Faults& faults) {
+  const Subject subject = check_path_name(noun, entry, names, faults);
+  const std::string& name = entry.name;
   if (name.find('-') != std::string::npos)
-    faults.add(where, "", fmt::format("{} '{}': expressions would read the name as a difference", noun, name),
-               "use _ instead of -");
+    subject.add("", "expressions would read the name as a difference", "use _ instead of -");
   const std::string last = name.substr(name.rfind('/') + 1);
-  if (last == "t" || last == "pi")
-    faults.add(where, "", fmt::format("{} '{}': the name has a meaning in expressions", noun, name), "rename it");
+  if (last == "t" || last == "pi") subject.add("", "the name has a meaning in expressions", "rename it");
+  return subject;
 }
 
 }  // namespace
@@ -144,34 +144,31 @@ void check_channels(const SceneIndex& index, Faults& faults) {
   const Scene& scene = index.scene;
   std::unordered_set<std::string> names;
   for (const InputSpec& input : scene.inputs) {
-    const std::string subject = fmt::format("input '{}'", input.name);
-    check_expression_name("input", input.name, input.where, names, faults);
+    const Subject subject = check_expression_name("input", input, names, faults);
     if (input.table.time.size() < 2)
-      faults.add(input.where, "file", fmt::format("{}: has {} points", subject, input.table.time.size()),
-                 "give at least two");
+      subject.add("file", fmt::format("has {} points", input.table.time.size()), "give at least two");
     else
-      check_time_function(input.table, subject, input.where, "file", faults);
+      check_time_function(input.table, "file", subject);
   }
   std::vector<std::string> tyres;
   for (const TyreSpec& tyre : scene.tyres) tyres.push_back(tyre.name);
   for (const ChannelSpec& channel : scene.channels) {
-    const std::string subject = fmt::format("channel '{}'", channel.name);
-    check_expression_name("channel", channel.name, channel.where, names, faults);
+    const Subject subject = check_expression_name("channel", channel, names, faults);
     switch (channel.kind) {
       case ChannelKind::coordinate:
       case ChannelKind::rate:
-        check_coordinate(channel.coordinate, index, subject, channel.where, "of", faults);
+        check_coordinate(channel.coordinate, index, "of", subject);
         break;
       case ChannelKind::position:
       case ChannelKind::velocity:
-        check_marker(index, channel.a, subject, channel.where, "of", faults);
+        check_marker(index, channel.a, "of", subject);
         break;
       case ChannelKind::distance:
-        check_marker(index, channel.a, subject, channel.where, "a", faults);
-        check_marker(index, channel.b, subject, channel.where, "b", faults);
+        check_marker(index, channel.a, "a", subject);
+        check_marker(index, channel.b, "b", subject);
         break;
       case ChannelKind::tyre:
-        check_reference(subject, "tyre", channel.tyre, tyres, channel.where, "tyre", faults);
+        check_reference(subject, "tyre", "tyre", channel.tyre, tyres);
         break;
     }
   }

@@ -9,32 +9,30 @@
 namespace tisserand::formats {
 
 /// The body and node exist; position and orientation are valid.
-void check_marker(const SceneIndex& scene, const MarkerSpec& marker, const std::string& subject,
-                  const std::string& where, const std::string& key, Faults& faults);
+void check_marker(const SceneIndex& scene, const MarkerSpec& marker, const std::string& key, const Subject& subject);
 
 /// Both markers, on different nodes, and the position and axes that place them.
-void check_marker_pair(const SceneIndex& scene, const MarkerPairSpec& pair, const std::string& subject,
-                       const std::string& where, Faults& faults);
+void check_marker_pair(const SceneIndex& scene, const MarkerPairSpec& pair, const Subject& subject);
 
 /// The joint of the coordinate exists.
-void check_coordinate(const CoordinateRef& coordinate, const SceneIndex& scene, const std::string& subject,
-                      const std::string& where, const std::string& key, Faults& faults);
+void check_coordinate(const CoordinateRef& coordinate, const SceneIndex& scene, const std::string& key,
+                      const Subject& subject);
 
 /// Sizes of a solid, ending of a file.
-void check_shape(const ShapeSpec& shape, const std::string& subject, Faults& faults);
+void check_shape(const ShapeSpec& shape, const Subject& subject);
 
 /// Channels and inputs; their names share one list.
 void check_channels(const SceneIndex& scene, Faults& faults);
 
 /// Of a joint that has one.
-void check_friction(const JointSpec& joint, const std::string& subject, Faults& faults);
+void check_friction(const JointSpec& joint, const Subject& subject);
 void check_initial(const SceneIndex& scene, const InitialSpec& initial, Faults& faults);
-void check_spring(const SceneIndex& scene, const SpringSpec& spring, Faults& faults);
-void check_bushing(const SceneIndex& scene, const BushingSpec& bushing, Faults& faults);
-void check_road(const RoadSpec& road, Faults& faults);
-void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, Faults& faults);
-void check_load(const SceneIndex& scene, const LoadSpec& load, Faults& faults);
-void check_part_load(const SceneIndex& scene, const PartLoadSpec& load, Faults& faults);
+void check_spring(const SceneIndex& scene, const SpringSpec& spring, const Subject& subject);
+void check_bushing(const SceneIndex& scene, const BushingSpec& bushing, const Subject& subject);
+void check_road(const RoadSpec& road, const Subject& subject);
+void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, const Subject& subject);
+void check_load(const SceneIndex& scene, const LoadSpec& load, const Subject& subject);
+void check_part_load(const SceneIndex& scene, const PartLoadSpec& load, const Subject& subject);
 
 /// Ranges of integrator, statics, output and initial_tolerance; the times of the integrator only in dynamics.
 void check_settings(const Scene& scene, Faults& faults);

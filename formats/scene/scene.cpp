@@ -11,6 +11,7 @@
 #include "formats/scene/reader.hpp"
 #include "formats/sections/reader.hpp"
 #include "formats/yaml/fields.hpp"
+#include "formats/yaml/name_check.hpp"
 #include "formats/yaml/units_reader.hpp"
 
 namespace tisserand::formats {
@@ -189,7 +190,7 @@ DrawnScene read_drawn_scene(const std::string& text, const std::string& file) {
   read_roads(map, definitions, drawn.roads);
   read_tyres(map, definitions, drawn.tyres);
   Faults faults;
-  for (const RoadSpec& road : drawn.roads) check_road(road, faults);
+  for (const RoadSpec& road : drawn.roads) check_road(road, subject_of("road", road, faults));
   reader.raise(faults);
   return drawn;
 }

@@ -11,32 +11,16 @@ namespace tisserand::formats {
 
 namespace {
 
-/// The settings of one group in messages and keys.
-struct Group {
-  const std::string& where;
-  std::string name;  ///< "integrator", or "" for the top level
-  Faults& faults;
+/// A group of settings of the scene or one analysis: "integrator".
+Subject settings(const std::string& group, const std::string& where, Faults& faults) {
+  return {group, where, faults, group + "."};
+}
 
-  void add(const std::string& key, const std::string& what, const std::string& remedy) const {
-    faults.add(where, name.empty() ? key : name + "." + key, name.empty() ? what : name + ": " + what, remedy);
-  }
-  void positive(const std::string& key, double value) const {
-    if (!(value > 0.0) || !std::isfinite(value)) add(key, fmt::format("{} {:g} must be positive", key, value), "");
-  }
-  void between(const std::string& key, double value, double low, double high) const {
-    if (!(value >= low && value <= high))
-      add(key, fmt::format("{} {:g} must lie between {:g} and {:.4g}", key, value, low, high), "");
-  }
-  void at_least(const std::string& key, int value, int low) const {
-    if (value < low) add(key, fmt::format("{} {} must be {} or more", key, value, low), "");
-  }
-};
-
-void check_times(const IntegratorSpec& spec, const Group& group) {
+void check_times(const IntegratorSpec& spec, const Subject& group) {
   group.positive("step", spec.step);
-  if (!std::isfinite(spec.start)) group.add("start", "start must be finite", "");
+  group.finite("start", spec.start);
   if (!(spec.end > spec.start) || !std::isfinite(spec.end)) {
-    group.add("end", fmt::format("end {:g} must be later than start {:g}", spec.end, spec.start), "");
+    group.add("end", fmt::format("end {:g} must be later than start {:g}", spec.end, spec.start));
     return;
   }
   const double steps = (spec.end - spec.start) / spec.step;
@@ -46,7 +30,7 @@ void check_times(const IntegratorSpec& spec, const Group& group) {
               "give a larger step");
 }
 
-void check_accuracy(const IntegratorSpec& spec, const Group& group) {
+void check_accuracy(const IntegratorSpec& spec, const Subject& group) {
   const ErrorControl& control = spec.error_control;
   group.positive("error_control.tolerance", control.tolerance);
   for (const auto& [key, value] : {std::pair{"error_control.absolute", control.absolute},
@@ -54,11 +38,10 @@ void check_accuracy(const IntegratorSpec& spec, const Group& group) {
                                    {"error_control.max_step", control.max_step},
                                    {"baumgarte.alpha", spec.bdf.alpha},
                                    {"baumgarte.beta", spec.bdf.beta}})
-    if (!(value >= 0.0) || !std::isfinite(value))
-      group.add(key, fmt::format("{} {:g} must not be negative", key, value), "");
+    group.not_negative(key, value);
   if (control.max_step > 0.0 && control.max_step < control.min_step)
     group.add("error_control.max_step",
-              fmt::format("max_step {:g} is smaller than min_step {:g}", control.max_step, control.min_step), "");
+              fmt::format("max_step {:g} is smaller than min_step {:g}", control.max_step, control.min_step));
   if (spec.accuracy) {
     group.positive("accuracy.error", spec.accuracy->error);
     if (spec.accuracy->error > 0.5)
@@ -72,8 +55,9 @@ void check_accuracy(const IntegratorSpec& spec, const Group& group) {
 
 /// The settings of the scene, or of one of its analyses, where that stands.
 void check_groups(const Scene& scene, const std::string& where, Faults& faults) {
-  const Group integrator{where, "integrator", faults}, statics{where, "statics", faults},
-      output{where, "output", faults};
+  const Subject integrator = settings("integrator", where, faults), statics = settings("statics", where, faults),
+                output = settings("output", where, faults), modes = settings("modes", where, faults),
+                checkpoint = settings("checkpoint", where, faults);
   const IntegratorSpec& spec = scene.integrator;
   if (takes_steps(scene.analysis)) check_times(spec, integrator);
   check_accuracy(spec, integrator);
@@ -90,8 +74,8 @@ void check_groups(const Scene& scene, const std::string& where, Faults& faults) 
   statics.positive("tolerance", scene.statics.tolerance);
   statics.at_least("max_iterations", scene.statics.max_iterations, 1);
   output.at_least("every", scene.output.every, 1);
-  if (scene.output.interval) output.positive("interval", *scene.output.interval);
-  if (!std::isfinite(scene.output.from)) output.add("from", "from must be finite", "");
+  output.positive("interval", scene.output.interval);
+  output.finite("from", scene.output.from);
   if (takes_steps(scene.analysis) && scene.output.from > spec.end && spec.end > spec.start)
     output.add("from",
                fmt::format("from {:g} is later than the end {:g} of the integrator", scene.output.from, spec.end),
@@ -101,17 +85,16 @@ void check_groups(const Scene& scene, const std::string& where, Faults& faults) 
                "give integrator.step or error_control in its place, or leave it out");
   for (const std::string& channel : scene.output.channels)
     if (channel.empty())
-      output.add("channels", "a channel has no name", "");
+      output.add("channels", "a channel has no name");
     else if (const auto fault = fault_of_selection(channel))
       output.add("channels", fault->first, fault->second);
-  const Group modes{where, "modes", faults}, checkpoint{where, "checkpoint", faults};
   if (const auto& rotation = scene.statics.rotation)
     if (!rotation->angular_velocity.allFinite() || !rotation->about.allFinite())
-      statics.add("rotation", "rotation must be finite", "");
+      statics.add("rotation", "rotation must be finite");
   modes.at_least("count", scene.modes.count, 1);
-  if (scene.modes.rotation && !scene.modes.rotation->allFinite()) modes.add("rotation", "rotation must be finite", "");
-  if (scene.checkpoint.every) checkpoint.at_least("every", *scene.checkpoint.every, 1);
-  if (scene.checkpoint.interval) checkpoint.positive("interval", *scene.checkpoint.interval);
+  if (scene.modes.rotation) modes.finite("rotation", *scene.modes.rotation);
+  checkpoint.at_least("every", scene.checkpoint.every, 1);
+  checkpoint.positive("interval", scene.checkpoint.interval);
   if ((scene.checkpoint.every || scene.checkpoint.interval) && spec.method == Method::bdf &&
       scene.analysis == AnalysisKind::dynamics)
     checkpoint.add(scene.checkpoint.every ? "every" : "interval", "method: bdf writes no checkpoints",
@@ -126,8 +109,8 @@ void check_ledger(const Scene& scene, Faults& faults) {
     dynamics = dynamics || analysis.kind == AnalysisKind::dynamics;
   }
   if (asked && !dynamics)
-    Group{scene.file, "output", faults}.add("ledger", "ledger: only dynamics has a ledger, and no analysis is one",
-                                            "leave it out");
+    settings("output", scene.file, faults)
+        .add("ledger", "ledger: only dynamics has a ledger, and no analysis is one", "leave it out");
 }
 
 }  // namespace
@@ -136,11 +119,11 @@ void check_settings(const Scene& scene, Faults& faults) {
   std::vector<std::string> names;
   check_ledger(scene, faults);
   for (const Analysis& analysis : scene.analyses) {
-    check_name("analysis", analysis.name, analysis.where, names, faults);
+    check_name("analysis", analysis, names, faults);
     check_groups(scene_of(scene, analysis), analysis.where, faults);
   }
   if (scene.analyses.empty()) check_groups(scene, scene.file, faults);
-  Group{scene.file, "", faults}.positive("initial_tolerance", scene.initial_tolerance);
+  Subject{"", scene.file, faults}.positive("initial_tolerance", scene.initial_tolerance);
 }
 
 }  // namespace tisserand::formats

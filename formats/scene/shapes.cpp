@@ -91,46 +91,41 @@ std::vector<ShapeSpec> read_shapes(const MapReader& body, const SceneDefinitions
   return shapes;
 }
 
-void check_shape(const ShapeSpec& shape, const std::string& subject, Faults& faults) {
-  const auto fault = [&](const char* key, const std::string& what, const std::string& remedy) {
-    faults.add(shape.where, fmt::format("shape.{}", key), fmt::format("{}: shape: {}", subject, what), remedy);
-  };
-  const auto positive = [&](const char* key, double value) {
-    if (!(value > 0.0) || !std::isfinite(value)) fault(key, fmt::format("{} {:g} must be positive", key, value), "");
-  };
+void check_shape(const ShapeSpec& shape, const Subject& subject) {
   const auto apart = [&](const char* key, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     if (!a.allFinite() || !b.allFinite() || (b - a).isZero(0.0))
-      fault(key, fmt::format("{}: two points coincide", key), "give points that are apart");
+      subject.add(key, fmt::format("{}: two points coincide", key), "give points that are apart");
   };
-  if (!shape.position.allFinite()) fault("position", "position must be finite", "");
+  subject.finite("position", shape.position);
   switch (shape.kind) {
     case ShapeKind::box:
-      for (const double side : shape.size) positive("size", side);
+      for (const double side : shape.size) subject.positive("size", side);
       return;
     case ShapeKind::sphere:
-      positive("radius", shape.radius);
+      subject.positive("radius", shape.radius);
       return;
     case ShapeKind::cylinder:
-      positive("radius", shape.radius);
+      subject.positive("radius", shape.radius);
       apart("to", shape.from, shape.to);
       return;
     case ShapeKind::cone:
       if (!(shape.radius >= 0.0 && shape.end_radius >= 0.0 && shape.radius + shape.end_radius > 0.0))
-        fault("radius",
-              fmt::format("radii {:g} and {:g} must be positive or one of them 0", shape.radius, shape.end_radius), "");
+        subject.add("radius", fmt::format("radii {:g} and {:g} must be positive or one of them 0", shape.radius,
+                                          shape.end_radius));
       apart("to", shape.from, shape.to);
       return;
     case ShapeKind::tube:
-      positive("radius", shape.radius);
+      subject.positive("radius", shape.radius);
       for (std::size_t i = 1; i < shape.points.size(); ++i) apart("points", shape.points[i - 1], shape.points[i]);
       return;
     case ShapeKind::mesh:
       if (!ends_in(shape.file, ".stl") && !ends_in(shape.file, ".obj") && !shape.file.ends_with(".recovery.h5"))
-        fault("file", fmt::format("'{}' is no .stl, .obj or .recovery.h5 file", shape.file),
-              "export the surface as STL or OBJ, or let `reducer` write the recovery file of a part (recovery: yes)");
+        subject.add(
+            "file", fmt::format("'{}' is no .stl, .obj or .recovery.h5 file", shape.file),
+            "export the surface as STL or OBJ, or let `reducer` write the recovery file of a part (recovery: yes)");
       for (const double factor : shape.scale)
         if (!(factor != 0.0) || !std::isfinite(factor))
-          fault("scale", fmt::format("scale {:g} must not be 0", factor), "1 leaves the sizes of the file");
+          subject.add("scale", fmt::format("scale {:g} must not be 0", factor), "1 leaves the sizes of the file");
       return;
   }
 }

@@ -56,19 +56,17 @@ TimeFunctionSpec read_map(const MapReader& map) {
   return expression;
 }
 
-void check_times(const std::vector<double>& times, const std::string& noun, const std::string& subject,
-                 const std::string& where, const std::string& key, Faults& faults) {
+void check_times(const std::vector<double>& times, const std::string& noun, const std::string& key,
+                 const Subject& subject) {
   for (std::size_t i = 0; i < times.size(); ++i)
     if (!std::isfinite(times[i])) {
-      faults.add(where, key, fmt::format("{}: {} must have finite times", subject, noun), "");
+      subject.add(key, fmt::format("{} must have finite times", noun));
       return;
     }
   for (std::size_t i = 1; i < times.size(); ++i) {
     if (times[i] > times[i - 1]) continue;
-    faults.add(
-        where, key,
-        fmt::format("{}: times of the {} must increase, but {:g} follows {:g}", subject, noun, times[i], times[i - 1]),
-        times[i] == times[i - 1] ? "for a jump, use two close times" : "");
+    subject.add(key, fmt::format("times of the {} must increase, but {:g} follows {:g}", noun, times[i], times[i - 1]),
+                times[i] == times[i - 1] ? "for a jump, use two close times" : "");
     return;
   }
 }
@@ -102,27 +100,21 @@ TimeFunctionSpec read_motion_function(const Context& context, const YamlNode& no
   return function;
 }
 
-void check_time_function(const TimeFunctionSpec& function, const std::string& subject, const std::string& where,
-                         const std::string& key, Faults& faults) {
+void check_time_function(const TimeFunctionSpec& function, const std::string& key, const Subject& subject) {
   if (const double* constant = std::get_if<double>(&function)) {
-    if (!std::isfinite(*constant)) faults.add(where, key, fmt::format("{}: {} must be finite", subject, key), "");
+    subject.finite(key, *constant);
   } else if (const TimeTable* table = std::get_if<TimeTable>(&function)) {
     if (table->time.empty() || table->time.size() != table->value.size()) {
-      faults.add(
-          where, key,
-          fmt::format("{}: the table has {} times and {} values", subject, table->time.size(), table->value.size()),
-          "");
+      subject.add(key, fmt::format("the table has {} times and {} values", table->time.size(), table->value.size()));
       return;
     }
-    check_times(table->time, "table", subject, where, key, faults);
+    check_times(table->time, "table", key, subject);
     for (const double value : table->value)
-      if (!std::isfinite(value))
-        faults.add(where, key, fmt::format("{}: values of the table must be finite", subject), "");
+      if (!std::isfinite(value)) subject.add(key, "values of the table must be finite");
   } else if (const TimeExpression* expression = std::get_if<TimeExpression>(&function)) {
     if (expression->text.find_first_not_of(" \t\n") == std::string::npos)
-      faults.add(where, key, fmt::format("{}: {} is an empty expression", subject, key),
-                 "write an expression in t, or 0");
-    check_times(expression->breakpoints, "breakpoints", subject, where, key, faults);
+      subject.add(key, fmt::format("{} is an empty expression", key), "write an expression in t, or 0");
+    check_times(expression->breakpoints, "breakpoints", key, subject);
   }
 }
 
@@ -143,24 +135,20 @@ CurveSpec read_curve(const Context& context, const YamlNode& node, const std::st
   return curve;
 }
 
-void check_curve(const CurveSpec& curve, const std::string& subject, const std::string& where, const std::string& key,
-                 Faults& faults) {
+void check_curve(const CurveSpec& curve, const std::string& key, const Subject& subject) {
   if (curve.x.size() < 2 || curve.x.size() != curve.y.size()) {
-    faults.add(where, key, fmt::format("{}: the table of {} has {} points", subject, key, curve.x.size()),
-               "give at least two");
+    subject.add(key, fmt::format("the table of {} has {} points", key, curve.x.size()), "give at least two");
     return;
   }
   for (std::size_t i = 0; i < curve.x.size(); ++i)
     if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) {
-      faults.add(where, key, fmt::format("{}: the table of {} must be finite", subject, key), "");
+      subject.add(key, fmt::format("the table of {} must be finite", key));
       return;
     }
   for (std::size_t i = 1; i < curve.x.size(); ++i)
     if (!(curve.x[i] > curve.x[i - 1])) {
-      faults.add(where, key,
-                 fmt::format("{}: the first column of the table of {} must increase, but {:g} follows {:g}", subject,
-                             key, curve.x[i], curve.x[i - 1]),
-                 "");
+      subject.add(key, fmt::format("the first column of the table of {} must increase, but {:g} follows {:g}", key,
+                                   curve.x[i], curve.x[i - 1]));
       return;
     }
 }

@@ -23,15 +23,13 @@ TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node
 TimeFunctionSpec read_motion_function(const Context& context, const YamlNode& node, const std::string& what);
 
 /// Times of a table and breakpoints increase; values are finite; the expression has a text.
-void check_time_function(const TimeFunctionSpec& function, const std::string& subject, const std::string& where,
-                         const std::string& key, Faults& faults);
+void check_time_function(const TimeFunctionSpec& function, const std::string& key, const Subject& subject);
 
 /// {table: [[x, y], ..], interpolation: linear | cubic} or {file: table.csv, ..}.
 CurveSpec read_curve(const Context& context, const YamlNode& node, const std::string& what);
 
 /// At least two points, x increases, values are finite.
-void check_curve(const CurveSpec& curve, const std::string& subject, const std::string& where, const std::string& key,
-                 Faults& faults);
+void check_curve(const CurveSpec& curve, const std::string& key, const Subject& subject);
 
 /// Lists of fields of the maps above.
 std::vector<KeySet> time_function_key_sets();

@@ -180,51 +180,32 @@ void read_tracks(const MapReader& map, const SceneDefinitions& definitions, Road
   road.right = read_track(map, "right", definitions);
 }
 
-/// Adds a finding unless the number is finite and of the sign that is asked for.
-enum class Sign { positive, not_negative };
-struct NumberCheck {
-  const std::string& subject;
-  const std::string& where;
-  Faults& faults;
-  void operator()(double value, const std::string& key, Sign sign) const {
-    if (std::isfinite(value) && (sign == Sign::positive ? value > 0.0 : value >= 0.0)) return;
-    faults.add(where, key,
-               fmt::format("{}: {} {:g} must {}", subject, key, value,
-                           sign == Sign::positive ? "be positive" : "not be negative"),
-               "");
-  }
-};
-
-void check_piece(const RoadPieceSpec& piece, const std::string& subject, const std::string& where, Faults& faults) {
+void check_piece(const RoadPieceSpec& piece, const Subject& subject) {
   if (piece.shape == RoadPieceShape::curve) {
-    check_curve(piece.curve, subject, where, "curve", faults);
+    check_curve(piece.curve, "curve", subject);
     return;
   }
-  const NumberCheck check{subject, where, faults};
-  check(piece.length, "length", Sign::positive);
-  for (const auto& [value, key] : {std::pair{piece.start, "start"}, std::pair{piece.height, "height"}})
-    if (!std::isfinite(value)) faults.add(where, key, fmt::format("{}: {} must be finite", subject, key), "");
+  subject.positive("length", piece.length);
+  subject.finite("start", piece.start);
+  subject.finite("height", piece.height);
   if (piece.shape != RoadPieceShape::trapezoid) return;
-  check(piece.ramp, "ramp", Sign::positive);
+  subject.positive("ramp", piece.ramp);
   if (2.0 * piece.ramp > piece.length)
-    faults.add(where, "ramp",
-               fmt::format("{}: two ramps of {:g} do not fit into the length {:g}", subject, piece.ramp, piece.length),
-               "shorten the ramps, or lengthen the trapezoid");
+    subject.add("ramp", fmt::format("two ramps of {:g} do not fit into the length {:g}", piece.ramp, piece.length),
+                "shorten the ramps, or lengthen the trapezoid");
 }
 
 /// What the scene asks of the file of a tyre.
-void check_properties(const TyreSpec& tyre, const std::string& subject, Faults& faults) {
+void check_properties(const TyreSpec& tyre, const Subject& subject) {
   const MagicFormula& p = tyre.properties->coefficients;
   if (tyre.relaxation && (p.LONGITUDINAL_STIFFNESS <= 0.0 || p.LATERAL_STIFFNESS <= 0.0) &&
       (p.PTX1 == 0.0 || p.PTY1 == 0.0))
-    faults.add(tyre.where, "relaxation",
-               fmt::format("{}: its file has no relaxation lengths (LONGITUDINAL_STIFFNESS and LATERAL_STIFFNESS, or "
-                           "PTX1 and PTY1)",
-                           subject),
-               "write relaxation: no");
+    subject.add("relaxation",
+                "its file has no relaxation lengths (LONGITUDINAL_STIFFNESS and LATERAL_STIFFNESS, or "
+                "PTX1 and PTY1)",
+                "write relaxation: no");
   if (tyre.pressure && p.NOMPRES <= 0.0)
-    faults.add(tyre.where, "pressure", fmt::format("{}: its file knows no inflation pressure (NOMPRES)", subject),
-               "remove it");
+    subject.add("pressure", "its file knows no inflation pressure (NOMPRES)", "remove it");
 }
 
 }  // namespace
@@ -247,68 +228,58 @@ void read_tyres(const MapReader& map, const SceneDefinitions& definitions, std::
   });
 }
 
-void check_road(const RoadSpec& road, Faults& faults) {
-  const std::string subject = fmt::format("road '{}'", road.name);
-  if (!road.pose.position.allFinite())
-    faults.add(road.where, "pose.position", fmt::format("{}: position must be finite", subject), "");
+void check_road(const RoadSpec& road, const Subject& subject) {
+  Subject{subject.name, subject.where, subject.faults, "pose."}.finite("position", road.pose.position);
   if (road.kind == RoadKind::grid || road.kind == RoadKind::crg) {
     const std::string fault = road.heights ? fault_of(*road.heights) : "has no heights";
-    if (!fault.empty()) faults.add(road.where, "file", fmt::format("{}: {}", subject, fault), "correct its grid");
+    if (!fault.empty()) subject.add("file", fmt::format("{}", fault), "correct its grid");
   }
-  NumberCheck{subject, road.where, faults}(road.friction, "friction", Sign::positive);
-  if (road.friction_right)
-    NumberCheck{subject, road.where, faults}(*road.friction_right, "friction_right", Sign::positive);
-  if (road.transition) NumberCheck{subject, road.where, faults}(*road.transition, "transition", Sign::positive);
+  subject.positive("friction", road.friction);
+  subject.positive("friction_right", road.friction_right);
+  subject.positive("transition", road.transition);
   for (const auto* track : {&road.left, &road.right})
     for (const RoadPieceSpec& piece : *track) {
-      if (road.transition || track == &road.left) check_piece(piece, subject, road.where, faults);
+      if (road.transition || track == &road.left) check_piece(piece, subject);
     }
 }
 
-void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, Faults& faults) {
-  const std::string subject = fmt::format("tyre '{}'", tyre.name);
-  check_marker(scene, tyre.wheel, subject, tyre.where, "wheel", faults);
-  if (tyre.wheel.node == "ground")
-    faults.add(tyre.where, "wheel", fmt::format("{}: is on the ground", subject), "name the body of the wheel");
+void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, const Subject& subject) {
+  check_marker(scene, tyre.wheel, "wheel", subject);
+  if (tyre.wheel.node == "ground") subject.add("wheel", "is on the ground", "name the body of the wheel");
   std::vector<std::string> roads;
   for (const RoadSpec& road : scene.scene.roads) roads.push_back(road.name);
-  check_reference(subject, "road", tyre.road, roads, tyre.where, "road", faults);
+  check_reference(subject, "road", "road", tyre.road, roads);
   if (tyre.axis && !(tyre.axis->allFinite() && tyre.axis->stableNorm() > 0.0))
-    faults.add(tyre.where, "axis", fmt::format("{}: axis has zero length or is not finite", subject),
-               "give the direction of the axle, to the left of the wheel: [0, 1, 0]");
+    subject.add("axis", "axis has zero length or is not finite",
+                "give the direction of the axle, to the left of the wheel: [0, 1, 0]");
   if (tyre.axis && tyre.wheel.orientation)
-    faults.add(tyre.where, "axis", fmt::format("{}: axis has no effect, since the marker has an orientation", subject),
-               "remove it, or the orientation: the axle is y of the marker");
-  const NumberCheck check{subject, tyre.where, faults};
-  if (tyre.pressure) check(*tyre.pressure, "pressure", Sign::positive);
+    subject.add("axis", "axis has no effect, since the marker has an orientation",
+                "remove it, or the orientation: the axle is y of the marker");
+  subject.positive("pressure", tyre.pressure);
   if (tyre.kind == TyreKind::magic_formula) {
     if (tyre.properties == nullptr) return;  // told already
     if (tyre.low_speed == 0.0)
-      faults.add(tyre.where, "low_speed",
-                 fmt::format("{}: its file has neither VXLOW nor LONGVL to take low_speed from", subject),
-                 "give low_speed: 0.1 m/s is usual");
+      subject.add("low_speed", "its file has neither VXLOW nor LONGVL to take low_speed from",
+                  "give low_speed: 0.1 m/s is usual");
     else
-      check(tyre.low_speed, "low_speed", Sign::positive);
-    check_properties(tyre, subject, faults);
+      subject.positive("low_speed", tyre.low_speed);
+    check_properties(tyre, subject);
     return;
   }
-  if (tyre.relaxation_length) check(*tyre.relaxation_length, "relaxation_length", Sign::positive);
-  for (const auto& [value, key] :
-       {std::pair{tyre.radius, "radius"}, std::pair{tyre.stiffness, "stiffness"},
-        std::pair{tyre.slip_stiffness, "slip_stiffness"}, std::pair{tyre.cornering_stiffness, "cornering_stiffness"},
-        std::pair{tyre.friction, "friction"}, std::pair{tyre.low_speed, "low_speed"}})
-    check(value, key, Sign::positive);
-  for (const auto& [value, key] :
-       {std::pair{tyre.damping, "damping"}, std::pair{tyre.camber_stiffness, "camber_stiffness"},
-        std::pair{tyre.rolling_resistance, "rolling_resistance"}})
-    check(value, key, Sign::not_negative);
-  if (!tyre.sliding_friction) return;
-  check(*tyre.sliding_friction, "sliding_friction", Sign::positive);
-  if (*tyre.sliding_friction > tyre.friction)
-    faults.add(
-        tyre.where, "sliding_friction",
-        fmt::format("{}: sliding_friction {:g} is above friction {:g}", subject, *tyre.sliding_friction, tyre.friction),
-        "");
+  subject.positive("relaxation_length", tyre.relaxation_length);
+  subject.positive("radius", tyre.radius);
+  subject.positive("stiffness", tyre.stiffness);
+  subject.positive("slip_stiffness", tyre.slip_stiffness);
+  subject.positive("cornering_stiffness", tyre.cornering_stiffness);
+  subject.positive("friction", tyre.friction);
+  subject.positive("low_speed", tyre.low_speed);
+  subject.not_negative("damping", tyre.damping);
+  subject.not_negative("camber_stiffness", tyre.camber_stiffness);
+  subject.not_negative("rolling_resistance", tyre.rolling_resistance);
+  subject.positive("sliding_friction", tyre.sliding_friction);
+  if (tyre.sliding_friction && *tyre.sliding_friction > tyre.friction)
+    subject.add("sliding_friction",
+                fmt::format("sliding_friction {:g} is above friction {:g}", *tyre.sliding_friction, tyre.friction));
 }
 
 std::vector<KeySet> tyre_key_sets() {

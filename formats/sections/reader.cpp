@@ -143,34 +143,23 @@ std::vector<Section> read_sections(const MapReader& map, const Units& units) {
   return sections;
 }
 
-void check_material(const Material& material, const std::string& subject, const std::string& prefix, Faults& faults) {
-  const auto positive = [&](const char* key, double value) {
-    if (!(value > 0.0) || !std::isfinite(value))
-      faults.add(material.where, prefix + key, fmt::format("{}: {} {:g} must be positive", subject, key, value), "");
-  };
-  positive("E", material.youngs_modulus);
-  positive("density", material.density);
+void check_material(const Material& material, const Subject& subject) {
+  subject.positive("E", material.youngs_modulus);
+  subject.positive("density", material.density);
   const double nu = material.poisson_ratio;
-  if (!(nu > -1.0 && nu < 0.5))
-    faults.add(material.where, prefix + "nu", fmt::format("{}: nu {:g} must lie between -1 and 0.5", subject, nu), "");
+  if (!(nu > -1.0 && nu < 0.5)) subject.add("nu", fmt::format("nu {:g} must lie between -1 and 0.5", nu));
 }
 
-void check_section(const Section& section, const std::string& subject, const std::string& prefix, Faults& faults) {
-  const auto positive = [&](const char* key, double value) {
-    if (!(value > 0.0) || !std::isfinite(value))
-      faults.add(section.where, prefix + key, fmt::format("{}: {} {:g} must be positive", subject, key, value), "");
-  };
+void check_section(const Section& section, const Subject& subject) {
   const auto positive_or_zero = [&](const char* key, double value) {
     if (!(value >= 0.0) || !std::isfinite(value))
-      faults.add(section.where, prefix + key, fmt::format("{}: {} {:g} must be positive or 0", subject, key, value),
-                 "");
+      subject.add(key, fmt::format("{} {:g} must be positive or 0", key, value));
   };
   if (section.by_stiffness) {
-    positive("mass_per_length", section.mass_per_length);
+    subject.positive("mass_per_length", section.mass_per_length);
     const double y = section.rotary_inertia_y, z = section.rotary_inertia_z;
     if (!(y >= 0.0 && z >= 0.0 && y + z > 0.0) || !std::isfinite(y + z))
-      faults.add(section.where, prefix + "rotary_inertia",
-                 fmt::format("{}: rotary_inertia [{:g}, {:g}] must be positive", subject, y, z), "");
+      subject.add("rotary_inertia", fmt::format("rotary_inertia [{:g}, {:g}] must be positive", y, z));
   }
   struct Words {
     const char *area, *Iy, *Iz, *J, *shear_y, *shear_z;
@@ -178,32 +167,28 @@ void check_section(const Section& section, const std::string& subject, const std
   const Words words = section.by_stiffness ? Words{"stiffness.EA", "stiffness.EIy", "stiffness.EIz",
                                                    "stiffness.GJ", "stiffness.GAy", "stiffness.GAz"}
                                            : Words{"A", "Iy", "Iz", "J", "shear_area_y", "shear_area_z"};
-  positive(words.area, section.area);
+  subject.positive(words.area, section.area);
   if (section.shape == "rod") {
     positive_or_zero("J", section.torsion_constant);
     return;
   }
-  positive(words.Iy, section.second_moment_y);
-  positive(words.Iz, section.second_moment_z);
-  positive(words.J, section.torsion_constant);
+  subject.positive(words.Iy, section.second_moment_y);
+  subject.positive(words.Iz, section.second_moment_z);
+  subject.positive(words.J, section.torsion_constant);
   const double Iyz = section.second_moment_yz, product = section.second_moment_y * section.second_moment_z;
   if (!(Iyz * Iyz < product) && product > 0.0)
-    faults.add(section.where, prefix + "Iyz",
-               fmt::format("{}: Iyz {:g} is not less than sqrt(Iy Iz) {:g}", subject, Iyz, std::sqrt(product)), "");
+    subject.add("Iyz", fmt::format("Iyz {:g} is not less than sqrt(Iy Iz) {:g}", Iyz, std::sqrt(product)));
   for (const double value : {section.centroid_y, section.centroid_z, section.shear_center_y, section.shear_center_z})
-    if (!std::isfinite(value))
-      faults.add(section.where, "", fmt::format("{}: centroid or shear centre is not finite", subject), "");
+    if (!std::isfinite(value)) subject.add("", "centroid or shear centre is not finite");
   positive_or_zero(words.shear_y, section.shear_area_y);
   positive_or_zero(words.shear_z, section.shear_area_z);
   if ((section.shear_area_y == 0.0) != (section.shear_area_z == 0.0))
-    faults.add(section.where, prefix + (section.shear_area_y == 0.0 ? words.shear_y : words.shear_z),
-               fmt::format("{}: only one of {} is given", subject,
-                           section.by_stiffness ? "GAy and GAz" : "the two shear areas"),
-               "give both, or neither for beams without shear deformation");
+    subject.add((section.shear_area_y == 0.0 ? words.shear_y : words.shear_z),
+                fmt::format("only one of {} is given", section.by_stiffness ? "GAy and GAz" : "the two shear areas"),
+                "give both, or neither for beams without shear deformation");
   const double polar = section.second_moment_y + section.second_moment_z;
   if (polar > 0.0 && std::abs(section.polar_moment - polar) > 1e-9 * polar)
-    faults.add(section.where, "",
-               fmt::format("{}: polar moment {:g} is not Iy + Iz = {:g}", subject, section.polar_moment, polar), "");
+    subject.add("", fmt::format("polar moment {:g} is not Iy + Iz = {:g}", section.polar_moment, polar));
 }
 
 }  // namespace tisserand::formats

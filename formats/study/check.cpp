@@ -68,33 +68,33 @@ void check_axes(const Study& study, const StudySeries& series, Faults& faults) {
                      "remove one");
   }
   if (!study.along.empty())
-    check_reference(fmt::format("along: series '{}'", series.name), "axis", study.along, names(series.axes), study.file,
-                    "along", faults);
+    check_reference({fmt::format("along: series '{}'", series.name), study.file, faults}, "along", "axis", study.along,
+                    names(series.axes));
 }
 
 void check_series(const Study& study, Faults& faults) {
   std::vector<std::string> seen;
   for (const StudySeries& series : study.series) {
-    check_name("series", series.name, series.where, seen, faults);
+    check_name("series", series, seen, faults);
     check_axes(study, series, faults);
     for (const auto& [quantity, channel] : series.channels)
-      check_reference(fmt::format("series '{}': channels", series.name), "quantity", quantity, names(study.quantities),
-                      series.where, "channels", faults);
+      check_reference({fmt::format("series '{}': channels", series.name), series.where, faults}, "channels", "quantity",
+                      quantity, names(study.quantities));
   }
 }
 
 void check_reference_of(const Study& study, Faults& faults) {
   const StudyReference& reference = study.reference;
   for (const auto& [quantity, column] : reference.columns)
-    check_reference("reference: columns", "quantity", quantity, names(study.quantities), "reference", "columns",
-                    faults);
+    check_reference({"reference: columns", "reference", faults}, "columns", "quantity", quantity,
+                    names(study.quantities));
   for (const StudyRun& run : reference.runs) {
     if (!run.series.empty())
-      check_reference("reference", "series", run.series, names(study.series), "reference", "runs", faults);
+      check_reference({"reference", "reference", faults}, "runs", "series", run.series, names(study.series));
     for (const StudySeries& series : study.series)
       if (series.name == run.series || (run.series.empty() && &series == &study.series.front()))
         for (const auto& [axis, value] : run.at)
-          check_reference("reference: at", "axis", axis, names(series.axes), "reference", "runs", faults);
+          check_reference({"reference: at", "reference", faults}, "runs", "axis", axis, names(series.axes));
   }
   if (!reference.file.empty() && reference.source.empty())
     faults.add("reference", "", "reference: the file has no source", "say with 'source' where its numbers come from");
@@ -108,7 +108,7 @@ void find_faults(const Study& study, Faults& faults) {
     faults.add(study.file, "quantities", "the study looks at no quantity", "name a channel in 'quantities'");
   std::vector<std::string> seen;
   for (const StudyQuantity& quantity : study.quantities) {
-    check_name("quantity", quantity.name, quantity.where, seen, faults);
+    check_name("quantity", quantity, seen, faults);
     if (quantity.from && quantity.to && *quantity.from > *quantity.to)
       faults.add(
           quantity.where, "to",

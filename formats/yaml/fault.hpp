@@ -1,6 +1,8 @@
 // What a check finds wrong in a part or scene, before it is known whether there is a file to point into.
 #pragma once
 
+#include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +33,34 @@ struct Faults {
     for (const Fault& fault : list) errors.emplace_back(fault.what, fault.entry, fault.remedy);
     if (!errors.empty()) throw merge_errors(errors);
   }
+};
+
+/// A thing that is checked: how messages call it, the `where` of its entry, and what precedes its keys there.
+struct Subject {
+  std::string name;  ///< "spring 'k1'"; empty: the file
+  std::string where;
+  Faults& faults;
+  std::string prefix = {};
+
+  void add(const std::string& key, const std::string& what, const std::string& remedy = "") const;
+  /// Each adds a finding, "mass -1 must be positive", unless the number is so, and finite.
+  void positive(const std::string& key, std::optional<double> value) const;
+  void not_negative(const std::string& key, std::optional<double> value) const;
+  void between(const std::string& key, double value, double low, double high) const;
+  void at_least(const std::string& key, std::optional<int> value, int low) const;
+  /// The same of a number, vector or matrix that may have any finite value. Whether it has.
+  template <class Value>
+  bool finite(const std::string& key, const Value& value) const {
+    bool is_finite = false;
+    if constexpr (requires { value.allFinite(); })
+      is_finite = value.allFinite();
+    else
+      is_finite = std::isfinite(value);
+    if (!is_finite) add(key, key + " must be finite");
+    return is_finite;
+  }
+  /// A map inside it: "body 'arm': damping", whose keys are "damping.ratio".
+  Subject inside(const std::string& group) const { return {name + ": " + group, where, faults, prefix + group + "."}; }
 };
 
 }  // namespace tisserand::formats

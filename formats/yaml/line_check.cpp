@@ -21,65 +21,53 @@ bool parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 }  // namespace
 
-void check_line(const LineToCheck& line, Faults& faults) {
+void check_line(const LineToCheck& line, const Subject& subject) {
   const Eigen::Vector3d chord = line.to - line.from;
   if (!chord.allFinite()) return;
   const double scale = std::max(line.from.cwiseAbs().maxCoeff(), line.to.cwiseAbs().maxCoeff());
   if (chord.stableNorm() <= 1e-12 * scale) {
-    faults.add(line.where, "",
-               fmt::format("{}: has zero length: both ends are at {}", line.subject, text_of(line.from)),
-               "move one end");
+    subject.add("", fmt::format("has zero length: both ends are at {}", text_of(line.from)), "move one end");
     return;
   }
   if (line.through && line.through->allFinite() &&
       (parallel(*line.through - line.from, chord) || parallel(*line.through - line.to, chord)))
-    faults.add(line.where, "through",
-               fmt::format("{}: the point {} of the arc lies on the line through its ends", line.subject,
-                           text_of(*line.through)),
-               "move it off the line, or remove 'through' for a straight beam");
+    subject.add("through",
+                fmt::format("the point {} of the arc lies on the line through its ends", text_of(*line.through)),
+                "move it off the line, or remove 'through' for a straight beam");
   if (!line.orientation || !line.orientation->allFinite()) return;
   if (line.orientation->stableNorm() == 0.0) {
-    faults.add(line.where, "orientation", fmt::format("{}: orientation has zero length", line.subject),
-               "give the direction of the local y axis");
+    subject.add("orientation", "orientation has zero length", "give the direction of the local y axis");
   } else if (!line.through && parallel(*line.orientation, chord)) {
-    faults.add(line.where, "orientation",
-               fmt::format("{}: orientation {} is parallel to the beam", line.subject, text_of(*line.orientation)),
-               "give a direction across the beam: the local y axis");
+    subject.add("orientation", fmt::format("orientation {} is parallel to the beam", text_of(*line.orientation)),
+                "give a direction across the beam: the local y axis");
   }
 }
 
-void check_mass(const MassToCheck& body, MassSign sign, Faults& faults) {
-  const bool zero_allowed = sign == MassSign::zero_allowed;
-  if (!std::isfinite(body.mass) || body.mass < 0.0 || (body.mass == 0.0 && !zero_allowed))
-    faults.add(
-        body.where, "mass",
-        fmt::format("{}: mass {:g} must {}", body.subject, body.mass, zero_allowed ? "not be negative" : "be positive"),
-        "");
-  if (!body.inertia.allFinite()) {
-    faults.add(body.where, "inertia", fmt::format("{}: inertia must be finite", body.subject), "");
-    return;
-  }
-  const double scale = body.inertia.cwiseAbs().maxCoeff();
+void check_mass(double mass, const Eigen::Matrix3d& inertia, MassSign sign, const Subject& subject) {
+  if (sign == MassSign::zero_allowed)
+    subject.not_negative("mass", mass);
+  else
+    subject.positive("mass", mass);
+  if (!subject.finite("inertia", inertia)) return;
+  const double scale = inertia.cwiseAbs().maxCoeff();
   if (scale == 0.0) return;
-  if ((body.inertia - body.inertia.transpose()).cwiseAbs().maxCoeff() > 1e-9 * scale) {
-    faults.add(body.where, "inertia", fmt::format("{}: inertia is not symmetric", body.subject), "");
+  if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > 1e-9 * scale) {
+    subject.add("inertia", "inertia is not symmetric");
     return;
   }
-  const Eigen::Matrix3d scaled = body.inertia / scale;
+  const Eigen::Matrix3d scaled = inertia / scale;
   const Eigen::Vector3d principal =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
   constexpr double round_off = 1e-9, typed = 1e-3;
   const Eigen::Vector3d shown = scale * principal;
   if (principal[0] < -round_off) {
-    faults.add(body.where, "inertia",
-               fmt::format("{}: inertia has the negative principal moment {:g}", body.subject, shown[0]), "");
+    subject.add("inertia", fmt::format("inertia has the negative principal moment {:g}", shown[0]));
   } else if (principal[2] > principal[0] + principal[1] + typed * principal[2]) {
-    faults.add(
-        body.where, "inertia",
-        fmt::format("{}: principal moments of inertia {:g}, {:g}, {:g}: the largest exceeds the sum of the others, "
-                    "which no body can have",
-                    body.subject, shown[0], shown[1], shown[2]),
-        "check values, order and units");
+    subject.add("inertia",
+                fmt::format("principal moments of inertia {:g}, {:g}, {:g}: the largest exceeds the sum of the others, "
+                            "which no body can have",
+                            shown[0], shown[1], shown[2]),
+                "check values, order and units");
   }
 }
 

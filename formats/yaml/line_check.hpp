@@ -10,10 +10,8 @@
 
 namespace tisserand::formats {
 
-/// A straight line or an arc with its subject in messages ("beam 'rod'") and the `where` of its entry.
+/// A straight line or an arc.
 struct LineToCheck {
-  std::string subject;
-  std::string where;
   Eigen::Vector3d from;
   Eigen::Vector3d to;
   std::optional<Eigen::Vector3d> through;
@@ -22,20 +20,13 @@ struct LineToCheck {
 
 /// Zero length; arc points that coincide or lie on a line; orientation of zero length or, for a straight line, parallel
 /// to the axis. Silent about values that are not numbers.
-void check_line(const LineToCheck& line, Faults& faults);
-
-struct MassToCheck {
-  std::string subject;
-  std::string where;
-  double mass;
-  Eigen::Matrix3d inertia;
-};
+void check_line(const LineToCheck& line, const Subject& subject);
 
 enum class MassSign { positive, zero_allowed };
 
 /// Sign of the mass; inertia finite, symmetric, positive semidefinite, and no principal moment above the sum of the
 /// others by more than 1e-3 of it: four typed digits of a flat body do that.
-void check_mass(const MassToCheck& body, MassSign sign, Faults& faults);
+void check_mass(double mass, const Eigen::Matrix3d& inertia, MassSign sign, const Subject& subject);
 
 /// A sentence where a principal moment exceeds the sum of the others beyond round-off, which no body's does; else
 /// empty.

@@ -33,37 +33,31 @@ bool is_path_name(const std::string& text) {
   return is_name(text.substr(begin));
 }
 
-void tell_bad_name(const std::string& noun, const std::string& name, const std::string& where, Faults& faults) {
-  faults.add(where, "", fmt::format("{} '{}': not a valid name", noun, name),
-             "use letters, digits, _ and -, and begin with a letter or _");
+void tell_bad_name(const Subject& subject) {
+  subject.add("", "not a valid name", "use letters, digits, _ and -, and begin with a letter or _");
 }
 
 }  // namespace
 
-void check_name(const std::string& noun, const std::string& name, const std::string& where,
-                std::vector<std::string>& seen, Faults& faults) {
-  if (!is_name(name)) tell_bad_name(noun, name, where, faults);
-  if (std::ranges::find(seen, name) != seen.end())
-    faults.add(where, "", fmt::format("{} '{}': the name is used twice", noun, name), "rename one");
+void check_name(const Subject& subject, const std::string& name, std::vector<std::string>& seen) {
+  if (!is_name(name)) tell_bad_name(subject);
+  if (std::ranges::find(seen, name) != seen.end()) subject.add("", "the name is used twice", "rename one");
   seen.push_back(name);
 }
 
-void check_path_name(const std::string& noun, const std::string& name, const std::string& where,
-                     std::unordered_set<std::string>& seen, Faults& faults) {
-  if (!is_path_name(name)) tell_bad_name(noun, name, where, faults);
-  if (!seen.insert(name).second)
-    faults.add(where, "", fmt::format("{} '{}': the name is used twice", noun, name), "rename one");
+void check_path_name(const Subject& subject, const std::string& name, std::unordered_set<std::string>& seen) {
+  if (!is_path_name(name)) tell_bad_name(subject);
+  if (!seen.insert(name).second) subject.add("", "the name is used twice", "rename one");
 }
 
-void check_reference(const std::string& subject, const std::string& noun, const std::string& name,
-                     const std::vector<std::string>& known, const std::string& where, const std::string& key,
-                     Faults& faults) {
+void check_reference(const Subject& subject, const std::string& key, const std::string& noun, const std::string& name,
+                     const std::vector<std::string>& known) {
   if (std::ranges::find(known, name) != known.end()) return;
   const auto close = nearest(name, known);
-  faults.add(where, key, fmt::format("{}: there is no {} '{}'", subject, noun, name),
-             close           ? fmt::format("did you mean '{}'?", *close)
-             : known.empty() ? fmt::format("define it; no {} is defined", noun)
-                             : fmt::format("known are {}", listed(known)));
+  subject.add(key, fmt::format("there is no {} '{}'", noun, name),
+              close           ? fmt::format("did you mean '{}'?", *close)
+              : known.empty() ? fmt::format("define it; no {} is defined", noun)
+                              : fmt::format("known are {}", listed(known)));
 }
 
 }  // namespace tisserand::formats

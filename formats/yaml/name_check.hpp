@@ -12,17 +12,34 @@ namespace tisserand::formats {
 /// [A-Za-z_][A-Za-z0-9_-]*
 bool is_name(const std::string& text);
 
-/// A finding if the name of the entry at `where` is not a name or is in `seen`; adds it there. `noun` is "beam".
-void check_name(const std::string& noun, const std::string& name, const std::string& where,
-                std::vector<std::string>& seen, Faults& faults);
+/// An entry of a collection as what its findings are about: "beam 'rod'".
+template <class Entry>
+Subject subject_of(const std::string& noun, const Entry& entry, Faults& faults) {
+  return {noun + " '" + entry.name + "'", entry.where, faults};
+}
+
+/// A finding if the name of the subject is not a name or is in `seen`; adds it there.
+void check_name(const Subject& subject, const std::string& name, std::vector<std::string>& seen);
+/// The same of an entry, as its subject. `noun` is "beam".
+template <class Entry>
+Subject check_name(const std::string& noun, const Entry& entry, std::vector<std::string>& seen, Faults& faults) {
+  Subject subject = subject_of(noun, entry, faults);
+  check_name(subject, entry.name, seen);
+  return subject;
+}
 
 /// The same for names of a scene, which may be paths of instances: "corner_fl/arm", "link[3]/bar".
-void check_path_name(const std::string& noun, const std::string& name, const std::string& where,
-                     std::unordered_set<std::string>& seen, Faults& faults);
+void check_path_name(const Subject& subject, const std::string& name, std::unordered_set<std::string>& seen);
+template <class Entry>
+Subject check_path_name(const std::string& noun, const Entry& entry, std::unordered_set<std::string>& seen,
+                        Faults& faults) {
+  Subject subject = subject_of(noun, entry, faults);
+  check_path_name(subject, entry.name, seen);
+  return subject;
+}
 
 /// A finding if `name` is not in `known`, with the nearest one: "beam 'rod': there is no section 'owm'".
-void check_reference(const std::string& subject, const std::string& noun, const std::string& name,
-                     const std::vector<std::string>& known, const std::string& where, const std::string& key,
-                     Faults& faults);
+void check_reference(const Subject& subject, const std::string& key, const std::string& noun, const std::string& name,
+                     const std::vector<std::string>& known);
 
 }  // namespace tisserand::formats
