@@ -10,7 +10,7 @@
 #include "common/math/rotation.hpp"
 #include "common/text.hpp"
 #include "formats/hdf5/head.hpp"
-#include "formats/modal_body/modal_body.hpp"
+#include "formats/modal_body/arrays.hpp"
 #include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
@@ -87,30 +87,27 @@ void check_finite(const Matrix& values, const std::string& dataset, const FilePl
                    "write finite numbers");
 }
 
+void check_finite(double value, const std::string& dataset, const FilePlace& place) {
+  check_finite(Eigen::Matrix<double, 1, 1>(value), dataset, place);
+}
+template <class Matrix>
+void check_finite(const std::vector<Matrix>& all, const std::string& dataset, const FilePlace& place) {
+  for (std::size_t k = 0; k < all.size(); ++k) check_finite(all[k], fmt::format("{}[{}]", dataset, k), place);
+}
+template <class Array>
+void check_finite(const Blocks<Array>& blocks, const std::string& dataset, const FilePlace& place) {
+  check_finite(blocks.array, dataset, place);
+}
+
 void check_all_finite(const ModalBody& b, const FilePlace& place) {
-  check_finite(b.frame_position, "/frame/position", place);
-  check_finite(b.frame_orientation, "/frame/orientation", place);
+  for_each_array(b, {0, 0, b.residual.node.size()},
+                 [&](const char* dataset, const hdf5::Shape&, const char*, const auto& array) {
+                   check_finite(array, dataset, place);
+                 });
   if (std::abs(b.frame_orientation.norm() - 1.0) > 1e-6)
     place.fail("/frame/orientation",
                fmt::format("has length {}, expected a unit quaternion w x y z", b.frame_orientation.norm()),
                "divide it by its length");
-  check_finite(b.node_position, "/nodes/position", place);
-  check_finite(b.node_mass, "/nodes/mass", place);
-  for (std::size_t k = 0; k < b.node_name.size(); ++k) {
-    check_finite(b.node_inertia[k], fmt::format("/nodes/inertia[{}]", k), place);
-    check_finite(b.X[k], fmt::format("/modes/X[{}]", k), place);
-  }
-  check_finite(b.omega2, "/modes/omega2", place);
-  check_finite(b.zeta, "/modes/zeta", place);
-  const ModalIntegrals& s = b.integrals;
-  check_finite(Eigen::Matrix<double, 1, 1>(s.mass), "/integrals/mass", place);
-  check_finite(s.c0, "/integrals/c0", place);
-  check_finite(s.C1, "/integrals/C1", place);
-  check_finite(s.P0, "/integrals/P0", place);
-  check_finite(s.P1, "/integrals/P1", place);
-  check_finite(s.P2, "/integrals/P2", place);
-  check_finite(s.J_mu, "/integrals/J_mu", place);
-  check_finite(s.N_mu, "/integrals/N_mu", place);
 }
 
 /// Symmetric and positive semidefinite, up to round-off.
@@ -298,7 +295,7 @@ ModalIntegrals integrals_of(const ModalBody& b) {
 
 namespace {
 
-/// Indices, sizes, finite numbers, symmetry.
+/// Indices, sizes, symmetry.
 void check_residual(const ModalBody& body, const FilePlace& place) {
   const ModalResidual& r = body.residual;
   const char* const remedy = "write the answers of formats/MODAL_BODY.md";
@@ -310,11 +307,10 @@ void check_residual(const ModalBody& body, const FilePlace& place) {
     if (r.node[k] < 0 || r.node[k] >= static_cast<int>(body.node_name.size()))
       place.fail(fmt::format("/residual/node[{}]", k), fmt::format("is {}, no row of /nodes/name", r.node[k]), remedy);
     if (r.component[k] < 0 || r.component[k] > 5)
-      place.fail(fmt::format("/residual/component[{}]", k), fmt::format("is {}, expected 0 to 5", r.component[k]), remedy);
+      place.fail(fmt::format("/residual/component[{}]", k), fmt::format("is {}, expected 0 to 5", r.component[k]),
+                 remedy);
   }
-  check_finite(r.coupling, "/residual/coupling", place);
   for (const auto& [matrix, name] : {std::pair{&r.flexibility, "/residual/flexibility"}, {&r.mass, "/residual/mass"}}) {
-    check_finite(*matrix, name, place);
     const double largest = f > 0 ? matrix->cwiseAbs().maxCoeff() : 0.0;
     if (f > 0 && ((*matrix - matrix->transpose()).cwiseAbs().maxCoeff() > integral_tolerance * largest ||
                   matrix->diagonal().minCoeff() < -integral_tolerance * largest))

@@ -9,6 +9,7 @@
 #include "common/sha256.hpp"
 #include "common/text.hpp"
 #include "formats/hdf5/head.hpp"
+#include "formats/modal_body/arrays.hpp"
 
 namespace tisserand::formats {
 namespace {
@@ -48,12 +49,44 @@ std::vector<double> read_values(const hdf5::InputFile& file, const std::string& 
   return values;
 }
 
-Eigen::MatrixXd matrix_of(const std::vector<double>& values, Index rows, Index columns) {
-  return Eigen::Map<const RowMajor>(values.data(), rows, columns);
+// From the values of a file, row by row, to an array of that shape, and back.
+template <class Matrix>
+void take(const double* values, Index rows, Index columns, Matrix& matrix) {
+  matrix = Eigen::Map<const RowMajor>(values, rows, columns);
+}
+template <class Matrix>
+void take(const std::vector<double>& values, const hdf5::Shape& shape, Matrix& matrix) {
+  take(values.data(), static_cast<Index>(shape[0]), shape.size() > 1 ? static_cast<Index>(shape[1]) : 1, matrix);
+}
+void take(const std::vector<double>& values, const hdf5::Shape& /*shape*/, double& number) { number = values[0]; }
+template <class Matrix>
+void take(const std::vector<double>& values, const hdf5::Shape& shape, std::vector<Matrix>& matrices) {
+  matrices.resize(shape[0]);
+  for (std::size_t k = 0; k < shape[0]; ++k)
+    take(values.data() + k * shape[1] * shape[2], static_cast<Index>(shape[1]), static_cast<Index>(shape[2]),
+         matrices[k]);
+}
+template <class Array>
+void take(const std::vector<double>& values, const hdf5::Shape& shape, Blocks<Array>& blocks) {
+  blocks.array.resize(9 * static_cast<Index>(shape[0]), shape.size() > 3 ? static_cast<Index>(shape[1]) : 1);
+  for (std::size_t first = 0; first < values.size(); first += 9)
+    Eigen::Map<Eigen::Matrix3d>(blocks.array.data() + first) = Eigen::Map<const RowMajor>(values.data() + first, 3, 3);
 }
 
-Eigen::Matrix3d matrix3_of(const std::vector<double>& values, std::size_t first) {
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data() + first);
+template <class Matrix>
+void give(const Matrix& matrix, std::vector<double>& values) {
+  for (Index i = 0; i < matrix.rows(); ++i)
+    for (Index j = 0; j < matrix.cols(); ++j) values.push_back(matrix(i, j));
+}
+void give(const double& number, std::vector<double>& values) { values.push_back(number); }
+template <class Matrix>
+void give(const std::vector<Matrix>& matrices, std::vector<double>& values) {
+  for (const Matrix& matrix : matrices) give(matrix, values);
+}
+template <class Array>
+void give(const Blocks<Array>& blocks, std::vector<double>& values) {
+  for (Index first = 0; first < blocks.array.size(); first += 9)
+    give(Eigen::Map<const Eigen::Matrix3d>(blocks.array.data() + first), values);
 }
 
 void read_reference(const hdf5::InputFile& file, ModalBody& body) {
@@ -75,19 +108,6 @@ void read_reference(const hdf5::InputFile& file, ModalBody& body) {
   }
 }
 
-void read_nodes(const hdf5::InputFile& file, std::uint64_t n, std::uint64_t m, ModalBody& body) {
-  const auto rows = static_cast<Index>(n);
-  body.node_name = file.read_texts("/nodes/name", n, "n names of nodes");
-  body.node_position = matrix_of(read_values(file, "/nodes/position", {n, 3}, "n x 3 positions"), rows, 3);
-  body.node_mass = matrix_of(read_values(file, "/nodes/mass", {n}, "n masses"), rows, 1);
-  const std::vector<double> inertia = read_values(file, "/nodes/inertia", {n, 3, 3}, "n x 3 x 3 inertias");
-  const std::vector<double> X = read_values(file, "/modes/X", {n, 6, m}, "n x 6 x m rows of the modes");
-  for (std::size_t k = 0; k < n; ++k) {
-    body.node_inertia.push_back(matrix3_of(inertia, 9 * k));
-    body.X.emplace_back(Eigen::Map<const RowMajor>(X.data() + 6 * m * k, 6, static_cast<Index>(m)));
-  }
-}
-
 ModalResidual read_residual(const hdf5::InputFile& file) {
   ModalResidual residual;
   if (!file.has("/residual/node")) return residual;
@@ -99,34 +119,7 @@ ModalResidual read_residual(const hdf5::InputFile& file) {
     residual.node.push_back(static_cast<int>(std::clamp<std::int64_t>(node[k], -1, max_nodes)));
     residual.component.push_back(static_cast<int>(std::clamp<std::int64_t>(component[k], -1, 6)));
   }
-  const auto n = static_cast<Index>(f);
-  residual.flexibility = matrix_of(read_values(file, "/residual/flexibility", {f, f}, "f x f"), n, n);
-  residual.mass = matrix_of(read_values(file, "/residual/mass", {f, f}, "f x f"), n, n);
-  residual.coupling = matrix_of(read_values(file, "/residual/coupling", {6, f}, "6 x f"), 6, n);
   return residual;
-}
-
-/// Blocks of 3 x 3 stored row by row, as columns of 9 numbers each.
-void blocks_of(const std::vector<double>& values, double* columns) {
-  for (std::size_t first = 0; first < values.size(); first += 9)
-    Eigen::Map<Eigen::Matrix3d>(columns + first) = matrix3_of(values, first);
-}
-
-void read_integrals(const hdf5::InputFile& file, std::uint64_t m, ModalIntegrals& sums) {
-  const auto columns = static_cast<Index>(m);
-  const auto values = [&](const char* name, const hdf5::Shape& shape, const char* meaning) {
-    return read_values(file, std::string("/integrals/") + name, shape, meaning);
-  };
-  sums.mass = values("mass", {1}, "one number")[0];
-  sums.c0 = matrix_of(values("c0", {3}, "three numbers"), 3, 1);
-  sums.C1 = matrix_of(values("C1", {3, m}, "3 x m"), 3, columns);
-  sums.P0 = matrix3_of(values("P0", {3, 3}, "3 x 3"), 0);
-  sums.P1.resize(9 * columns);
-  blocks_of(values("P1", {m, 3, 3}, "m x 3 x 3"), sums.P1.data());
-  sums.P2.resize(9 * columns, columns);
-  blocks_of(values("P2", {m, m, 3, 3}, "m x m x 3 x 3"), sums.P2.data());
-  sums.J_mu = matrix3_of(values("J_mu", {3, 3}, "3 x 3"), 0);
-  sums.N_mu = matrix_of(values("N_mu", {3, m}, "3 x m"), 3, columns);
 }
 
 ModalBody read_unchecked(const std::string& path) {
@@ -138,25 +131,15 @@ ModalBody read_unchecked(const std::string& path) {
   body.units = hdf5::read_units(file);
   body.all_nodes = file.number_attribute("/", "all_nodes") != 0.0;
   read_reference(file, body);
-  body.frame_position = matrix_of(read_values(file, "/frame/position", {3}, "three numbers"), 3, 1);
-  body.frame_orientation = matrix_of(read_values(file, "/frame/orientation", {4}, "w x y z"), 4, 1);
   const std::uint64_t n = bounded_extent(file, "/nodes/name", max_nodes, "n names of nodes");
   const std::uint64_t m = bounded_extent(file, "/modes/omega2", max_modes, "m modes");
-  body.omega2 = matrix_of(read_values(file, "/modes/omega2", {m}, "m modes"), static_cast<Index>(m), 1);
-  body.zeta = matrix_of(read_values(file, "/modes/zeta", {m}, "m modes"), static_cast<Index>(m), 1);
-  read_nodes(file, n, m, body);
-  read_integrals(file, m, body.integrals);
+  body.node_name = file.read_texts("/nodes/name", n, "n names of nodes");
   body.residual = read_residual(file);
+  for_each_array(body, {n, m, body.residual.node.size()},
+                 [&](const char* dataset, const hdf5::Shape& shape, const char* meaning, auto&& array) {
+                   take(read_values(file, dataset, shape, meaning), shape, array);
+                 });
   return body;
-}
-
-/// Columns of 9 numbers as 3 x 3 blocks stored row by row.
-std::vector<double> rows_of(const double* columns, Index count) {
-  std::vector<double> values(static_cast<std::size_t>(count));
-  for (Index first = 0; first < count; first += 9)
-    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values.data() + first) =
-        Eigen::Map<const Eigen::Matrix3d>(columns + first);
-  return values;
 }
 
 void write_head(hdf5::Id file, const ModalBody& body, const std::string& where) {
@@ -168,57 +151,22 @@ void write_head(hdf5::Id file, const ModalBody& body, const std::string& where) 
   hdf5::write_integer_attribute(file, "/", "all_nodes", body.all_nodes ? 1 : 0, where);
   const bool nodes = body.reference == ModalReference::nodes;
   hdf5::write_text_attribute(file, "/", "reference", nodes ? "nodes" : "mean_axis", where);
-  hdf5::write_dataset(file, "/frame/position", {3}, body.frame_position.data(), where);
-  hdf5::write_dataset(file, "/frame/orientation", {4}, body.frame_orientation.data(), where);
   if (!nodes) return;
   hdf5::write_dataset(file, "/reference/node", {6}, body.reference_node.data(), where);
   hdf5::write_dataset(file, "/reference/component", {6}, body.reference_component.data(), where);
 }
 
-void write_nodes(hdf5::Id file, const ModalBody& body, const std::string& where) {
-  const auto n = static_cast<std::uint64_t>(body.node_name.size()), m = static_cast<std::uint64_t>(body.modes());
-  std::vector<double> inertia, X;
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::vector<double> one = rows_of(body.node_inertia[k].data(), 9);
-    inertia.insert(inertia.end(), one.begin(), one.end());
-    const RowMajor rows = body.X[k];
-    X.insert(X.end(), rows.data(), rows.data() + rows.size());
-  }
-  const RowMajor position = body.node_position;
+void write_arrays(hdf5::Id file, const ModalBody& body, const std::string& where) {
+  const ModalSizes sizes{body.node_name.size(), static_cast<std::uint64_t>(body.modes()), body.residual.node.size()};
   hdf5::write_texts(file, "/nodes/name", body.node_name, where);
-  hdf5::write_dataset(file, "/nodes/position", {n, 3}, position.data(), where);
-  hdf5::write_dataset(file, "/nodes/mass", {n}, body.node_mass.data(), where);
-  hdf5::write_dataset(file, "/nodes/inertia", {n, 3, 3}, inertia.data(), where);
-  hdf5::write_dataset(file, "/modes/X", {n, 6, m}, X.data(), where);
-  hdf5::write_dataset(file, "/modes/omega2", {m}, body.omega2.data(), where);
-  hdf5::write_dataset(file, "/modes/zeta", {m}, body.zeta.data(), where);
-}
-
-void write_residual(hdf5::Id file, const ModalResidual& residual, const std::string& where) {
-  const auto f = static_cast<std::uint64_t>(residual.node.size());
-  if (f == 0) return;
-  const RowMajor flexibility = residual.flexibility, mass = residual.mass, coupling = residual.coupling;
-  hdf5::write_dataset(file, "/residual/node", {f}, residual.node.data(), where);
-  hdf5::write_dataset(file, "/residual/component", {f}, residual.component.data(), where);
-  hdf5::write_dataset(file, "/residual/flexibility", {f, f}, flexibility.data(), where);
-  hdf5::write_dataset(file, "/residual/mass", {f, f}, mass.data(), where);
-  hdf5::write_dataset(file, "/residual/coupling", {6, f}, coupling.data(), where);
-}
-
-void write_integrals(hdf5::Id file, const ModalIntegrals& sums, const std::string& where) {
-  const auto m = static_cast<std::uint64_t>(sums.C1.cols());
-  const auto write = [&](const char* name, const hdf5::Shape& shape, const double* values) {
-    hdf5::write_dataset(file, std::string("/integrals/") + name, shape, values, where);
-  };
-  const RowMajor C1 = sums.C1, N_mu = sums.N_mu;
-  write("mass", {1}, &sums.mass);
-  write("c0", {3}, sums.c0.data());
-  write("C1", {3, m}, C1.data());
-  write("P0", {3, 3}, rows_of(sums.P0.data(), 9).data());
-  write("P1", {m, 3, 3}, rows_of(sums.P1.data(), sums.P1.size()).data());
-  write("P2", {m, m, 3, 3}, rows_of(sums.P2.data(), sums.P2.size()).data());
-  write("J_mu", {3, 3}, rows_of(sums.J_mu.data(), 9).data());
-  write("N_mu", {3, m}, N_mu.data());
+  for_each_array(body, sizes, [&](const char* dataset, const hdf5::Shape& shape, const char*, auto&& array) {
+    std::vector<double> values;
+    give(array, values);
+    hdf5::write_dataset(file, dataset, shape, values.data(), where);
+  });
+  if (sizes.f == 0) return;
+  hdf5::write_dataset(file, "/residual/node", {sizes.f}, body.residual.node.data(), where);
+  hdf5::write_dataset(file, "/residual/component", {sizes.f}, body.residual.component.data(), where);
 }
 
 }  // namespace
@@ -250,9 +198,7 @@ std::string modal_body_image(const std::string& path, const ModalBody& body) {
   static_cast<void>(check(body, path));
   hdf5::Handle file = hdf5::create_in_memory(path);
   write_head(file.id(), body, path);
-  write_nodes(file.id(), body, path);
-  write_integrals(file.id(), body.integrals, path);
-  write_residual(file.id(), body.residual, path);
+  write_arrays(file.id(), body, path);
   return hdf5::file_image(std::move(file), path);
 }
 

@@ -25,8 +25,8 @@ struct ModalIntegrals {
 
 enum class ModalReference { nodes, mean_axis };
 
-/// What the modes leave out of the static answers to forces of size 1 at components of some nodes, f of them: w = K⁺ f −
-/// Φ ω⁻² Φᵀ f on the reference.
+/// What the modes leave out of the static answers to forces of size 1 at components of some nodes, f of them: w = K⁺ f
+/// − Φ ω⁻² Φᵀ f on the reference.
 struct ModalResidual {
   std::vector<int> node;        ///< f: rows of node_name
   std::vector<int> component;   ///< f: 0-2 translations, 3-5 rotations, axes of the body frame

@@ -11,6 +11,7 @@ namespace {
 
 constexpr Choice<BeamTheory> theories[] = {{"timoshenko", BeamTheory::timoshenko},
                                            {"euler_bernoulli", BeamTheory::euler_bernoulli}};
+constexpr Choice<bool> rotary_words[] = {{"on", true}, {"off", false}, {"true", true}, {"false", false}};
 constexpr Choice<SpiderType> spider_types[] = {{"rigid", SpiderType::rigid}, {"averaging", SpiderType::averaging}};
 constexpr Choice<SpiderWeights> spider_weights[] = {{"area", SpiderWeights::area}, {"equal", SpiderWeights::equal}};
 
@@ -28,11 +29,9 @@ void read_division(const MapReader& map, BeamLine& beam) {
 /// From ends and division, or on groups of lines.
 void read_line(const MapReader& map, BeamLine& beam, const Part& part) {
   if (const YamlNode* on = map.find("on")) {
-    beam.on = read_name_list(map.context(), *on, "on");
-    for (const char* key : {"from", "to", "through", "elements", "size", "to_section"})
-      if (map.has(key))
-        map.context().fail(map.find(key)->key_place, fmt::format("'{}' beside 'on'", key),
-                           "beams on a group take their lines and elements from it");
+    beam.on = read_texts(map.context(), *on, "on");
+    map.refuse({"from", "to", "through", "elements", "size", "to_section"}, "beside 'on'",
+               "beams on a group take their lines and elements from it");
     return;
   }
   if (const YamlNode* from = map.require("from")) beam.from = read_place(map.context(), *from, "from", part);
@@ -56,30 +55,6 @@ void read_ends(const MapReader& map, BeamLine& beam) {
     const MapReader releases(map.context(), *node, "releases", "releases.");
     beam.releases = {read_components(releases, "start"), read_components(releases, "end")};
   }
-}
-
-BeamLine read_beam(const Context& context, const YamlNode& node, const Part& part) {
-  const MapReader map(context, node, "beam");
-  BeamLine beam;
-  beam.name = node.key;
-  beam.where = context.entry;
-  read_fields(map, beam);
-  read_line(map, beam, part);
-  beam.rotary_inertia =
-      map.choice("rotary_inertia", {Choice<bool>{"on", true}, {"off", false}, {"true", true}, {"false", false}}, true);
-  read_ends(map, beam);
-  return beam;
-}
-
-PointMass read_point_mass(const Context& context, const YamlNode& node, const Part& part) {
-  const MapReader map(context, node, "point_mass");
-  PointMass mass;
-  mass.name = node.key;
-  mass.where = context.entry;
-  if (const YamlNode* at = map.require("at")) mass.at = read_place(context, *at, "at", part);
-  read_fields(map, mass);
-  if (const YamlNode* inertia = map.find("inertia")) mass.inertia = read_inertia(context, *inertia, "inertia");
-  return mass;
 }
 
 /// Six numbers of the diagonal or six rows.
@@ -107,19 +82,6 @@ Eigen::Matrix<double, 6, 6> read_stiffness(const Context& context, const YamlNod
   return stiffness;
 }
 
-SpringLine read_spring(const Context& context, const YamlNode& node, const Part& part) {
-  const MapReader map(context, node, "spring");
-  SpringLine spring;
-  spring.name = node.key;
-  spring.where = context.entry;
-  if (const YamlNode* from = map.require("from")) spring.from = read_place(context, *from, "from", part);
-  if (const YamlNode* to = map.require("to")) spring.to = read_place(context, *to, "to", part);
-  if (const YamlNode* stiffness = map.require("stiffness")) spring.stiffness = read_stiffness(context, *stiffness);
-  if (const YamlNode* axes = map.find("axes"))
-    spring.axes = read_orientation(context, *axes, "axes").toRotationMatrix();
-  return spring;
-}
-
 /// Names of groups or numbers of nodes, one or a list.
 void read_legs(const MapReader& map, SpiderLine& spider) {
   const YamlNode* on = map.require("on");
@@ -135,12 +97,8 @@ void read_legs(const MapReader& map, SpiderLine& spider) {
   for (const YamlNode& item : on->children) add(item);
 }
 
-SpiderLine read_spider(const Context& context, const YamlNode& node, const Part& part) {
-  const MapReader map(context, node, "spider");
-  SpiderLine spider;
-  spider.name = node.key;
-  spider.where = context.entry;
-  read_fields(map, spider);
+void read_spider(const MapReader& map, const Part& part, SpiderLine& spider) {
+  const Context& context = map.context();
   const YamlNode* at = map.find("at");
   if (at == nullptr || (at->kind == YamlKind::scalar && at->text == "centroid"))
     spider.at.kind = PlaceKind::centroid;
@@ -149,7 +107,6 @@ SpiderLine read_spider(const Context& context, const YamlNode& node, const Part&
   read_legs(map, spider);
   if (spider.type == SpiderType::rigid && map.has("weights"))
     context.fail(map.find("weights")->key_place, "a rigid spider has no weights", "remove them, or kind: averaging");
-  return spider;
 }
 
 void keep(BoundaryNode& boundary, std::size_t kind) {
@@ -210,12 +167,9 @@ unsigned read_component_bits(const Context& context, const YamlNode& node, const
 void read_modal_body(const MapReader& map, Part& part) {
   const YamlNode* node = map.find("modal_body");
   if (node == nullptr) return;
-  YamlReader& reader = map.context().reader;
-  const Context context{reader, "modal_body", reader.where(node->key_place)};
-  reader.note_place(context.entry, node->key_place);
-  const MapReader own(context, *node, "modal_body");
+  const MapReader own(key_context(map.context().reader, *node), *node, "modal_body");
   ModalBodyRequest& body = part.modal_body.emplace();
-  body.where = context.entry;
+  body.where = own.context().entry;
   read_fields(own, body);
   body.held = read_reference(own);
   body.all_nodes = own.choice("nodes", {Choice<bool>{"boundary", false}, {"all", true}}, false);
@@ -258,11 +212,14 @@ std::vector<KeySet> attachment_key_sets() {
        {{"at", "at", "place", "required"},
         plain<&PointMass::offset>("offset", "vector", "from the place to the centre of mass, in part axes [length]"),
         plain<&PointMass::mass>("mass", "not_negative", "not negative [mass]", "required"),
-        {"inertia", "inertia_tensor",
-         "about the centre of mass, in part axes [mass length²]: `[Ixx, Iyy, Izz]`, `[Ixx, Iyy, Izz, Ixy, Ixz, Iyz]`, "
-         "or three rows. Off-diagonal numbers are entries of the tensor: Ixy = -∫ x y dm. Positive semidefinite, and "
-         "no principal moment larger than the sum of the other two by more than 1e-3 (up to that a note: typed digits)",
-         "0"}}},
+        plain<&PointMass::inertia>("inertia", "inertia_tensor",
+                                   "about the centre of mass, in part axes [mass length²]: `[Ixx, Iyy, Izz]`, `[Ixx, "
+                                   "Iyy, Izz, Ixy, Ixz, Iyz]`, "
+                                   "or three rows. Off-diagonal numbers are entries of the tensor: Ixy = -∫ x y dm. "
+                                   "Positive semidefinite, and "
+                                   "no principal moment larger than the sum of the other two by more than 1e-3 (up to "
+                                   "that a note: typed digits)",
+                                   "0")}},
       {"spring",
        {{"from", "at", "two places", "required"},
         {"to", "at", ditto},
@@ -306,18 +263,26 @@ std::vector<KeySet> attachment_key_sets() {
 }
 
 void read_beams(const MapReader& map, Part& part) {
-  for (const YamlNode* node : map.entries("beams", "beam"))
-    part.beams.push_back(read_beam(entry_context(map.context().reader, "beam", *node), *node, part));
+  read_entries(map, "beams", "beam", part.beams, [&](const MapReader& inner, BeamLine& beam) {
+    read_line(inner, beam, part);
+    beam.rotary_inertia = inner.choice("rotary_inertia", rotary_words, true);
+    read_ends(inner, beam);
+  });
 }
 
-void read_attachments(const MapReader& map, Part& part) {
-  YamlReader& reader = map.context().reader;
-  for (const YamlNode* node : map.entries("point_masses", "point mass"))
-    part.point_masses.push_back(read_point_mass(entry_context(reader, "point mass", *node), *node, part));
-  for (const YamlNode* node : map.entries("springs", "spring"))
-    part.springs.push_back(read_spring(entry_context(reader, "spring", *node), *node, part));
-  for (const YamlNode* node : map.entries("spiders", "spider"))
-    part.spiders.push_back(read_spider(entry_context(reader, "spider", *node), *node, part));
+void read_attachments(const MapReader& top, Part& part) {
+  read_entries(top, "point_masses", "point mass", part.point_masses, [&](const MapReader& map, PointMass& mass) {
+    if (const YamlNode* at = map.require("at")) mass.at = read_place(map.context(), *at, "at", part);
+  });
+  read_entries(top, "springs", "spring", part.springs, [&](const MapReader& map, SpringLine& spring) {
+    if (const YamlNode* from = map.require("from")) spring.from = read_place(map.context(), *from, "from", part);
+    if (const YamlNode* to = map.require("to")) spring.to = read_place(map.context(), *to, "to", part);
+    if (const YamlNode* node = map.require("stiffness")) spring.stiffness = read_stiffness(map.context(), *node);
+    if (const YamlNode* axes = map.find("axes"))
+      spring.axes = read_orientation(map.context(), *axes, "axes").toRotationMatrix();
+  });
+  read_entries(top, "spiders", "spider", part.spiders,
+               [&](const MapReader& map, SpiderLine& spider) { read_spider(map, part, spider); });
 }
 
 void read_boundary(const MapReader& map, Part& part) {

@@ -69,7 +69,7 @@ Support read_support(const Context& context, const YamlNode& node, const Part& p
     placed = read_where(map, part, support.at);
     if (const YamlNode* on = map.find("on")) {
       if (placed) context.fail(on->key_place, "both 'on' and a place are given", "give one of them");
-      support.on = read_name_list(context, *on, "on");
+      support.on = read_texts(context, *on, "on");
       placed = true;
     }
   }

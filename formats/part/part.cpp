@@ -65,9 +65,7 @@ ModeSelection read_modes(const MapReader& map) {
   if (const YamlNode* node = map.find("eigensolver"))
     modes.eigensolver_where = map.context().reader.where(node->key_place);
   if (const YamlNode* node = map.find("accuracy")) {
-    YamlReader& reader = map.context().reader;
-    const Context context{reader, "accuracy", reader.where(node->key_place)};
-    reader.note_place(context.entry, node->key_place);
+    const Context context = key_context(map.context().reader, *node);
     read_fields(MapReader(context, *node, "accuracy"), modes.accuracy.emplace());
     modes.where = context.entry;
   }
@@ -81,8 +79,7 @@ Part read_tree(YamlReader& reader, const std::string& path) {
   part.file = path;
   read_fields(map, part);
   if (part.double_curvature > 0 && part.second_order == SecondOrder::no)
-    context.fail(map.find("double_curvature")->key_place, "'double_curvature' has no effect with second_order: no",
-                 "remove one of them");
+    map.refuse({"double_curvature"}, "has no effect with second_order: no", "remove one of them");
   part.units = read_units(map);
   read_part_materials(map, part);
   part.sections = read_sections(map, part.units);
@@ -97,8 +94,7 @@ Part read_tree(YamlReader& reader, const std::string& path) {
   part.modes = read_modes(map);
   read_modal_body(map, part);
   read_loads(map, part);
-  part.recovery =
-      map.choice("recovery", {Choice<bool>{"yes", true}, {"no", false}, {"true", true}, {"false", false}}, false);
+  part.recovery = map.choice("recovery", yes_or_no, false);
   return part;
 }
 
@@ -173,7 +169,8 @@ std::vector<Field> part_fields() {
                                                       "`yes` while the file stays below 20 MB"),
       plain<&Part::double_curvature>(
           "double_curvature", "integer>=0<=100",
-          "in the companion file also the membrane stress that bending into double curvature traps (plates that bend by "
+          "in the companion file also the membrane stress that bending into double curvature traps (plates that bend "
+          "by "
           "their thickness and more), of all pairs of so many lowest elastic modes of the free reduced part; 0: none",
           "0"),
       {"modal_body", "modal_body",

@@ -1,7 +1,6 @@
 // Points, places, groups and the mesh file of part.yaml.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 #include "formats/part/reader.hpp"
@@ -69,29 +68,14 @@ void read_numbered(const MapReader& map, GroupDefinition& group) {
       ++kinds;
     }
   if (kinds > 1) map.fail("entities of different kinds are given", "make one group of each kind");
-  if (kinds == 1 && map.has("of"))
-    map.context().fail(map.find("of")->key_place, "'of' beside numbers of entities",
-                       "remove it: the key says what they are");
+  if (kinds == 1) map.refuse({"of"}, "beside numbers of entities", "remove it: the key says what they are");
 }
 
-GroupDefinition read_group(const Context& context, const YamlNode& node, const Part& part) {
-  const MapReader map(context, node, "group");
-  GroupDefinition group;
-  group.name = node.key;
-  group.where = context.entry;
-  read_fields(map, group);
+void read_group(const MapReader& map, const Part& part, GroupDefinition& group) {
   read_numbered(map, group);
-  if (const YamlNode* names = map.find("groups")) group.groups = read_name_list(context, *names, "groups");
   if (map.has("box")) group.box = read_box(map);
   if (map.has("cylinder")) group.cylinder = read_bore(map, part);
-  if (const YamlNode* near = map.find("near")) group.near = read_position(context, *near, "near", part);
-  return group;
-}
-
-std::string resolved(const std::string& file, const std::string& part_file) {
-  const std::filesystem::path path(file);
-  return path.is_absolute() ? file
-                            : (std::filesystem::path(part_file).parent_path() / path).lexically_normal().string();
+  if (const YamlNode* near = map.find("near")) group.near = read_position(map.context(), *near, "near", part);
 }
 
 }  // namespace
@@ -115,8 +99,7 @@ Place read_place_keys(const MapReader& map, const Part& part) {
   if (given != 1)
     map.fail(given == 0 ? "none of 'node', 'near', 'centroid' is given" : "more than one of 'node', 'near', 'centroid'",
              "give one: {near: [x, y, z]}");
-  if (map.has("tolerance") && !map.has("near"))
-    map.context().fail(map.find("tolerance")->key_place, "'tolerance' without 'near'", "remove it");
+  if (!map.has("near")) map.refuse({"tolerance"}, "without 'near'", "remove it");
   if (const YamlNode* node = map.find("node")) {
     place.kind = PlaceKind::node;
     place.node = read_integer(map.context(), *node, "node").value_or(0);
@@ -143,13 +126,6 @@ Place read_place(const Context& context, const YamlNode& node, const std::string
   }
   place.name = read_text(context, node, what);
   return place;
-}
-
-std::vector<std::string> read_name_list(const Context& context, const YamlNode& node, const std::string& what) {
-  if (node.kind != YamlKind::sequence) return {read_text(context, node, what)};
-  std::vector<std::string> names;
-  for (const YamlNode& item : node.children) names.push_back(read_text(context, item, what));
-  return names;
 }
 
 double read_angle(const MapReader& map, double fallback) {
@@ -179,13 +155,13 @@ std::vector<KeySet> place_key_sets() {
             "unknown", "decks: `refuse` or `ignore` cards that are not understood; ignored ones are listed"),
         choice<&MeshFile::coincident, coincident_ways>(
             "coincident", "nodes at one place that nothing connects: `report`, or `merge` into one"),
-        {"ignore", "text_list", "groups that need no property", "none"}}},
+        plain<&MeshFile::ignore>("ignore", "text_list", "groups that need no property", "none")}},
       {"group",
        {{"faces", "numbers", "numbers of a geometry, one of these keys", "-"},
         {"edges", "numbers", ditto},
         {"volumes", "numbers", ditto},
         {"nodes", "numbers", "numbers of the mesh file", "-"},
-        {"groups", "text_list", "names of other groups", "-"},
+        plain<&GroupDefinition::groups>("groups", "text_list", "names of other groups", "-"),
         choice<&GroupDefinition::of, dimensions>(
             "of", "what `box`, `cylinder`, `near` select: `nodes`, `edges`, `faces`, `volumes`"),
         {"box", "[vector]2", "two corners: what lies whole inside", "-"},
@@ -223,25 +199,24 @@ void read_part_points(const MapReader& map, Part& part) {
 }
 
 void read_groups(const MapReader& map, Part& part) {
-  for (const YamlNode* node : map.entries("groups", "group"))
-    part.groups.push_back(read_group(entry_context(map.context().reader, "group", *node), *node, part));
+  read_entries(map, "groups", "group", part.groups,
+               [&](const MapReader& inner, GroupDefinition& group) { read_group(inner, part, group); });
 }
 
 void read_mesh_file(const MapReader& top, Part& part) {
   const YamlNode* node = top.find("mesh");
   if (node == nullptr) return;
   YamlReader& reader = top.context().reader;
-  const Context context{reader, "mesh", reader.where(node->key_place)};
-  reader.note_place(context.entry, node->key_place);
+  const Context context = key_context(reader, *node);
   const MapReader map(context, *node, "mesh");
   MeshFile& mesh = part.mesh;
   mesh.where = context.entry;
   read_fields(map, mesh);
-  if (!mesh.file.empty()) mesh.file = resolved(mesh.file, part.file);
+  if (!mesh.file.empty() && mesh.file.front() != '/')
+    mesh.file = (reader.folder() / mesh.file).lexically_normal().string();
   for (const YamlNode* entry : map.entries("sizes", "group"))
     mesh.sizes.push_back({entry->key, read_number(context, *entry, "size"), reader.where(entry->key_place)});
   if (map.has("cells")) mesh.cells = map.choice("cells", cell_words, Cells::quadrilaterals);
-  if (const YamlNode* ignored = map.find("ignore")) mesh.ignore = read_name_list(context, *ignored, "ignore");
 }
 
 }  // namespace tisserand::formats

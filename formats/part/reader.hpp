@@ -25,8 +25,6 @@ Place read_place(const Context& context, const YamlNode& node, const std::string
 /// The keys node, near, tolerance, centroid of a map that has just one of the three.
 Place read_place_keys(const MapReader& map, const Part& part);
 
-/// A name or a list of names.
-std::vector<std::string> read_name_list(const Context& context, const YamlNode& node, const std::string& what);
 /// One of x, y, z, rx, ry, rz, or a list of them; bit 0-2 translations, bit 3-5 rotations.
 unsigned read_component_bits(const Context& context, const YamlNode& node, const std::string& what);
 /// An angle in degrees, as radians; `fallback` in radians.

@@ -13,15 +13,6 @@ namespace tisserand::formats {
 
 namespace {
 
-OrthotropicMaterial read_orthotropic(const Context& context, const YamlNode& node) {
-  const MapReader map(context, node, "material_orthotropic");
-  OrthotropicMaterial material;
-  material.name = node.key;
-  material.where = context.entry;
-  read_fields(map, material);
-  return material;
-}
-
 std::vector<Ply> read_plies(const MapReader& map) {
   std::vector<Ply> plies;
   const YamlNode& list = *map.find("laminate");
@@ -43,9 +34,7 @@ ShellLayout read_layout(const MapReader& map) {
   ShellLayout layout;
   if (map.has("laminate")) {
     for (const char* key : {"thickness", "material"})
-      if (map.has(key))
-        map.context().fail(map.find(key)->key_place, fmt::format("both 'laminate' and '{}' are given", key),
-                           "give the plies, or thickness and material");
+      map.refuse_both("laminate", key, "give the plies, or thickness and material");
     layout.plies = read_plies(map);
     for (const Ply& ply : layout.plies) layout.thickness += ply.thickness;
   } else {
@@ -138,17 +127,11 @@ void read_division(const MapReader& map, ShellPatch& patch) {
 
 template <class Read>
 void read_patches_of(const MapReader& top, const char* key, const char* noun, Part& part, Read read) {
-  for (const YamlNode* node : top.entries(key, noun)) {
-    const MapReader map(entry_context(top.context().reader, noun, *node), *node, noun);
-    ShellPatch patch;
-    patch.name = node->key;
-    patch.where = map.context().entry;
+  read_entries(top, key, noun, part.patches, [&](const MapReader& map, ShellPatch& patch) {
     patch.shape = read(map, part);
-    read_fields(map, patch);
     read_division(map, patch);
     if (has_layout(map)) patch.layout = read_layout(map);
-    part.patches.push_back(std::move(patch));
-  }
+  });
 }
 
 std::vector<Field> layout_fields() {
@@ -219,31 +202,32 @@ std::vector<KeySet> patch_key_sets() {
 }
 
 std::vector<KeySet> shell_key_sets() {
-  return {{"material_orthotropic",
-           {plain<&OrthotropicMaterial::E1>("E1", "positive", "Young's moduli along and across the fibres", "required"),
-            plain<&OrthotropicMaterial::E2>("E2", "positive", ditto),
-            plain<&OrthotropicMaterial::nu12>("nu12", "number",
-                                              "contraction along 2 under tension along 1, nu12² < E1/E2", "required"),
-            plain<&OrthotropicMaterial::G12>("G12", "positive", "shear moduli", "required"),
-            plain<&OrthotropicMaterial::G13>("G13", "positive", ditto),
-            plain<&OrthotropicMaterial::G23>("G23", "positive", ditto),
-            plain<&OrthotropicMaterial::density>("density", "positive", "[mass/length³]", "required")}},
-          {"ply",
-           {plain<&Ply::material>("material", "name", "", "required"),
-            plain<&Ply::thickness>("thickness", "positive", "", "required"),
-            {"angle_deg", "number", ""}}},
-          {"shell", {{"on", "text_list", "groups of faces, or `all`", "required"}}, layout_fields()},
-          {"solid",
-           {{"on", "text_list", "groups of volumes, or `all`", "required"},
-            plain<&SolidGroup::material>("material", "name", "isotropic", "required"),
-            choice<&SolidGroup::mass_matrix, mass_matrices>("mass_matrix", "`consistent` or `lumped`")}}};
+  return {
+      {"material_orthotropic",
+       {plain<&OrthotropicMaterial::E1>("E1", "positive", "Young's moduli along and across the fibres", "required"),
+        plain<&OrthotropicMaterial::E2>("E2", "positive", ditto),
+        plain<&OrthotropicMaterial::nu12>("nu12", "number", "contraction along 2 under tension along 1, nu12² < E1/E2",
+                                          "required"),
+        plain<&OrthotropicMaterial::G12>("G12", "positive", "shear moduli", "required"),
+        plain<&OrthotropicMaterial::G13>("G13", "positive", ditto),
+        plain<&OrthotropicMaterial::G23>("G23", "positive", ditto),
+        plain<&OrthotropicMaterial::density>("density", "positive", "[mass/length³]", "required")}},
+      {"ply",
+       {plain<&Ply::material>("material", "name", "", "required"),
+        plain<&Ply::thickness>("thickness", "positive", "", "required"),
+        {"angle_deg", "number", ""}}},
+      {"shell", {plain<&ShellGroup::on>("on", "text_list", "groups of faces, or `all`", "required")}, layout_fields()},
+      {"solid",
+       {plain<&SolidGroup::on>("on", "text_list", "groups of volumes, or `all`", "required"),
+        plain<&SolidGroup::material>("material", "name", "isotropic", "required"),
+        choice<&SolidGroup::mass_matrix, mass_matrices>("mass_matrix", "`consistent` or `lumped`")}}};
 }
 
 void read_part_materials(const MapReader& map, Part& part) {
   for (const YamlNode* node : map.entries("materials", "material")) {
     const Context context = entry_context(map.context().reader, "material", *node);
     if (find_child(*node, "E1") != nullptr || find_child(*node, "E2") != nullptr)
-      part.orthotropic.push_back(read_orthotropic(context, *node));
+      part.orthotropic.push_back(read_entry<OrthotropicMaterial>(MapReader(context, *node, "material_orthotropic")));
     else
       part.materials.push_back(read_material(context, *node, ""));
   }
@@ -257,24 +241,9 @@ void read_patches(const MapReader& map, Part& part) {
 }
 
 void read_shells_and_solids(const MapReader& top, Part& part) {
-  for (const YamlNode* node : top.entries("shells", "shell")) {
-    const MapReader map(entry_context(top.context().reader, "shell", *node), *node, "shell");
-    ShellGroup shell;
-    shell.name = node->key;
-    shell.where = map.context().entry;
-    if (const YamlNode* on = map.require("on")) shell.on = read_name_list(map.context(), *on, "on");
-    shell.layout = read_layout(map);
-    part.shells.push_back(std::move(shell));
-  }
-  for (const YamlNode* node : top.entries("solids", "solid")) {
-    const MapReader map(entry_context(top.context().reader, "solid", *node), *node, "solid");
-    SolidGroup solid;
-    solid.name = node->key;
-    solid.where = map.context().entry;
-    if (const YamlNode* on = map.require("on")) solid.on = read_name_list(map.context(), *on, "on");
-    read_fields(map, solid);
-    part.solids.push_back(std::move(solid));
-  }
+  read_entries(top, "shells", "shell", part.shells,
+               [](const MapReader& map, ShellGroup& shell) { shell.layout = read_layout(map); });
+  read_entries(top, "solids", "solid", part.solids);
 }
 
 }  // namespace tisserand::formats

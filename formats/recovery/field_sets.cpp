@@ -8,66 +8,45 @@
 namespace tisserand::formats {
 namespace {
 
-const char* dataset_of(RecoveryField field) {
+/// Below the groups of shapes and stresses, of inertia loads and of applied loads.
+std::string name_of(RecoveryField field) {
   switch (field) {
     case RecoveryField::translation:
-      return "/shapes/translation";
+      return "translation";
     case RecoveryField::rotation:
-      return "/shapes/rotation";
+      return "rotation";
     case RecoveryField::beam_force:
-      return "/stress/beam_force";
+      return "beam_force";
     case RecoveryField::shell_stress:
-      return "/stress/shell";
+      return "shell";
     case RecoveryField::solid_stress:
-      return "/stress/solid";
+      return "solid";
   }
   TISSERAND_ENSURE(false, "recovery field {}", static_cast<int>(field));
 }
 
-const char* loads_dataset_of(RecoveryField field) {
-  switch (field) {
-    case RecoveryField::translation:
-      return "/loads/translation";
-    case RecoveryField::rotation:
-      return "/loads/rotation";
-    case RecoveryField::beam_force:
-      return "/loads/beam_force";
-    case RecoveryField::shell_stress:
-      return "/loads/shell";
-    case RecoveryField::solid_stress:
-      return "/loads/solid";
-  }
-  TISSERAND_ENSURE(false, "recovery field {}", static_cast<int>(field));
-}
-
-const char* forces_dataset_of(NodalForce force) {
+std::string name_of(NodalForce force) {
   switch (force) {
     case NodalForce::load_force:
-      return "/loads/force";
+      return "force";
     case NodalForce::load_moment:
-      return "/loads/moment";
+      return "moment";
     case NodalForce::mode_force:
-      return "/loads/mode_force";
+      return "mode_force";
     case NodalForce::mode_moment:
-      return "/loads/mode_moment";
+      return "mode_moment";
   }
   TISSERAND_ENSURE(false, "nodal force {}", static_cast<int>(force));
 }
 
-const char* applied_dataset_of(RecoveryField field) {
-  switch (field) {
-    case RecoveryField::translation:
-      return "/applied/translation";
-    case RecoveryField::rotation:
-      return "/applied/rotation";
-    case RecoveryField::beam_force:
-      return "/applied/beam_force";
-    case RecoveryField::shell_stress:
-      return "/applied/shell";
-    case RecoveryField::solid_stress:
-      return "/applied/solid";
-  }
-  TISSERAND_ENSURE(false, "recovery field {}", static_cast<int>(field));
+bool is_motion(RecoveryField field) { return field == RecoveryField::translation || field == RecoveryField::rotation; }
+
+FieldSet field_set(const std::string& group, const Recovery& recovery, RecoveryField field, int columns) {
+  return {group + name_of(field), items(recovery, field), width(field), columns, chunk_items(recovery, field)};
+}
+
+FieldSet force_set(const std::string& group, const Recovery& recovery, NodalForce force, int columns) {
+  return {group + name_of(force), recovery.nodes(), 3, columns, chunk_items(recovery, RecoveryField::translation)};
 }
 
 int applied_columns(const Recovery& recovery) { return static_cast<int>(recovery.loads->applied.size()); }
@@ -75,37 +54,29 @@ int applied_columns(const Recovery& recovery) { return static_cast<int>(recovery
 }  // namespace
 
 FieldSet of_applied(const Recovery& recovery, RecoveryField field) {
-  return {applied_dataset_of(field), items(recovery, field), width(field), applied_columns(recovery),
-          chunk_items(recovery, field)};
+  return field_set("/applied/", recovery, field, applied_columns(recovery));
 }
 
 FieldSet of_applied_forces(const Recovery& recovery, NodalForce force) {
-  const bool turns = force == NodalForce::load_moment;
-  return {turns ? "/applied/moment" : "/applied/force", recovery.nodes(), 3, applied_columns(recovery),
-          chunk_items(recovery, RecoveryField::translation)};
+  return force_set("/applied/", recovery, force, applied_columns(recovery));
 }
 
 FieldSet of_coordinates(const Recovery& recovery, RecoveryField field) {
-  return {dataset_of(field), items(recovery, field), width(field), recovery.coordinates(),
-          chunk_items(recovery, field)};
+  return field_set(is_motion(field) ? "/shapes/" : "/stress/", recovery, field, recovery.coordinates());
 }
 
 FieldSet of_loads(const Recovery& recovery, RecoveryField field) {
-  return {loads_dataset_of(field), items(recovery, field), width(field), inertia_loads, chunk_items(recovery, field)};
+  return field_set("/loads/", recovery, field, inertia_loads);
 }
 
 FieldSet of_forces(const Recovery& recovery, NodalForce force) {
   const bool of_load = force == NodalForce::load_force || force == NodalForce::load_moment;
-  return {forces_dataset_of(force), recovery.nodes(), 3, of_load ? inertia_loads : recovery.internal(),
-          chunk_items(recovery, RecoveryField::translation)};
+  return force_set("/loads/", recovery, force, of_load ? inertia_loads : recovery.internal());
 }
 
 FieldSet of_second_order(const Recovery& recovery, RecoveryField field) {
-  TISSERAND_ENSURE(field == RecoveryField::translation || field == RecoveryField::rotation, "recovery field {}",
-                   static_cast<int>(field));
-  const char* dataset = field == RecoveryField::translation ? "/second_order/translation" : "/second_order/rotation";
-  return {dataset, recovery.nodes(), 3, recovery.second_order ? recovery.second_order->shapes() : 0,
-          chunk_items(recovery, field)};
+  TISSERAND_ENSURE(is_motion(field), "recovery field {}", static_cast<int>(field));
+  return field_set("/second_order/", recovery, field, recovery.second_order ? recovery.second_order->shapes() : 0);
 }
 
 std::vector<FieldSet> field_sets(const Recovery& recovery) {

@@ -1,6 +1,7 @@
 // The datasets of a recovery file that are as long as the mesh: names, shapes, chunks.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "formats/hdf5/file.hpp"
@@ -12,7 +13,7 @@ inline constexpr const char* recovery_format = "tisserand-recovery";
 
 /// A field per coordinate, or per load: items x width x columns.
 struct FieldSet {
-  const char* dataset;
+  std::string dataset;
   int items, width, columns;
   int chunk;  ///< items that are written together
 

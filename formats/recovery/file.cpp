@@ -1,7 +1,6 @@
 // Recovery files from disk: tables at once, fields by blocks.
 #include <algorithm>
 #include <limits>
-#include <string_view>
 
 #include "common/error.hpp"
 #include "formats/hdf5/head.hpp"
@@ -18,7 +17,7 @@ constexpr hdf5::FileKind recovery_kind{recovery_format, "recovery file",
                                        "give a *.recovery.h5 file, as `reducer run` writes it with `recovery: yes`",
                                        "reduce the part again with a program of the same major version"};
 constexpr std::uint64_t most_entries = 200'000'000;  // of a table; bounds memory before it is taken
-constexpr std::uint64_t most_applied = 10'000;         // loads
+constexpr std::uint64_t most_applied = 10'000;       // loads
 
 /// Tables of a file; every length is looked at before memory is taken.
 class Tables {

@@ -1,6 +1,5 @@
 // Recovery files to disk: tables at once, fields by blocks.
 #include <algorithm>
-#include <string_view>
 
 #include "common/error.hpp"
 #include "formats/hdf5/head.hpp"
@@ -182,8 +181,7 @@ struct RecoveryWriter::Impl {
   }
 
   Growing& of(const FieldSet& set) {
-    const auto found =
-        std::ranges::find_if(fields, [&](const Growing& one) { return std::string_view(one.set.dataset) == set.dataset; });
+    const auto found = std::ranges::find_if(fields, [&](const Growing& one) { return one.set.dataset == set.dataset; });
     TISSERAND_ENSURE(found != fields.end(), "{} has no {}", file.path(), set.dataset);
     return *found;
   }

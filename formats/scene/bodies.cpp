@@ -49,15 +49,6 @@ Eigen::Vector3d read_mirror(const MapReader& map) {
   return axes;
 }
 
-/// Keys of a flexible superelement, which would be ignored where the body is rigid.
-void refuse_flexible_keys(const MapReader& map) {
-  for (const char* key :
-       {"modes", "cutoff", "inertia", "stiffening", "second_order", "double_curvature", "frame", "weights", "damping"})
-    if (const YamlNode* node = map.find(key))
-      map.context().fail(node->key_place, fmt::format("'{}' has no effect with use: rigid", key),
-                         "remove it, or give use: flexible");
-}
-
 /// The context of a map inside a body: "body 'beam': damping".
 Context inside(const Context& context, const std::string& what) {
   return {context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
@@ -91,8 +82,7 @@ Body read_body(const MapReader& map, const SceneDefinitions& definitions, Body b
   if constexpr (requires { body.mirror; }) {
     if (!body.file.empty()) body.file = (map.context().reader.folder() / body.file).lexically_normal().string();
     body.mirror = read_mirror(map);
-    if (body.modes && body.cutoff)
-      map.context().fail(map.find("cutoff")->key_place, "both 'modes' and 'cutoff' are given", "give one of them");
+    if (body.modes && body.cutoff) map.refuse_both("modes", "cutoff", "give one of them");
   }
   if constexpr (requires { body.nodes; }) body.nodes = read_nodes(map);
   if constexpr (requires { body.shapes; }) body.shapes = read_shapes(map, definitions);
@@ -101,7 +91,10 @@ Body read_body(const MapReader& map, const SceneDefinitions& definitions, Body b
 
 SuperelementBodySpec read_superelement(const MapReader& map, const SceneDefinitions& definitions) {
   auto body = read_body<SuperelementBodySpec>(map, definitions);
-  if (body.rigid) refuse_flexible_keys(map);
+  if (body.rigid)  // they would be ignored
+    map.refuse(
+        {"modes", "cutoff", "inertia", "stiffening", "second_order", "double_curvature", "frame", "weights", "damping"},
+        "has no effect with use: rigid", "remove it, or give use: flexible");
   check_second_order(map);
   if (const YamlNode* frame = map.find("frame")) read_frame(map.context(), *frame, body);
   if (const YamlNode* weights = map.find("weights")) read_fields(map.inside(*weights, "weights"), body);
@@ -135,8 +128,7 @@ void read_properties(const MapReader& map, const SceneDefinitions& definitions, 
   }
   if (body.section.by_stiffness) {
     body.material = unit_material(context.entry);
-    if (const YamlNode* node = map.find("material"))
-      context.fail(node->key_place, "'material' beside a section by stiffness", "remove it: the section needs none");
+    map.refuse({"material"}, "beside a section by stiffness", "remove it: the section needs none");
   } else if (const YamlNode* node = map.require("material")) {
     if (node->kind == YamlKind::map) {
       body.material = read_material(inside(context, "material"), *node, "material.");

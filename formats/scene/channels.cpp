@@ -32,8 +32,7 @@ constexpr Choice<TyreQuantity> tyre_quantities[] = {{"load", TyreQuantity::load}
 bool is_point(ChannelKind kind) { return kind == ChannelKind::position || kind == ChannelKind::velocity; }
 
 void refuse(const MapReader& map, const char* key, const char* types) {
-  if (const YamlNode* node = map.find(key))
-    map.context().fail(node->key_place, fmt::format("'{}' belongs to channels of type {}", key, types), "remove it");
+  map.refuse({key}, fmt::format("belongs to channels of type {}", types), "remove it");
 }
 
 /// `x`, `y`, `z`, or a direction.

@@ -18,16 +18,14 @@ void read_ends(const MapReader& map, SpringSpec& spring) {
   if (spring.coordinate) {
     if (map.has("a") || map.has("b"))
       map.fail("both 'coordinate' and the markers 'a', 'b' are given", "give one of them");
-    if (const YamlNode* type = map.find("type"))
-      map.context().fail(type->key_place, "'type' has no effect with 'coordinate'", "remove it");
+    map.refuse({"type"}, "has no effect with 'coordinate'", "remove it");
   } else {
     spring.a = read_marker(map, "a");
     spring.b = read_marker(map, "b");
   }
   read_fields<MarkerPairSpec>(map, spring);
-  for (const char* key : {"axis", "x_axis"})
-    if (const YamlNode* node = map.find(key); node != nullptr && (spring.coordinate || spring.kind == SpringKind::line))
-      map.context().fail(node->key_place, fmt::format("'{}' belongs to springs of type torsion", key), "remove it");
+  if (spring.coordinate || spring.kind == SpringKind::line)
+    map.refuse({"axis", "x_axis"}, "belongs to springs of type torsion", "remove it");
 }
 
 LoadSpec read_load(const MapReader& map) {

@@ -28,28 +28,21 @@ constexpr Choice<Stabilisation> stabilisations[] = {{"projection", Stabilisation
 constexpr double automatic_part = 1e-4;
 
 /// Keys that only some methods know.
-void refuse(const MapReader& map, const char* key, bool used, const char* remedy) {
-  const YamlNode* node = map.find(key);
-  if (node != nullptr && !used)
-    map.context().fail(node->key_place, fmt::format("'{}' has no effect with this method", key), remedy);
-}
-
 void check_keys(const MapReader& map, Method method) {
   const bool bdf = method == Method::bdf;
-  if (map.has("rho") && method == Method::hht)
-    map.context().fail(map.find("rho")->key_place, "'rho' has no effect with method: hht",
-                       "give alpha, or method: generalised_alpha");
-  for (const char* key : {"rho", "alpha", "formulation"})
-    refuse(map, key, method != Method::radau, "leave it out, or use method: generalised_alpha");
-  if (map.has("alpha") && method == Method::generalised_alpha)
-    map.context().fail(map.find("alpha")->key_place, "'alpha' has no effect with method: generalised_alpha",
-                       "give rho, or method: hht");
+  if (method == Method::hht)
+    map.refuse({"rho"}, "has no effect with method: hht", "give alpha, or method: generalised_alpha");
+  if (method == Method::generalised_alpha)
+    map.refuse({"alpha"}, "has no effect with method: generalised_alpha", "give rho, or method: hht");
+  const std::string why = "has no effect with this method";
+  if (bdf || method == Method::radau)
+    map.refuse({"rho", "alpha", "formulation"}, why, "leave it out, or use method: generalised_alpha");
   if (bdf)
-    for (const char* key : {"rho", "alpha", "formulation", "tolerance", "constraint_tolerance", "max_iterations",
-                            "max_halvings", "error_control"})
-      refuse(map, key, false, "leave it out, or use method: generalised_alpha");
-  for (const char* key : {"relative_tolerance", "absolute_tolerance", "stabilisation", "baumgarte"})
-    refuse(map, key, bdf, "leave it out, or use method: bdf");
+    map.refuse({"tolerance", "constraint_tolerance", "max_iterations", "max_halvings", "error_control"}, why,
+               "leave it out, or use method: generalised_alpha");
+  else
+    map.refuse({"relative_tolerance", "absolute_tolerance", "stabilisation", "baumgarte"}, why,
+               "leave it out, or use method: bdf");
 }
 
 ErrorControl read_error_control(const MapReader& map) {
@@ -63,9 +56,8 @@ ErrorControl read_error_control(const MapReader& map) {
 std::optional<AccuracySpec> read_accuracy(const MapReader& map, AnalysisKind analysis) {
   const YamlNode* node = map.find("accuracy");
   if (node == nullptr || analysis != AnalysisKind::dynamics) return std::nullopt;  // others share the group
-  for (const char* key : {"step", "error_control", "relative_tolerance", "absolute_tolerance"})
-    if (const YamlNode* other = map.find(key))
-      map.context().fail(other->key_place, fmt::format("'{}' is chosen by 'accuracy'", key), "leave one of them out");
+  map.refuse({"step", "error_control", "relative_tolerance", "absolute_tolerance"}, "is chosen by 'accuracy'",
+             "leave one of them out");
   const Context inside{map.context().reader, "integrator accuracy", map.context().entry};
   AccuracySpec spec;
   read_fields(MapReader(inside, *node, "accuracy", "integrator.accuracy."), spec);
@@ -135,16 +127,18 @@ std::vector<KeySet> integrator_key_sets() {
       "integrator_bdf",
       {plain<&BdfSpec::relative_tolerance>("relative_tolerance", "positive",
                                            "of each coordinate and velocity per step"),
-       plain<&BdfSpec::absolute_tolerance>("absolute_tolerance", "positive",
-                                           "of positions relative to the extent of the scene, of Euler parameters; of "
-                                           "velocities the same per second (of scenes without named units: per unit of time)"),
+       plain<&BdfSpec::absolute_tolerance>(
+           "absolute_tolerance", "positive",
+           "of positions relative to the extent of the scene, of Euler parameters; of "
+           "velocities the same per second (of scenes without named units: per unit of time)"),
        choice<&BdfSpec::stabilisation, stabilisations>(
            "stabilisation", "`projection`: after each step onto the constraints, in the mass norm; or `baumgarte`"),
        {"baumgarte", "baumgarte", "`{alpha: 5, beta: 5}` [1/time]: Φ̈ + 2 α Φ̇ + β² Φ = 0", "5, 5"}});
   return {
       {"integrator",
-       {choice<&IntegratorSpec::method, methods>("method", "`generalised_alpha`, `hht`, `bdf` or `radau` (below); `auto`, with `accuracy`",
-                                      "`generalised_alpha`; with `accuracy` `auto`, unless `rho` or `formulation` is given"),
+       {choice<&IntegratorSpec::method, methods>(
+            "method", "`generalised_alpha`, `hht`, `bdf` or `radau` (below); `auto`, with `accuracy`",
+            "`generalised_alpha`; with `accuracy` `auto`, unless `rho` or `formulation` is given"),
         plain<&IntegratorSpec::rho>("rho", "number>=0<=1",
                                     "spectral radius at infinity of generalised_alpha, 0 to 1; an error with hht"),
         plain<&IntegratorSpec::alpha>("alpha", "number>=0<=0.3333333333333333",

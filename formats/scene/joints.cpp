@@ -73,10 +73,8 @@ void read_own_key(const MapReader& map, JointSpec& joint) {
   if (own == JointKey::length && map.has("length")) joint.length = map.number("length");
   for (const JointKindRow& other : joint_kinds()) {
     const std::string_view key = joint_key_word(other.key);
-    if (other.key == JointKey::none || other.key == own) continue;
-    if (const YamlNode* node = map.find(key))
-      map.context().fail(node->key_place, fmt::format("'{}' belongs to joints of type {}", key, other.word),
-                         "remove it");
+    if (other.key != JointKey::none && other.key != own)
+      map.refuse({key}, fmt::format("belongs to joints of type {}", other.word), "remove it");
   }
 }
 
@@ -84,10 +82,8 @@ FrictionSpec read_friction(const MapReader& map, JointKind kind) {
   FrictionSpec friction;
   read_fields(map, friction);
   const FrictionKeys keys = joint_kind(kind).friction;
-  const YamlNode* radius = map.find("radius");
-  if (radius && keys.has_friction && !keys.radius)
-    map.context().fail(radius->key_place, fmt::format("'radius' has no effect in a {} joint", joint_word(kind)),
-                       "remove it");
+  if (keys.has_friction && !keys.radius)
+    map.refuse({"radius"}, fmt::format("has no effect in a {} joint", joint_word(kind)), "remove it");
   if (keys.radius) friction.radius = map.number("radius");
   return friction;
 }

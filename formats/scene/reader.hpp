@@ -16,8 +16,6 @@ inline constexpr Choice<AnalysisKind> analysis_kinds[] = {{"dynamics", AnalysisK
                                                           {"kinematics", AnalysisKind::kinematics},
                                                           {"inverse_dynamics", AnalysisKind::inverse_dynamics},
                                                           {"modes", AnalysisKind::modes}};
-inline constexpr Choice<bool> on_or_off[] = {{"off", false}, {"on", true}};
-inline constexpr Choice<bool> yes_or_no[] = {{"yes", true}, {"no", false}, {"true", true}, {"false", false}};
 
 /// What bodies may refer to.
 struct SceneDefinitions {

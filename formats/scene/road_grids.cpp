@@ -57,12 +57,6 @@ std::optional<RegularGrid> read_regular_grid(const MapReader& map) {
   return grid;
 }
 
-void refuse_keys(const MapReader& map, std::initializer_list<const char*> keys, const char* beside) {
-  for (const char* key : keys)
-    if (const YamlNode* node = map.find(key))
-      map.context().fail(node->key_place, fmt::format("'{}' has no effect beside '{}'", key, beside), "remove it");
-}
-
 /// What `read` makes of the file, or nothing and its error.
 template <class Read>
 std::optional<RoadHeights> read_road_file(const MapReader& map, const YamlNode& node, const Read& read) {
@@ -94,10 +88,10 @@ std::optional<RoadHeights> read_crg_road(const MapReader& map, const SceneDefini
 std::optional<RoadHeights> read_grid_road(const MapReader& map) {
   const YamlNode* file = map.find("file");
   if (file == nullptr) {
-    refuse_keys(map, {"x_start", "y_start", "spacing"}, "z");
+    map.refuse({"x_start", "y_start", "spacing"}, "has no effect beside 'z'", "remove it");
     return read_written_grid(map);
   }
-  refuse_keys(map, {"x", "y", "z"}, "file");
+  map.refuse({"x", "y", "z"}, "has no effect beside 'file'", "remove it");
   const std::optional<RegularGrid> regular = read_regular_grid(map);
   if (regular && !(regular->spacing > 0.0)) return std::nullopt;
   return read_road_file(map, *file, [&regular](const std::string& path) { return read_height_grid(path, regular); });

@@ -95,8 +95,8 @@ TimeFunctionSpec read_motion_function(const Context& context, const YamlNode& no
   TimeFunctionSpec function = read_map(map);
   if (auto* table = std::get_if<TimeTable>(&function))
     table->motion = map.choice("interpolation", table_motions, table->motion);
-  else if (const YamlNode* key = map.find("interpolation"))
-    inner.fail(key->key_place, "'interpolation' belongs to tables", "remove it");
+  else
+    map.refuse({"interpolation"}, "belongs to tables", "remove it");
   return function;
 }
 

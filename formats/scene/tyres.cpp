@@ -82,9 +82,7 @@ void read_magic_formula(const MapReader& map, const SceneDefinitions& definition
 void check_slip_keys(const MapReader& map) {
   for (std::size_t i = 0; i < required_slip_keys; ++i) map.require(slip_keys[i]);
   for (const std::string_view key : file_keys)
-    if (const YamlNode* node = map.find(key))
-      map.context().fail(node->key_place, fmt::format("'{}' has no effect on a tyre of type comprehensive_slip", key),
-                         "remove it");
+    map.refuse({key}, "has no effect on a tyre of type comprehensive_slip", "remove it");
 }
 
 /// The keys of a shape; others have no effect on it.
@@ -96,8 +94,8 @@ void require_keys(const MapReader& map, RoadPieceShape shape) {
     const bool used = of_curve ? curve : name == "ramp" ? shape == RoadPieceShape::trapezoid : !curve;
     if (used && !of_curve)
       map.require(key);
-    else if (const YamlNode* node = map.find(key); node != nullptr && !used)
-      map.context().fail(node->key_place, fmt::format("'{}' has no effect with this shape", key), "remove it");
+    else if (!used)
+      map.refuse({key}, "has no effect with this shape", "remove it");
   }
   if (curve && map.has("curve") == map.has("iso_8608"))
     map.fail("shape curve needs either 'curve' or 'iso_8608'", "write curve: {table: [[0, 0], [10, 0.2]]}");
@@ -159,10 +157,9 @@ void refuse_road_keys(const MapReader& map, RoadKind kind) {
         Use{"transition", {RoadKind::profile}}, Use{"file", {RoadKind::grid, RoadKind::crg}},
         Use{"x", {RoadKind::grid}}, Use{"y", {RoadKind::grid}}, Use{"z", {RoadKind::grid}},
         Use{"x_start", {RoadKind::grid}}, Use{"y_start", {RoadKind::grid}}, Use{"spacing", {RoadKind::grid}}}) {
-    const YamlNode* node = map.find(use.key);
-    if (node == nullptr || std::ranges::find(use.kinds, kind) != use.kinds.end()) continue;
-    map.context().fail(node->key_place, fmt::format("'{}' has no effect on a {}", use.key, word_of(kind)),
-                       fmt::format("remove it, or write type: {}", word_of(*use.kinds.begin())));
+    if (std::ranges::find(use.kinds, kind) == use.kinds.end())
+      map.refuse({use.key}, fmt::format("has no effect on a {}", word_of(kind)),
+                 fmt::format("remove it, or write type: {}", word_of(*use.kinds.begin())));
   }
 }
 
@@ -172,8 +169,7 @@ void read_tracks(const MapReader& map, const SceneDefinitions& definitions, Road
     map.fail("a profile needs either 'height', or 'left' and 'right'",
              "write height: {shape: cosine, start: 10, length: 1, height: 0.1}");
   if (two) map.require("transition");
-  if (const YamlNode* node = map.find("transition"); node != nullptr && one && !two)
-    map.context().fail(node->key_place, "'transition' has no effect with one height for both tracks", "remove it");
+  if (one && !two) map.refuse({"transition"}, "has no effect with one height for both tracks", "remove it");
   if (one) road.left = road.right = read_track(map, "height", definitions);
   if (!two) return;
   road.left = read_track(map, "left", definitions);

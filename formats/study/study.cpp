@@ -2,7 +2,6 @@
 #include "formats/study/study.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 
 #include "common/text.hpp"
@@ -17,17 +16,10 @@ namespace {
 
 constexpr Choice<StudyTiming> timings[] = {{"alone", StudyTiming::alone}, {"together", StudyTiming::together}};
 
-/// A map with one key list inside another: "series 'beam'" or the study itself.
-struct Owner {
-  const MapReader& map;
-  const std::string& study_file;
-};
-
 /// The file of a key, relative to the folder of the study.
-std::string file_of(const Owner& owner, std::string_view key) {
-  const std::string name = owner.map.text(key);
-  if (name.empty()) return name;
-  return (std::filesystem::path(owner.study_file).parent_path() / name).lexically_normal().string();
+std::string file_of(const MapReader& map, std::string_view key) {
+  const std::string name = map.text(key);
+  return name.empty() ? name : (map.context().reader.folder() / name).lexically_normal().string();
 }
 
 /// Entries of a map from paths or names; a key given twice is an error.
@@ -53,23 +45,12 @@ std::vector<StudyAxis> read_axes(const MapReader& map) {
   return axes;
 }
 
-std::vector<std::string> read_texts(const Context& context, const YamlNode& node, const std::string& what) {
-  std::vector<std::string> texts;
-  if (node.kind != YamlKind::sequence) return {read_text(context, node, what)};
-  for (const YamlNode& child : node.children) texts.push_back(read_text(context, child, what));
-  return texts;
-}
-
-std::vector<StudyPart> read_parts(const Owner& owner) {
+std::vector<StudyPart> read_parts(const MapReader& top) {
   std::vector<StudyPart> parts;
-  for (const YamlNode* node : pairs(owner.map, "parts")) {
-    const Context entry = entry_context(owner.map.context().reader, "part", *node);
-    const MapReader map(entry, *node, "study_part");
-    StudyPart part;
-    part.name = node->key;
-    part.where = entry.entry;
-    part.file = file_of({map, owner.study_file}, "file");
-    if (const YamlNode* as = map.require("as")) part.as = read_texts(entry, *as, "a path of the scene");
+  for (const YamlNode* node : pairs(top, "parts")) {
+    const MapReader map(entry_context(top.context().reader, "part", *node), *node, "study_part");
+    auto part = read_entry<StudyPart>(map);
+    part.file = file_of(map, "file");
     part.set = read_settings(map);
     parts.push_back(std::move(part));
   }
@@ -82,15 +63,11 @@ std::map<std::string, YamlNode> read_named(const MapReader& map, std::string_vie
   return values;
 }
 
-StudySeries read_series(const Owner& owner, const YamlNode& node, const Study& study,
-                        const std::vector<StudyAxis>& shared_axes, const std::vector<StudySetting>& shared) {
-  const Context entry = entry_context(owner.map.context().reader, "series", node);
-  const MapReader map(entry, node, "study_series");
-  StudySeries series;
-  series.name = node.key;
-  series.where = entry.entry;
-  read_fields(map, series);
-  series.scene = file_of({map, study.file}, "scene");
+StudySeries read_series(const MapReader& top, const YamlNode& node, const std::vector<StudyAxis>& shared_axes,
+                        const std::vector<StudySetting>& shared) {
+  const MapReader map(entry_context(top.context().reader, "series", node), node, "study_series");
+  auto series = read_entry<StudySeries>(map);
+  series.scene = file_of(map, "scene");
   series.axes = read_axes(map);
   for (const StudyAxis& axis : shared_axes)
     if (std::ranges::find(series.axes, axis.name, &StudyAxis::name) == series.axes.end()) series.axes.push_back(axis);
@@ -99,19 +76,15 @@ StudySeries read_series(const Owner& owner, const YamlNode& node, const Study& s
     std::erase_if(series.set, [&](const StudySetting& other) { return other.path == own.path; });
     series.set.push_back(std::move(own));
   }
-  series.parts = read_parts({map, study.file});
+  series.parts = read_parts(map);
   series.channels = read_named(map, "channels");
   return series;
 }
 
 void read_quantities(const MapReader& root, Study& study) {
   for (const YamlNode* node : root.entries("quantities", "quantity")) {
-    const Context entry = entry_context(root.context().reader, "quantity", *node);
-    const MapReader map(entry, *node, "study_quantity");
-    StudyQuantity quantity;
-    quantity.name = node->key;
-    quantity.where = entry.entry;
-    read_fields(map, quantity);
+    const MapReader map(entry_context(root.context().reader, "quantity", *node), *node, "study_quantity");
+    auto quantity = read_entry<StudyQuantity>(map);
     if (const YamlNode* channel = map.require("channel")) quantity.channel = *channel;
     study.quantities.push_back(std::move(quantity));
   }
@@ -124,7 +97,7 @@ void read_reference(const MapReader& root, Study& study) {
   const MapReader map(context, *node, "study_reference");
   StudyReference& reference = study.reference;
   read_fields(map, reference);
-  if (map.has("file")) reference.file = file_of({map, study.file}, "file");
+  if (map.has("file")) reference.file = file_of(map, "file");
   if (map.has("file") == map.has("runs")) map.fail("needs either 'file' or 'runs'", "give one of them");
   for (const auto& [quantity, column] : read_named(map, "columns"))
     reference.columns[quantity] = read_text(context, column, "a column");
@@ -188,8 +161,9 @@ std::vector<KeySet> study_key_sets() {
         {"channels", "{name: text}", "quantity -> its channel in this series, where it is called otherwise", "none"}}},
       {"study_part",
        {{"file", "text", "part file, relative to this one", "required"},
-        {"as", "text | [text]1..", "path or paths of the scene that name its superelement file: `bodies.arm.file`",
-         "required"},
+        plain<&StudyPart::as>("as", "text | [text]1..",
+                              "path or paths of the scene that name its superelement file: `bodies.arm.file`",
+                              "required"),
         set}},
       {"study_quantity",
        {{"channel", "text", "channel of the results; `$name` and `${formula}` as in `set`", "required"},
@@ -228,7 +202,7 @@ Study read_study(const std::string& path) {
   const std::vector<StudyAxis> axes = read_axes(root);
   const std::vector<StudySetting> set = read_settings(root);
   for (const YamlNode* node : root.entries("series", "series"))
-    study.series.push_back(read_series({root, study.file}, *node, study, axes, set));
+    study.series.push_back(read_series(root, *node, axes, set));
   read_quantities(root, study);
   read_reference(root, study);
   Faults faults;

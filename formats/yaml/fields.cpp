@@ -40,6 +40,11 @@ void read_value(const MapReader& map, const Field& field, std::string& value) {
     value = read_text(map.context(), *node, std::string(field.key));
 }
 
+void read_value(const MapReader& map, const Field& field, std::vector<std::string>& value) {
+  if (const YamlNode* node = find_or_require(map, field))
+    value = read_texts(map.context(), *node, std::string(field.key));
+}
+
 void read_value(const MapReader& map, const Field& field, Eigen::Vector3d& value) {
   if (find_or_require(map, field) != nullptr)
     value = read_vector(map, field.key, value);

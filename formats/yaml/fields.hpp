@@ -1,6 +1,7 @@
 // Fields that are read straight into a member: numbers, counts, texts, vectors, words.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <optional>
@@ -21,6 +22,7 @@ namespace tisserand::formats {
 void read_value(const MapReader& map, const Field& field, double& value);
 void read_value(const MapReader& map, const Field& field, int& value);
 void read_value(const MapReader& map, const Field& field, std::string& value);
+void read_value(const MapReader& map, const Field& field, std::vector<std::string>& value);
 void read_value(const MapReader& map, const Field& field, Eigen::Vector3d& value);
 void read_value(const MapReader& map, const Field& field, std::vector<double>& value);
 void read_value(const MapReader& map, const Field& field, std::optional<double>& value);
@@ -136,12 +138,15 @@ Spec read_entry(const MapReader& map, Spec spec = {}) {
   return spec;
 }
 
-/// The entries of the collection `key`, maps with the keys of the list `noun`; `read_rest` reads what is by hand.
+/// The entries of the collection `key`, maps with the keys of the list `noun` (of a "point mass": `point_mass`);
+/// `read_rest` reads what is by hand.
 template <class Spec, class Rest>
 void read_entries(const MapReader& top, std::string_view key, const std::string& noun, std::vector<Spec>& specs,
                   Rest read_rest) {
+  std::string list = noun;
+  std::ranges::replace(list, ' ', '_');
   for (const YamlNode* node : top.entries(key, noun)) {
-    const MapReader map(entry_context(top.context().reader, noun, *node), *node, noun);
+    const MapReader map(entry_context(top.context().reader, noun, *node), *node, list);
     Spec spec = read_entry<Spec>(map);
     read_rest(map, spec);
     specs.push_back(std::move(spec));

@@ -164,6 +164,13 @@ std::string read_text(const Context& context, const YamlNode& node, const std::s
   return "";
 }
 
+std::vector<std::string> read_texts(const Context& context, const YamlNode& node, const std::string& what) {
+  if (node.kind != YamlKind::sequence) return {read_text(context, node, what)};
+  std::vector<std::string> texts;
+  for (const YamlNode& item : node.children) texts.push_back(read_text(context, item, what));
+  return texts;
+}
+
 std::vector<double> read_numbers(const Context& context, const YamlNode& node, const std::string& what) {
   std::vector<double> values;
   if (node.kind != YamlKind::sequence) {
@@ -246,6 +253,17 @@ const YamlNode* MapReader::require(std::string_view key) const {
   return node;
 }
 
+void MapReader::refuse(std::initializer_list<std::string_view> keys, const std::string& why,
+                       const std::string& remedy) const {
+  for (const std::string_view key : keys)
+    if (const YamlNode* node = find(key)) context_.fail(node->key_place, fmt::format("'{}' {}", key, why), remedy);
+}
+
+void MapReader::refuse_both(std::string_view first, std::string_view second, const std::string& remedy) const {
+  if (const YamlNode* node = find(second); node != nullptr && has(first))
+    context_.fail(node->key_place, fmt::format("both '{}' and '{}' are given", first, second), remedy);
+}
+
 MapReader MapReader::inside(const YamlNode& value, std::string_view noun) const {
   const std::string& subject = context_.subject;
   return {
@@ -296,9 +314,15 @@ std::string MapReader::text(std::string_view key) const {
   return node == nullptr ? "" : read_text(context_, *node, std::string(key));
 }
 
-Context entry_context(YamlReader& reader, const std::string& noun, const YamlNode& node) {
-  Context context{reader, fmt::format("{} '{}'", noun, node.key), reader.where(node.key_place)};
+Context key_context(YamlReader& reader, const YamlNode& node) {
+  Context context{reader, node.key, reader.where(node.key_place)};
   reader.note_place(context.entry, node.key_place);
+  return context;
+}
+
+Context entry_context(YamlReader& reader, const std::string& noun, const YamlNode& node) {
+  Context context = key_context(reader, node);
+  context.subject = fmt::format("{} '{}'", noun, node.key);
   return context;
 }
 

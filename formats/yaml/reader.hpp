@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
@@ -75,6 +76,8 @@ struct Context {
 double read_number(const Context& context, const YamlNode& node, const std::string& what);
 std::optional<int> read_integer(const Context& context, const YamlNode& node, const std::string& what);
 std::string read_text(const Context& context, const YamlNode& node, const std::string& what);
+/// A text or a list of texts.
+std::vector<std::string> read_texts(const Context& context, const YamlNode& node, const std::string& what);
 /// A list of numbers of any length.
 std::vector<double> read_numbers(const Context& context, const YamlNode& node, const std::string& what);
 
@@ -86,6 +89,8 @@ struct Choice {
   std::string_view word;
   T value;
 };
+inline constexpr Choice<bool> on_or_off[] = {{"off", false}, {"on", true}};
+inline constexpr Choice<bool> yes_or_no[] = {{"yes", true}, {"no", false}, {"true", true}, {"false", false}};
 
 /// Records an error with the nearest word if `node` is none of `words`; otherwise its index.
 std::optional<std::size_t> read_word(const Context& context, const YamlNode& node, const std::string& what,
@@ -115,6 +120,10 @@ class MapReader {
   double number(std::string_view key, double fallback) const;
   int integer(std::string_view key, int fallback) const;
   std::string text(std::string_view key) const;
+  /// An error at each of these keys that is there: "'axis' has no effect here".
+  void refuse(std::initializer_list<std::string_view> keys, const std::string& why, const std::string& remedy) const;
+  /// An error at the second key if both are there.
+  void refuse_both(std::string_view first, std::string_view second, const std::string& remedy) const;
   void fail(const std::string& what, const std::string& remedy) const { context_.fail(place(), what, remedy); }
 
   template <class T, std::size_t N>
@@ -137,6 +146,8 @@ class MapReader {
   std::string prefix_;
 };
 
+/// The value of a key that is an entry by itself, as a context: "mesh" at its key.
+Context key_context(YamlReader& reader, const YamlNode& node);
 /// The entry of a collection as a context: "beam 'rod'" at its key.
 Context entry_context(YamlReader& reader, const std::string& noun, const YamlNode& node);
 

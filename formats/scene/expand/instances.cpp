@@ -128,7 +128,7 @@ YamlNode SceneExpander::expanded(const std::string& collection, const YamlNode& 
   YamlNode copy = entry;
   substitution_.apply(copy, scope);
   if (collection == "bodies") insert_definitions(level, substitution_, copy);
-  rebase_files(document_, collection, copy);
+  rebase_files(document_, copy);
   Placement(reader_, level.frame).place(collection, copy);
   resolve_references(collection, level, copy, mirrored_);
   copy.key = level.prefix + copy.key;

@@ -43,7 +43,7 @@ struct MirroredReference {
 };
 
 /// Maps of an assembly that are copied with each instance.
-bool is_instantiated(const std::string& collection);
+bool is_instantiated(const std::string& key);
 
 /// Fills in the sets of names; names that are no names, and double ones, are errors of the reader.
 void read_names(YamlReader& reader, Assembly& assembly);
@@ -63,7 +63,7 @@ void check_mirrored(YamlReader& reader, const std::vector<MirroredReference>& re
 /// The material and section of a beam that its assembly, or one around it, defines, in the place of their names.
 void insert_definitions(const Level& level, Substitution& substitution, YamlNode& body);
 
-/// Names of files relative to the folder of the scene.
-void rebase_files(const YamlDocument& document, const std::string& collection, YamlNode& entry);
+/// Names of files below the node relative to the folder of the scene: of keys `file`, and of rigid bodies `from`.
+void rebase_files(const YamlDocument& document, YamlNode& node);
 
 }  // namespace tisserand::formats

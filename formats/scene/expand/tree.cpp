@@ -9,15 +9,6 @@ namespace tisserand::formats {
 
 namespace {
 
-/// Names of files of included files, relative to the folder of the first one.
-void rebase_all(const YamlDocument& document, YamlNode& node) {
-  const std::string& folder = document.sources.at(static_cast<std::size_t>(node.place.source)).folder;
-  if (node.key == "file" && node.kind == YamlKind::scalar && !node.text.empty() && node.text.front() != '/' &&
-      !folder.empty())
-    node.text = folder + "/" + node.text;
-  for (YamlNode& child : node.children) rebase_all(document, child);
-}
-
 /// What an override changes: the files that are read, their tree, or what only exists in the flat tree
 /// ("bodies.corner_fl/arm.mass").
 enum class Stage { files, tree, flat };
@@ -57,7 +48,7 @@ std::string scene_text(const std::string& path, const std::vector<Override>& ove
                 "vary a parameter of the instance instead");
   apply_overrides(document, chosen(overrides, Stage::tree), collections);
   std::erase_if(document.root.children, [](const YamlNode& child) { return child.key == "include"; });
-  rebase_all(document, document.root);
+  rebase_files(document, document.root);
   return block_text(document.root);
 }
 

@@ -1,0 +1,48 @@
+// The arrays of numbers of a modal body file, in one list for its reader, its writer and its checks.
+#pragma once
+
+#include <cstdint>
+
+#include "formats/hdf5/file.hpp"
+#include "formats/modal_body/modal_body.hpp"
+
+namespace tisserand::formats {
+
+/// Columns of blocks 3 x 3, 9 numbers each column by column in memory; the file holds them row by row.
+template <class Array>
+struct Blocks {
+  Array& array;
+};
+
+struct ModalSizes {
+  std::uint64_t n, m, f;  ///< nodes, modes, components of the residual
+};
+
+/// visit(dataset, shape, meaning of the shape, array) for each of them.
+template <class Body, class Visit>
+void for_each_array(Body& body, const ModalSizes& sizes, const Visit& visit) {
+  const auto [n, m, f] = sizes;
+  visit("/frame/position", {3}, "three numbers", body.frame_position);
+  visit("/frame/orientation", {4}, "w x y z", body.frame_orientation);
+  visit("/nodes/position", {n, 3}, "n x 3 positions", body.node_position);
+  visit("/nodes/mass", {n}, "n masses", body.node_mass);
+  visit("/nodes/inertia", {n, 3, 3}, "n x 3 x 3 inertias", body.node_inertia);
+  visit("/modes/X", {n, 6, m}, "n x 6 x m rows of the modes", body.X);
+  visit("/modes/omega2", {m}, "m modes", body.omega2);
+  visit("/modes/zeta", {m}, "m modes", body.zeta);
+  auto& sums = body.integrals;
+  visit("/integrals/mass", {1}, "one number", sums.mass);
+  visit("/integrals/c0", {3}, "three numbers", sums.c0);
+  visit("/integrals/C1", {3, m}, "3 x m", sums.C1);
+  visit("/integrals/P0", {3, 3}, "3 x 3", sums.P0);
+  visit("/integrals/P1", {m, 3, 3}, "m x 3 x 3", Blocks{sums.P1});
+  visit("/integrals/P2", {m, m, 3, 3}, "m x m x 3 x 3", Blocks{sums.P2});
+  visit("/integrals/J_mu", {3, 3}, "3 x 3", sums.J_mu);
+  visit("/integrals/N_mu", {3, m}, "3 x m", sums.N_mu);
+  if (f == 0) return;
+  visit("/residual/flexibility", {f, f}, "f x f", body.residual.flexibility);
+  visit("/residual/mass", {f, f}, "f x f", body.residual.mass);
+  visit("/residual/coupling", {6, f}, "6 x f", body.residual.coupling);
+}
+
+}  // namespace tisserand::formats
