@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -18,7 +19,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int around = 24;  // corners of a circle
-constexpr double turn = 2.0 * EIGEN_PI;
+constexpr double turn = 2.0 * std::numbers::pi;
 
 Outline ellipse(double half_y, double half_z) {
   Outline outline;
@@ -161,7 +162,7 @@ Outline outline_of(const Section& s, double fallback) {
     // A rectangle w x h has the radii of gyration w/sqrt(12) and h/sqrt(12); by stiffness they are those of EI and EA.
     outline = rectangle(std::sqrt(12.0 * s.second_moment_z / s.area), std::sqrt(12.0 * s.second_moment_y / s.area));
   } else {
-    const double radius = s.area > 0.0 && !s.by_stiffness ? std::sqrt(s.area / EIGEN_PI) : fallback;
+    const double radius = s.area > 0.0 && !s.by_stiffness ? std::sqrt(s.area / std::numbers::pi) : fallback;
     outline = ellipse(radius, radius);
   }
   for (Vector2d& corner : outline) corner += Vector2d(s.centroid_y, s.centroid_z);

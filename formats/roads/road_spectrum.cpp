@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <random>
 
 #include <Eigen/Core>
@@ -20,7 +21,7 @@ constexpr double spacing = 0.02, longest_fade = 5.0;  // m
 /// Adds a cos(2π n x + phase) at x = k h.
 void add_wave(double amplitude, double n, double phase, double h, std::vector<double>& z) {
   constexpr std::size_t exact = 256;  // points between two values that are computed anew: round-off stays at 1e-14
-  const double turn = 2.0 * EIGEN_PI * n * h, c = std::cos(turn), s = std::sin(turn);
+  const double turn = 2.0 * std::numbers::pi * n * h, c = std::cos(turn), s = std::sin(turn);
   double x = 0.0, y = 0.0;
   for (std::size_t k = 0; k < z.size(); ++k) {
     if (k % exact == 0) {
@@ -50,7 +51,7 @@ CurveSpec iso_road(const IsoRoadSpec& spec, double metre) {
   for (int i = 0; i < waves; ++i) {
     const double from = first_wave * std::pow(ratio, i), n = from * std::pow(ratio, share());
     const double power = G_0 * reference_wave * reference_wave * (1.0 / from - 1.0 / (from * ratio));  // ∫ G_d dn
-    add_wave(std::sqrt(2.0 * power), n, 2.0 * EIGEN_PI * share(), h, curve.y);
+    add_wave(std::sqrt(2.0 * power), n, 2.0 * std::numbers::pi * share(), h, curve.y);
   }
   const double fade = std::min(longest_fade, 0.25 * length);
   for (std::size_t k = 0; k < points; ++k) {

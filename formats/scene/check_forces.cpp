@@ -1,5 +1,6 @@
 // Findings of springs, bushings and loads.
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include <Eigen/Eigenvalues>
@@ -119,7 +120,7 @@ void check_bushing(const SceneIndex& scene, const BushingSpec& bushing, const Su
     subject.finite("free", *bushing.free);
     Eigen::Vector3d turn = bushing.free->tail<3>();
     if (const std::optional<int> axis = bushing.turning_axis()) turn[*axis] = 0.0;
-    if (!(turn.norm() < EIGEN_PI))
+    if (!(turn.norm() < std::numbers::pi))
       subject.add("free", "the rotation vector of free is half a turn or more",
                   "turn the orientation of one marker instead");
   }

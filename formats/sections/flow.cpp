@@ -5,12 +5,15 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 #include <Eigen/LU>
 
 namespace tisserand::formats {
 
 namespace {
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 using Complex = std::complex<double>;  ///< y + i z
 constexpr int nodes = 4;               ///< Gauss points of a panel
@@ -67,7 +70,7 @@ double distance(Complex p, Complex a, Complex b) {
 
 /// Distance of a corner from the sides that do not meet there.
 double feature_size(const std::vector<Polyline>& rings, std::size_t ring, std::size_t corner) {
-  double nearest = INFINITY;
+  double nearest = no_limit;
   for (std::size_t r = 0; r < rings.size(); ++r)
     for (std::size_t i = 0; i < rings[r].size(); ++i) {
       const std::size_t next = (i + 1) % rings[r].size();
@@ -87,7 +90,7 @@ std::vector<Corner> corners_of(const std::vector<Polyline>& rings, std::size_t r
     const double turn = std::arg(after / before);
     const double share = turn < 0.0 ? grading.re_entrant : grading.convex;
     const bool sharp = std::abs(turn) > blunt;
-    corners.push_back({points[i], sharp ? share * feature_size(rings, ring, i) : INFINITY, sharp});
+    corners.push_back({points[i], sharp ? share * feature_size(rings, ring, i) : no_limit, sharp});
   }
   return corners;
 }
@@ -110,8 +113,8 @@ void divide(Complex a, Complex b, double smallest_a, double smallest_b, const st
   const bool graded_b = std::isfinite(smallest_b) && length > smallest_b;
   const double at = graded_a == graded_b ? 0.5 : graded_a ? 0.3 : 0.7;
   const Complex middle = a + at * (b - a);
-  divide(a, middle, smallest_a, INFINITY, sharp, opening, panels);
-  divide(middle, b, INFINITY, smallest_b, sharp, opening, panels);
+  divide(a, middle, smallest_a, no_limit, sharp, opening, panels);
+  divide(middle, b, no_limit, smallest_b, sharp, opening, panels);
 }
 
 std::vector<Panel> graded_panels(const std::vector<Polyline>& rings, const Grading& grading) {
@@ -139,7 +142,7 @@ std::vector<Panel> make_panels(const std::vector<Polyline>& rings) {
     grading = {2.0 * grading.opening, 4.0 * grading.re_entrant, 2.0 * grading.convex};
     panels = graded_panels(rings, grading);
   }
-  if (panels.size() > 2 * most) panels = graded_panels(rings, {INFINITY, INFINITY, INFINITY});
+  if (panels.size() > 2 * most) panels = graded_panels(rings, {no_limit, no_limit, no_limit});
   return panels;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -230,7 +231,7 @@ bool turn_over(const Model& model, Bodies& bodies, State& state, Evaluation& eva
     const Matrix3d R_AB = R_WA.transpose() * R_WB;
     const int axis = aligned_axis(joint);
     Vector3d turn = Vector3d::Zero();
-    if (axis >= 0 && R_AB(axis, axis) <= 0.0) turn = EIGEN_PI * R_WA.col((axis + 1) % 3);
+    if (axis >= 0 && R_AB(axis, axis) <= 0.0) turn = std::numbers::pi * R_WA.col((axis + 1) % 3);
     if (keeps_orientation(joint) && R_AB.diagonal().minCoeff() <= 0.0) turn = -(R_WA * log_so3<double>(R_AB));
     if (turn.isZero(0.0)) continue;
     const bool moves_b = joint.b.node >= 0;

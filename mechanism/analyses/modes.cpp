@@ -6,6 +6,7 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <Eigen/QR>
@@ -175,8 +176,8 @@ double frequency_seen_from(const Model& model, const Eigen::Vector3d& turn, cons
   constexpr double other = 1e-6;  // share of the square of the motion
   const double all = with + against + along, rate = std::abs(mode.eigenvalue.imag());
   if (along > (1.0 - other) * all) return mode.frequency();
-  if (with > (1.0 - other) * all) return std::abs(rate - turn.norm()) / (2.0 * EIGEN_PI);
-  if (against > (1.0 - other) * all) return (rate + turn.norm()) / (2.0 * EIGEN_PI);
+  if (with > (1.0 - other) * all) return std::abs(rate - turn.norm()) / (2.0 * std::numbers::pi);
+  if (against > (1.0 - other) * all) return (rate + turn.norm()) / (2.0 * std::numbers::pi);
   return std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -3,6 +3,7 @@
 
 #include <complex>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct Mode {
   bool unstable = false;            ///< Re λ > 0 beyond round-off: it grows
   /// |λ|/2π in the other axes of the report; NaN of a motion that has two frequencies there, or 0 in both.
   double seen_from_other_axes = std::numeric_limits<double>::quiet_NaN();
-  double frequency() const { return std::abs(eigenvalue) / (2.0 * EIGEN_PI); }
+  double frequency() const { return std::abs(eigenvalue) / (2.0 * std::numbers::pi); }
   double damping_ratio() const { return std::abs(eigenvalue) > 0.0 ? -eigenvalue.real() / std::abs(eigenvalue) : 0.0; }
 };
 

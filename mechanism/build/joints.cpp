@@ -1,6 +1,8 @@
 // Joints between markers, their coordinates, and what acts along these.
 #include "mechanism/build/joints.hpp"
 
+#include <numbers>
+
 #include <fmt/format.h>
 
 #include "common/error.hpp"
@@ -85,7 +87,7 @@ void JointBuilder::add_friction(const formats::JointSpec& joint) {
   friction.inverse_arm = spec.arm ? 1.0 / *spec.arm : 0.0;
   if (joint_law(joint.kind).threaded) {
     friction.thread = static_cast<int>(model_.couplings.size()) - 1;
-    friction.lead = joint.pitch / (2.0 * EIGEN_PI);
+    friction.lead = joint.pitch / (2.0 * std::numbers::pi);
   }
   model_.frictions.push_back(friction);
 }
@@ -97,7 +99,7 @@ int JointBuilder::add_thread(const formats::JointSpec& spec) {
   thread.thread = true;
   thread.from_start = true;
   const int angle = coordinate_.at(spec.name + "/angle"), z = coordinate_.at(spec.name + "/z");
-  thread.terms = {{z, 1.0}, {angle, static_cast<double>(-spec.pitch / (2.0 * EIGEN_PI))}};
+  thread.terms = {{z, 1.0}, {angle, static_cast<double>(-spec.pitch / (2.0 * std::numbers::pi))}};
   activate(thread);
   return static_cast<int>(model_.couplings.size()) - 1;
 }

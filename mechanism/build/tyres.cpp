@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -37,7 +38,7 @@ Matrix3d frame_with_y(const Vector3d& axle) {
 void check_axle(const formats::TyreSpec& spec, const Tyre& tyre, const Construction& c) {
   const Vector3d axle = tyre.wheel.R.col(1);
   const Joint* nearest = nullptr;
-  double least = EIGEN_PI;
+  double least = std::numbers::pi;
   for (const Joint& joint : c.model.joints) {
     if (joint.kind != formats::JointKind::revolute && joint.kind != formats::JointKind::cylindrical) continue;
     for (const Marker* marker : {&joint.a, &joint.b}) {
@@ -50,7 +51,7 @@ void check_axle(const formats::TyreSpec& spec, const Tyre& tyre, const Construct
   }
   if (nearest == nullptr || least <= parallel_axle) return;
   throw Error(fmt::format("tyre '{}': its axle is {:.3g} degrees away from the axis of joint '{}'", spec.name,
-                          least * 180.0 / EIGEN_PI, nearest->name),
+                          least * 180.0 / std::numbers::pi, nearest->name),
               spec.where, "give axis along that of the joint on which the wheel turns");
 }
 

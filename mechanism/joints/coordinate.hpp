@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,9 @@ struct CoordinateTerms {
 };
 
 /// The angle nearest to `near` that differs from `angle` by whole turns.
-inline double unwrapped(double angle, double near) { return near + std::remainder(angle - near, 2.0 * EIGEN_PI); }
+inline double unwrapped(double angle, double near) {
+  return near + std::remainder(angle - near, 2.0 * std::numbers::pi);
+}
 
 /// Φ = Σ factor · coordinate − constant − f(t): a gear, a rack and pinion, a screw (two terms), a driven coordinate
 /// (one).

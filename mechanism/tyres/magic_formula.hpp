@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "mechanism/tyres/magic_formula_forces.hpp"
 
@@ -78,7 +79,7 @@ T aligning(const MagicFormulaLaw& law, const MagicInput<T>& in, const Lateral<T>
   const T D = in.Fz * (R0 / p.FNOMIN) * (p.QDZ1 + p.QDZ2 * in.dfz) * (1.0 - p.PPZ1 * in.dpi) *
               (1.0 + p.QDZ3 * gamma + p.QDZ4 * square) * p.LTR;
   const T E = at_most_one<T>((p.QEZ1 + p.QEZ2 * in.dfz + p.QEZ3 * in.dfz * in.dfz) *
-                             (1.0 + (p.QEZ4 + p.QEZ5 * gamma) * (2.0 / EIGEN_PI) * atan(B * C * alpha_t)));
+                             (1.0 + (p.QEZ4 + p.QEZ5 * gamma) * (2.0 / std::numbers::pi) * atan(B * C * alpha_t)));
   const T trail = in.rolling * D * cosine_of<T>(B, C, E, equivalent_angle(alpha_t, ratio)) * cosine;
   T by_camber = (p.QDZ8 + p.QDZ9 * in.dfz) * (1.0 + p.PPZ2 * in.dpi) * gamma;
   if (new_version) by_camber = (by_camber + (p.QDZ10 + p.QDZ11 * in.dfz) * gamma * absolute(gamma)) * p.LKZC;

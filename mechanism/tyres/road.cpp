@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace tisserand::mechanism {
 namespace {
@@ -82,7 +83,7 @@ RoadHeight RoadPiece::at(double x) const {
   }
   if (s <= 0.0 || s >= length) return {};
   if (shape == formats::RoadPieceShape::cosine) {
-    const double k = 2.0 * EIGEN_PI / length;
+    const double k = 2.0 * std::numbers::pi / length;
     return {0.5 * height * (1.0 - std::cos(k * s)), 0.5 * height * k * std::sin(k * s), 0.0};
   }
   const double slope = height / ramp;

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <filesystem>
 #include <map>
+#include <numbers>
 
 #include "common/base64.hpp"
 #include "common/error.hpp"
@@ -17,7 +18,7 @@ namespace tisserand::mechanism {
 namespace {
 
 using formats::Json;
-constexpr double radian = EIGEN_PI / 180.0;
+constexpr double radian = std::numbers::pi / 180.0;
 constexpr int smallest_side = 32, largest_side = 8192;
 
 /// What users call it, and the setting of the page.
