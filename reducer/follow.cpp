@@ -2,7 +2,6 @@
 #include "reducer/follow.hpp"
 
 #include <optional>
-#include <utility>
 
 #include "reducer/algebra/shared_factor.hpp"
 #include "reducer/modes/search.hpp"

@@ -2,7 +2,6 @@
 // front and into the solver behind it.
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 

@@ -7,8 +7,8 @@
 #include "formats/modal_body/modal_body.hpp"
 #include "formats/part/part.hpp"
 #include "formats/superelement/superelement.hpp"
+#include "reducer/fields/fields.hpp"
 #include "reducer/mesh/mesh.hpp"
-#include "reducer/recovery/fields.hpp"
 #include "reducer/report/certificate.hpp"
 #include "reducer/report/phase_listener.hpp"
 

@@ -1,8 +1,6 @@
 // The members of both sides in pairs: what one does first, the other does too.
 #include "reducer/algebra/shared_factor.hpp"
 
-#include <utility>
-
 namespace tisserand::reducer {
 namespace {
 

@@ -3,8 +3,6 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "reducer/algebra/petsc.hpp"
 
 namespace tisserand::reducer {

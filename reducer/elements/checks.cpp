@@ -1,12 +1,7 @@
 // Shapes of elements.
 #include "reducer/elements/checks.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include <fmt/format.h>
-#include <Eigen/Geometry>
 
 #include "common/error.hpp"
 #include "common/text.hpp"

@@ -65,6 +65,7 @@ Eigen::VectorXd energy_error(const Mesh& mesh, const BeamElement& beam, const Ei
 
 /// Corners of a solid, the first of its nodes, and the two corners between which each later node lies.
 int corner_count(SolidShape shape);
+inline bool is_second_order(SolidShape shape) { return node_count(shape) > corner_count(shape); }
 std::array<int, 2> ends_of_edge_node(SolidShape shape, int node);
 
 /// At a corner: of a shell the angle, of a solid the solid angle, that the element takes.

@@ -26,7 +26,7 @@ constexpr double most_mass = 1e6;          // [kg]: a bracket in millimetres tak
 void warn_thick_shells(const Mesh& mesh, std::vector<std::string>& warnings) {
   std::vector<Eigen::AlignedBox3d> box(mesh.shell_properties.size());
   for (const ShellElement& shell : mesh.shells)
-    for (int i = 0; i < shell.corners(); ++i) box[shell.property].extend(mesh.position.col(shell.nodes[i]));
+    for (const int n : nodes_of(shell)) box[shell.property].extend(mesh.position.col(n));
   for (std::size_t p = 0; p < box.size(); ++p) {
     const double thickness = mesh.shell_properties[p].section.thickness;
     if (box[p].isEmpty() || thickness <= 0.2 * box[p].diagonal().norm()) continue;
@@ -38,12 +38,12 @@ void warn_thick_shells(const Mesh& mesh, std::vector<std::string>& warnings) {
 
 Eigen::AlignedBox3d box_of_elements(const Mesh& mesh) {
   Eigen::AlignedBox3d box;
-  for (const BeamElement& beam : mesh.beams)
-    box.extend(mesh.position.col(beam.first)), box.extend(mesh.position.col(beam.second));
-  for (const ShellElement& shell : mesh.shells)
-    for (int i = 0; i < shell.corners(); ++i) box.extend(mesh.position.col(shell.nodes[i]));
-  for (const SolidElement& solid : mesh.solids)
-    for (int i = 0; i < node_count(solid.shape); ++i) box.extend(mesh.position.col(solid.nodes[i]));
+  const auto add = [&](const auto& element) {
+    for (const int n : nodes_of(element)) box.extend(mesh.position.col(n));
+  };
+  std::ranges::for_each(mesh.beams, add);
+  std::ranges::for_each(mesh.shells, add);
+  std::ranges::for_each(mesh.solids, add);
   return box;
 }
 

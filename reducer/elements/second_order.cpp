@@ -1,8 +1,6 @@
 // Patterns of second-order strains; corotated elements; springs.
 #include "reducer/elements/second_order.hpp"
 
-#include <utility>
-
 #include "common/error.hpp"
 #include "common/math/rotation.hpp"
 #include "reducer/elements/element_matrices.hpp"

@@ -9,7 +9,6 @@
 // V3 of w and w + θ × X together with the linear energy of the second-order displacements (θ × u, ½ θ × ψ) vanishes.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include <Eigen/Core>

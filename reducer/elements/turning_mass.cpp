@@ -88,7 +88,7 @@ void set_turned(const MovingMass& mass, const PointRows& rows, const Vector3d& r
       const Vector3d f = rows.load.block<3, 1>(6 * p, l), m = rows.load.block<3, 1>(6 * p + 3, l);
       factors.block<3, 3>(3 * l, 6 * p) = -skew<double>(f);
       factors.block<3, 3>(3 * l, 6 * p + 3) = -0.5 * skew<double>(m);
-      add_arm(l, f, mass.points[static_cast<std::size_t>(p)].at - reference);
+      add_arm(l, f, mass.points[p].at - reference);
     }
     for (Index i = 0; i < mass.nodes.cols(); ++i)
       add_arm(l, -out.load.block<3, 1>(6 * i, l), mass.nodes.col(i) - reference);
@@ -118,7 +118,7 @@ void add_turn(const MovingMass& mass, const PointRows& rows, const Vector3d& ref
 
 void TurningPivot::add(int item, const Matrix3d& matrix) {
   if (matrix.isZero(0.0)) return;
-  form[static_cast<std::size_t>(item)] = matrix;
+  form[item] = matrix;
   present |= 1U << static_cast<unsigned>(item);
 }
 
@@ -180,7 +180,7 @@ void turning_mass(const MovingMass& mass, const Vector3d& reference, TurningMass
   rows.motion.resize(6 * count + (mass.turn.cols() > 0 ? 3 : 0), n);
   rows.load.resize(6 * count, inertial_loads);
   for (Index p = 0; p < count; ++p) {
-    const MassPoint& point = mass.points[static_cast<std::size_t>(p)];
+    const MassPoint& point = mass.points[p];
     const bool is_beside = !point.centre.isZero(0.0);
     rows.motion.middleRows<3>(6 * p) = point.displacement;
     rows.motion.middleRows<3>(6 * p + 3) = point.rotation;

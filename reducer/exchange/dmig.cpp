@@ -2,7 +2,6 @@
 #include "reducer/exchange/dmig.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
 
 #include <fmt/format.h>
@@ -58,7 +57,7 @@ struct Reader {
 };
 
 void Reader::fault(CardFields& fields, const std::string& what, const std::string& remedy) {
-  fields.refuse();
+  fields.mark_faulty();
   const auto [found, is_new] = faults.try_emplace(what, Repeated{fields.label() + ": " + what, fields.where(), remedy});
   if (!is_new) ++found->second.more;
 }

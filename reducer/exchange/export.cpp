@@ -44,9 +44,8 @@ formats::Superelement ordered(const formats::Superelement& element) {
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(element.size()));
   std::iota(rows.begin(), rows.end(), 0);
   const auto key = [&element](Eigen::Index row) {
-    const auto i = static_cast<std::size_t>(row);
-    const int node = element.dof_node[i];
-    return std::make_tuple(node < 0, node, element.dof_component[i]);
+    const int node = element.dof_node[row];
+    return std::make_tuple(node < 0, node, element.dof_component[row]);
   };
   std::sort(rows.begin(), rows.end(), [&](Eigen::Index a, Eigen::Index b) { return key(a) < key(b); });
   formats::Superelement result = element;

@@ -2,12 +2,12 @@
 #include "reducer/exchange/reduced_matrices.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "reducer/mesh/coordinates.hpp"
 
 namespace tisserand::reducer::exchange {
 namespace {
@@ -84,11 +84,9 @@ double symmetrise(const TextMatrix& matrix, const std::vector<RowKey>& rows, Eig
 }  // namespace
 
 std::string key_text(const RowKey& key) {
-  constexpr std::array<const char*, 6> words{"translation x", "translation y", "translation z",
-                                             "rotation x",    "rotation y",    "rotation z"};
   if (key.component == scalar_component) return fmt::format("scalar point {}", key.node);
   if (key.component < 0 || key.component > 5) return fmt::format("node {}, component {}", key.node, key.component + 1);
-  return fmt::format("node {}, {}", key.node, words[key.component]);
+  return fmt::format("node {}, {}", key.node, component_text(key.component));
 }
 
 void add_entry(TextMatrix& matrix, const MatrixEntry& entry) {

@@ -1,7 +1,6 @@
 // Lines of the table of rows to keys and places, and back.
 #include "reducer/exchange/rows_table.hpp"
 
-#include <algorithm>
 #include <array>
 #include <optional>
 

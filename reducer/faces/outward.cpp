@@ -5,7 +5,6 @@
 #include <array>
 #include <limits>
 #include <map>
-#include <set>
 #include <utility>
 
 #include <Eigen/Geometry>

@@ -5,7 +5,6 @@
 #include <string>
 
 #include <gmsh.h>
-#include <Eigen/Geometry>
 
 namespace tisserand::reducer {
 namespace {

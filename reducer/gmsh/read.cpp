@@ -7,7 +7,6 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <set>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -25,37 +24,6 @@ namespace {
 constexpr const char* open_with_gmsh = "open it with gmsh to see what is wrong";
 
 /// gmsh's number of an element type, or nothing for kinds that have no element here.
-std::optional<CellShape> shape_of(int gmsh_type) {
-  switch (gmsh_type) {
-    case 1:
-      return CellShape::line2;
-    case 8:
-      return CellShape::line3;
-    case 2:
-      return CellShape::triangle3;
-    case 9:
-      return CellShape::triangle6;
-    case 3:
-      return CellShape::quadrilateral4;
-    case 16:
-      return CellShape::quadrilateral8;
-    case 4:
-      return CellShape::tetrahedron4;
-    case 11:
-      return CellShape::tetrahedron10;
-    case 5:
-      return CellShape::hexahedron8;
-    case 17:
-      return CellShape::hexahedron20;
-    case 6:
-      return CellShape::prism6;
-    case 18:
-      return CellShape::prism15;
-    default:
-      return std::nullopt;
-  }
-}
-
 void set_option(const char* name, double value) { gmsh::option::setNumber(name, value); }
 
 /// OpenCASCADE knows its target unit only after a STEP reader has been made; gmsh makes none for IGES. Reading a STEP
@@ -253,7 +221,7 @@ class Reader {
  private:
   void read_cells(Entity& entity, int type, const std::vector<std::size_t>& ids,
                   const std::vector<std::size_t>& nodes) {
-    const std::optional<CellShape> shape = shape_of(type);
+    const std::optional<CellShape> shape = cell_shape(type);
     if (!shape) refuse(type);
     const auto count = static_cast<std::size_t>(form_of(*shape).nodes);
     auto& cells = mesh_.cells[entity.dimension];

@@ -1,8 +1,6 @@
 // Sums of the elements' consistent loads.
 #include "reducer/loads/load_vectors.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
@@ -93,7 +91,7 @@ LoadVectors load_vectors(const Mesh& mesh, const System& system) {
                     Eigen::VectorXd::Zero(cases)};
   const Eigen::MatrixXd R = rigid_motions_about(system, Eigen::Vector3d::Zero());
   for (Index c = 0; c < cases; ++c) {
-    const MeshLoadCase& load = mesh.load_cases[static_cast<std::size_t>(c)];
+    const MeshLoadCase& load = mesh.load_cases[c];
     NodalForces nodal(mesh, system.coordinates);
     nodal.add(load);
     Vector6 resultant = Vector6::Zero();

@@ -1,7 +1,6 @@
 // Components of supported nodes.
 #include "reducer/loads/supports.hpp"
 
-#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
@@ -33,7 +32,7 @@ std::map<int, Follower> followers(const Mesh& mesh) {
 
 }  // namespace
 
-std::vector<HeldCoordinate> held_coordinates(const Mesh& mesh, const Coordinates& coordinates) {
+std::vector<OwnedCoordinate> held_coordinates(const Mesh& mesh, const Coordinates& coordinates) {
   const std::map<int, Follower> following = followers(mesh);
   std::map<int, int> held;
   for (int s = 0; s < static_cast<int>(mesh.supports.size()); ++s) {
@@ -53,7 +52,7 @@ std::vector<HeldCoordinate> held_coordinates(const Mesh& mesh, const Coordinates
         if ((components >> c & 1) != 0) held.try_emplace(coordinates.of(node, c), s);
     }
   }
-  std::vector<HeldCoordinate> result;
+  std::vector<OwnedCoordinate> result;
   for (const auto& [x, support] : held) result.push_back({x, support});
   return result;
 }

@@ -8,13 +8,8 @@
 
 namespace tisserand::reducer {
 
-struct HeldCoordinate {
-  int x = 0;        ///< of the mesh
-  int support = 0;  ///< row of Mesh::supports; the first that holds it
-};
-
-/// Each coordinate once, ascending. Throws Error for rotations that a node does not have and for nodes that follow a
-/// rigid spider.
-std::vector<HeldCoordinate> held_coordinates(const Mesh& mesh, const Coordinates& coordinates);
+/// Each coordinate once, ascending, with the first support that holds it. Throws Error for rotations that a node does
+/// not have and for nodes that follow a rigid spider.
+std::vector<OwnedCoordinate> held_coordinates(const Mesh& mesh, const Coordinates& coordinates);
 
 }  // namespace tisserand::reducer

@@ -1,29 +1,31 @@
 // Forms, sizes and nodal shares of cells.
 #include "reducer/mesh/cells.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
 namespace tisserand::reducer {
 namespace {
 
-constexpr std::array<CellForm, 12> forms{{{1, 2, 2},
-                                          {1, 3, 2},
-                                          {2, 3, 3},
-                                          {2, 6, 3},
-                                          {2, 4, 4},
-                                          {2, 8, 4},
-                                          {3, 4, 4},
-                                          {3, 10, 4},
-                                          {3, 8, 8},
-                                          {3, 20, 8},
-                                          {3, 6, 6},
-                                          {3, 15, 6}}};
+constexpr std::array<CellForm, 12> forms{{{1, 1, 2, 2},
+                                          {8, 1, 3, 2},
+                                          {2, 2, 3, 3},
+                                          {9, 2, 6, 3},
+                                          {3, 2, 4, 4},
+                                          {16, 2, 8, 4},
+                                          {4, 3, 4, 4},
+                                          {11, 3, 10, 4},
+                                          {5, 3, 8, 8},
+                                          {17, 3, 20, 8},
+                                          {6, 3, 6, 6},
+                                          {18, 3, 15, 6}}};
 
 using Points = std::vector<Eigen::Vector3d>;
 
 double tetrahedron_volume(const Points& x, const Cell& cell, const std::array<int, 4>& k) {
-  const auto at = [&](int i) { return x[static_cast<std::size_t>(cell.nodes[k[i]])]; };
+  const auto at = [&](int i) { return x[cell.nodes[k[i]]]; };
   return std::abs((at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0))) / 6.0;
 }
 
@@ -49,6 +51,12 @@ double volume(const Points& x, const Cell& cell, int corners) {
 }  // namespace
 
 CellForm form_of(CellShape shape) { return forms[static_cast<int>(shape)]; }
+
+std::optional<CellShape> cell_shape(int gmsh_type) {
+  const auto form = std::ranges::find(forms, gmsh_type, &CellForm::gmsh_type);
+  if (form == forms.end()) return std::nullopt;
+  return static_cast<CellShape>(form - forms.begin());
+}
 
 const char* dimension_word(int dimension) {
   constexpr std::array<const char*, 4> words{"node", "edge", "face", "volume"};

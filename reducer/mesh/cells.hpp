@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace tisserand::reducer {
 /// A mesh of more is refused before it is made: its reduction would take more memory than machines have.
 inline constexpr double most_elements = 1e7;
 
-/// Node order as gmsh's elements 1, 8, 2, 9, 3, 16, 4, 11, 5, 17, 6, 18 (its documentation, "Node ordering").
+/// Node order as gmsh's elements of these types (its documentation, "Node ordering").
 enum class CellShape : std::uint8_t {
   line2,
   line3,
@@ -33,11 +34,14 @@ enum class CellShape : std::uint8_t {
 };
 
 struct CellForm {
+  int gmsh_type;
   int dimension;
   int nodes;
   int corners;
 };
 CellForm form_of(CellShape shape);
+/// Nothing for elements of gmsh that are no cells here.
+std::optional<CellShape> cell_shape(int gmsh_type);
 
 struct Cell {
   CellShape shape = CellShape::line2;

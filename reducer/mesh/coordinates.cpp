@@ -18,12 +18,10 @@ struct Use {
 };
 
 void use_element(const Mesh& mesh, int e, Use& use) {
-  const ElementNodes nodes = element_nodes(mesh, e);
   const auto surfaces = mesh.beams.size() + mesh.shells.size();
   const auto k = static_cast<std::size_t>(e);
   const bool turns = k < surfaces || k >= surfaces + mesh.solids.size();
-  for (int i = 0; i < nodes.count; ++i) {
-    const auto n = static_cast<std::size_t>(nodes.node[i]);
+  for (const int n : element_nodes(mesh, e)) {
     use.element[n] = use.any[n] = true;
     if (turns) use.rotation[n] = true;
   }
@@ -31,20 +29,17 @@ void use_element(const Mesh& mesh, int e, Use& use) {
 
 void use_ties(const Mesh& mesh, Use& use) {
   for (const Spider& spider : mesh.spiders) {
-    const auto reference = static_cast<std::size_t>(spider.reference);
-    use.any[reference] = use.rotation[reference] = true;
+    use.any[spider.reference] = use.rotation[spider.reference] = true;
     for (const int node : spider.nodes) {
-      const auto n = static_cast<std::size_t>(node);
-      use.any[n] = true;
+      use.any[node] = true;
       const bool turned = spider.kind == SpiderKind::rigid && (spider.node_components & rotations_only) != 0;
-      if (turned && !use.element[n]) use.rotation[n] = true;
+      if (turned && !use.element[node]) use.rotation[node] = true;
     }
   }
   for (const TieEquation& equation : mesh.equations)
     for (const TieTerm& term : equation.terms) {
-      const auto n = static_cast<std::size_t>(term.node);
-      use.any[n] = true;
-      if (term.component >= 3) use.rotation[n] = true;
+      use.any[term.node] = true;
+      if (term.component >= 3) use.rotation[term.node] = true;
     }
 }
 
@@ -53,9 +48,8 @@ Use find_use(const Mesh& mesh) {
   Use use{none, none, none};
   for (int e = 0; e < mesh.elements(); ++e) use_element(mesh, e, use);
   for (const NodalMass& mass : mesh.masses) {
-    const auto n = static_cast<std::size_t>(mass.node);
-    use.any[n] = true;
-    if (!mass.inertia.isZero(0.0) || !mass.offset.isZero(0.0)) use.rotation[n] = true;
+    use.any[mass.node] = true;
+    if (!mass.inertia.isZero(0.0) || !mass.offset.isZero(0.0)) use.rotation[mass.node] = true;
   }
   use_ties(mesh, use);
   return use;
@@ -64,29 +58,18 @@ Use find_use(const Mesh& mesh) {
 }  // namespace
 
 ElementNodes element_nodes(const Mesh& mesh, int element) {
-  ElementNodes result;
-  const auto pair = [&result](int first, int second) {
-    result.node[0] = first;
-    result.node[1] = second;
-    result.count = 2;
+  const auto copy = [](const auto& nodes) {
+    ElementNodes result;
+    result.count = static_cast<int>(std::copy(nodes.begin(), nodes.end(), result.node.begin()) - result.node.begin());
     return result;
   };
   auto k = static_cast<std::size_t>(element);
-  if (k < mesh.beams.size()) return pair(mesh.beams[k].first, mesh.beams[k].second);
+  if (k < mesh.beams.size()) return copy(nodes_of(mesh.beams[k]));
   k -= mesh.beams.size();
-  if (k < mesh.shells.size()) {
-    result.count = mesh.shells[k].corners();
-    std::copy_n(mesh.shells[k].nodes.begin(), result.count, result.node.begin());
-    return result;
-  }
+  if (k < mesh.shells.size()) return copy(nodes_of(mesh.shells[k]));
   k -= mesh.shells.size();
-  if (k < mesh.solids.size()) {
-    result.count = node_count(mesh.solids[k].shape);
-    std::copy_n(mesh.solids[k].nodes.begin(), result.count, result.node.begin());
-    return result;
-  }
-  k -= mesh.solids.size();
-  return pair(mesh.springs[k].first, mesh.springs[k].second);
+  if (k < mesh.solids.size()) return copy(nodes_of(mesh.solids[k]));
+  return copy(nodes_of(mesh.springs[k - mesh.solids.size()]));
 }
 
 Coordinates number_coordinates(const Mesh& mesh) {

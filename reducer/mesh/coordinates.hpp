@@ -19,17 +19,25 @@ struct Coordinates {
   std::vector<int> component;  ///< of each coordinate, 0-5
 
   int count() const { return static_cast<int>(node.size()); }
-  bool rotates(int n) const { return first[static_cast<std::size_t>(n) + 1] - first[n] == 6; }
+  bool rotates(int n) const { return first[n + 1] - first[n] == 6; }
   /// Number of a node's coordinate; only if it has that component.
   int of(int n, int c) const { return first[n] + c; }
 };
 
 Coordinates number_coordinates(const Mesh& mesh);
 
+/// A coordinate of the mesh that a boundary node retains, a reference ties or a support holds.
+struct OwnedCoordinate {
+  int x = 0;
+  int owner = 0;  ///< row of Mesh::boundary, ::held or ::supports
+};
+
 /// Nodes of the mesh's elements, in one numbering of all of them: beams, shells, solids, springs.
 struct ElementNodes {
   std::array<int, 20> node{};
   int count = 0;
+  const int* begin() const { return node.data(); }
+  const int* end() const { return node.data() + count; }
 };
 ElementNodes element_nodes(const Mesh& mesh, int element);
 

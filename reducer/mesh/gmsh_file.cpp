@@ -11,6 +11,7 @@
 
 #include "common/stable_sort.hpp"
 #include "common/text.hpp"
+#include "reducer/mesh/solid_faces.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -22,6 +23,8 @@ struct Batch {
   std::map<int, std::vector<int>> nodes;  ///< by gmsh's element type
 };
 
+void append(std::vector<int>& to, const auto& nodes) { to.insert(to.end(), nodes.begin(), nodes.end()); }
+
 /// What a file calls an entity: a batch that is not empty.
 struct MshEntity {
   const Batch* batch;
@@ -31,17 +34,7 @@ struct MshEntity {
 
 constexpr int point_type = 15, line_type = 1, triangle_type = 2, quadrilateral_type = 3;
 
-int nodes_of_type(int type) {
-  static const std::map<int, int> known{
-      {point_type, 1}, {line_type, 2}, {triangle_type, 3}, {quadrilateral_type, 4}, {4, 4}, {11, 10}, {5, 8}, {17, 20},
-      {6, 6},          {18, 15}};
-  return known.at(type);
-}
-
-int gmsh_type(SolidShape shape) {
-  constexpr std::array types{4, 11, 5, 17, 6, 18};
-  return types[static_cast<int>(shape)];
-}
+int nodes_of_type(int type) { return type == point_type ? 1 : form_of(*cell_shape(type)).nodes; }
 
 template <class Property>
 std::vector<Batch> batches_of(const std::vector<Property>& properties, int dimension) {
@@ -52,19 +45,12 @@ std::vector<Batch> batches_of(const std::vector<Property>& properties, int dimen
 
 std::vector<Batch> element_batches(const Mesh& mesh) {
   std::vector<Batch> all = batches_of(mesh.beam_properties, 1);
-  for (const BeamElement& e : mesh.beams) {
-    auto& nodes = all[e.property].nodes[line_type];
-    nodes.insert(nodes.end(), {e.first, e.second});
-  }
+  for (const BeamElement& e : mesh.beams) append(all[e.property].nodes[line_type], nodes_of(e));
   std::vector<Batch> shells = batches_of(mesh.shell_properties, 2), solids = batches_of(mesh.solid_properties, 3);
-  for (const ShellElement& e : mesh.shells) {
-    auto& nodes = shells[e.property].nodes[e.corners() == 3 ? triangle_type : quadrilateral_type];
-    nodes.insert(nodes.end(), e.nodes.begin(), e.nodes.begin() + e.corners());
-  }
-  for (const SolidElement& e : mesh.solids) {
-    auto& nodes = solids[e.property].nodes[gmsh_type(e.shape)];
-    nodes.insert(nodes.end(), e.nodes.begin(), e.nodes.begin() + node_count(e.shape));
-  }
+  for (const ShellElement& e : mesh.shells)
+    append(shells[e.property].nodes[e.corners() == 3 ? triangle_type : quadrilateral_type], nodes_of(e));
+  for (const SolidElement& e : mesh.solids)
+    append(solids[e.property].nodes[form_of(as_cell(e).shape).gmsh_type], nodes_of(e));
   all.insert(all.end(), shells.begin(), shells.end());
   all.insert(all.end(), solids.begin(), solids.end());
   return all;

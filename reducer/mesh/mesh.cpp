@@ -107,6 +107,11 @@ std::string boundary_text(const Mesh& mesh) {
 
 }  // namespace
 
+Eigen::Vector3d normal_of(const Mesh& mesh, const ShellElement& shell) {
+  const auto x = [&](int k) { return Eigen::Vector3d(mesh.position.col(shell.nodes[k])); };
+  return shell.corners() == 3 ? (x(1) - x(0)).cross(x(2) - x(0)) : (x(2) - x(0)).cross(x(3) - x(1));
+}
+
 double characteristic_length(const Mesh& mesh) {
   const Eigen::Vector3d mean = mesh.position.rowwise().mean();
   const double length = (mesh.position.colwise() - mean).colwise().norm().maxCoeff();

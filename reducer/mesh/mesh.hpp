@@ -4,7 +4,10 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -69,6 +72,15 @@ struct SolidElement {
   int id = 0;
 };
 
+/// Nodes of an element, one after the other.
+inline std::array<int, 2> nodes_of(const BeamElement& beam) { return {beam.first, beam.second}; }
+inline std::span<const int> nodes_of(const ShellElement& shell) {
+  return std::span(shell.nodes).first(static_cast<std::size_t>(shell.corners()));
+}
+inline std::span<const int> nodes_of(const SolidElement& solid) {
+  return std::span(solid.nodes).first(static_cast<std::size_t>(node_count(solid.shape)));
+}
+
 struct SolidProperty {
   SolidMaterial material;
   formats::MassMatrix mass_matrix = formats::MassMatrix::consistent;
@@ -82,6 +94,8 @@ struct Spring {
   Eigen::Matrix<double, 12, 12> stiffness = Eigen::Matrix<double, 12, 12>::Zero();
   std::string name;
 };
+
+inline std::array<int, 2> nodes_of(const Spring& spring) { return {spring.first, spring.second}; }
 
 struct NodalMass {
   int node = 0;
@@ -155,6 +169,16 @@ struct Mesh {
   int nodes() const { return static_cast<int>(position.cols()); }
   int elements() const { return static_cast<int>(beams.size() + shells.size() + solids.size() + springs.size()); }
 };
+
+/// Appends a row and returns its number.
+template <class Row>
+int add_row(std::vector<Row>& rows, std::type_identity_t<Row> row) {
+  rows.push_back(std::move(row));
+  return static_cast<int>(rows.size()) - 1;
+}
+
+/// Normal of a shell, as long as twice its area.
+Eigen::Vector3d normal_of(const Mesh& mesh, const ShellElement& shell);
 
 /// l = largest distance of a node from the mean of the nodes (1 if 0): the length with which rotations are scaled.
 double characteristic_length(const Mesh& mesh);

@@ -2,7 +2,6 @@
 #include "reducer/mesh_error/doubts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -46,8 +45,6 @@ DoubtLimits limits_of(const Mesh& mesh, int element) {
   return {};
 }
 
-bool first_order(SolidShape shape) { return node_count(shape) == corner_count(shape); }
-
 /// Nodes at which something else than solids may act.
 std::vector<bool> attached_nodes(const Mesh& mesh) {
   std::vector<bool> attached(static_cast<std::size_t>(mesh.nodes()), false);
@@ -56,7 +53,7 @@ std::vector<bool> attached_nodes(const Mesh& mesh) {
   for (const TieEquation& equation : mesh.equations)
     for (const TieTerm& term : equation.terms) attached[term.node] = true;
   for (const ShellElement& shell : mesh.shells)
-    for (int k = 0; k < shell.corners(); ++k) attached[shell.nodes[k]] = true;
+    for (const int n : nodes_of(shell)) attached[n] = true;
   return attached;
 }
 
@@ -145,7 +142,7 @@ MeshMeasures mesh_measures(const Mesh& mesh, const MatrixXd& motion, const Vecto
       all.scatter.row(e) = energy(solid, smooth.scatter(e));
       for (const std::vector<int>& face : faces[e - shells])
         all.traction.row(e) += traction_energy(mesh, solid, face, stress).transpose();
-      if (first_order(solid.shape)) all.imbalance.row(e) = imbalance(mesh, solid, u, lambda, stress).transpose();
+      if (!is_second_order(solid.shape)) all.imbalance.row(e) = imbalance(mesh, solid, u, lambda, stress).transpose();
     }
   });
   return all;
@@ -195,7 +192,7 @@ MeshDoubts mesh_doubts(const Mesh& mesh, const MeshMeasures& measures, const Vec
       return MeshDoubt::none;
     };
     const MeshDoubt found = doubt();
-    result.doubt[static_cast<std::size_t>(k)] = found;
+    result.doubt[k] = found;
     if (found == MeshDoubt::turned) result.size[k] = std::max(size, turned_size);
     if (found == MeshDoubt::few_across) result.size[k] = 3.0 * size;
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "common/parallel.hpp"
 #include "reducer/elements/mesh_error.hpp"
@@ -89,7 +88,7 @@ MeshErrors mesh_errors(const Mesh& mesh, const System& system, const FreeMotions
     result.relative[k] = std::sqrt(1.0 / left) - 1.0;
     Eigen::Index worst = 0;
     if (properties.error.rows() > 0) properties.error.col(k).cwiseAbs().maxCoeff(&worst);
-    result.place.push_back(properties.name.empty() ? "" : properties.name[static_cast<std::size_t>(worst)]);
+    result.place.push_back(properties.name.empty() ? "" : properties.name[worst]);
   }
   return result;
 }

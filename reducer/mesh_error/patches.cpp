@@ -143,9 +143,7 @@ std::vector<int> neighbours(const StressPatches& all, int patch) {
 }
 
 bool second_order(const Mesh& mesh, int element) {
-  if (element < shells(mesh)) return false;
-  const SolidShape shape = mesh.solids[element - shells(mesh)].shape;
-  return node_count(shape) > corner_count(shape);
+  return element >= shells(mesh) && is_second_order(mesh.solids[element - shells(mesh)].shape);
 }
 
 /// Fullest first, so that the sources of what is taken over are known.

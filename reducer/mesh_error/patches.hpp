@@ -3,8 +3,6 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "reducer/elements/mesh_error.hpp"
 #include "reducer/mesh/mesh.hpp"
 

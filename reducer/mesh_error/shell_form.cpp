@@ -2,7 +2,6 @@
 #include "reducer/mesh_error/shell_form.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -10,7 +9,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include "reducer/elements/mesh_error.hpp"
 #include "reducer/mesh_error/patches.hpp"
@@ -44,11 +42,6 @@ EdgeMap edges_of(const Mesh& mesh) {
       edges[std::minmax({shell.nodes[k], shell.nodes[(k + 1) % shell.corners()]})].push_back({s, k});
   }
   return edges;
-}
-
-Vector3d normal_of(const Mesh& mesh, const ShellElement& shell) {
-  const auto x = [&](int k) { return Vector3d(mesh.position.col(shell.nodes[k])); };
-  return (shell.corners() == 3 ? (x(1) - x(0)).cross(x(2) - x(0)) : (x(2) - x(0)).cross(x(3) - x(1))).normalized();
 }
 
 double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
@@ -88,14 +81,13 @@ void mark_few_across(const Mesh& mesh, const EdgeMap& edges, std::vector<ShellFo
   std::vector<bool> beside_free(static_cast<std::size_t>(mesh.nodes()), false);  // node of a shell that touches no fold
   for (std::size_t s = 0; s < mesh.shells.size(); ++s) {
     const ShellElement& shell = mesh.shells[s];
-    const auto last = shell.nodes.begin() + shell.corners();
-    touches[s] = std::any_of(shell.nodes.begin(), last, [&](int n) { return fold[n]; });
-    if (!touches[s]) std::for_each(shell.nodes.begin(), last, [&](int n) { beside_free[n] = true; });
+    touches[s] = std::ranges::any_of(nodes_of(shell), [&](int n) { return fold[n]; });
+    if (touches[s]) continue;
+    for (const int n : nodes_of(shell)) beside_free[n] = true;
   }
   for (std::size_t s = 0; s < mesh.shells.size(); ++s) {
     const ShellElement& shell = mesh.shells[s];
-    forms[s].few_across = touches[s] && std::none_of(shell.nodes.begin(), shell.nodes.begin() + shell.corners(),
-                                                     [&](int n) { return beside_free[n]; });
+    forms[s].few_across = touches[s] && std::ranges::none_of(nodes_of(shell), [&](int n) { return beside_free[n]; });
   }
 }
 

@@ -17,8 +17,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-bool second_order(SolidShape shape) { return node_count(shape) > corner_count(shape); }
-
 /// 1, x, y (shells); 1, x, y, z; and their products.
 int terms(bool shell, bool quadratic) { return shell ? 3 : quadratic ? 10 : 4; }
 
@@ -195,7 +193,7 @@ SmoothStress::Polynomial SmoothStress::fit(const StressPatch& patch) const {
   for (const int e : patch.elements) {
     samples += place_[e].cols();
     nodes += corners_of(mesh_, e);
-    quadratic = quadratic || (!shell && second_order(mesh_.solids[e - shells].shape));
+    quadratic = quadratic || (!shell && is_second_order(mesh_.solids[e - shells].shape));
   }
   Polynomial result;
   result.origin = mesh_.position.col(patch.node);

@@ -2,7 +2,6 @@
 #include "reducer/mesh_error/surround.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <utility>

@@ -2,7 +2,6 @@
 // a stranger's file, so nothing of it is taken on trust.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

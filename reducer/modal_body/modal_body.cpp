@@ -81,19 +81,12 @@ struct LumpedModes {
 };
 
 Partition held_partition(const Mesh& mesh, const System& system) {
-  Partition p;
-  std::vector<bool> held(static_cast<std::size_t>(system.size()), false);
+  std::vector<OwnedCoordinate> held;
   for (std::size_t k = 0; k < mesh.held.size(); ++k)
-    for (int component = 0; component < 6; ++component) {
-      if ((mesh.held[k].components >> component & 1) == 0) continue;
-      p.boundary.push_back(system.T.row[system.coordinates.of(mesh.held[k].node, component)]);
-      p.boundary_node.push_back(static_cast<int>(k));
-      p.boundary_component.push_back(component);
-      held[p.boundary.back()] = true;
-    }
-  for (int i = 0; i < system.size(); ++i)
-    if (!held[i]) p.internal.push_back(i);
-  return p;
+    for (int component = 0; component < 6; ++component)
+      if ((mesh.held[k].components >> component & 1) != 0)
+        held.push_back({system.coordinates.of(mesh.held[k].node, component), static_cast<int>(k)});
+  return partition(system, held);
 }
 
 [[noreturn]] void fail_for_modes(int asked, int available, const std::string& where) {

@@ -7,8 +7,8 @@
 
 #include "formats/modal_body/modal_body.hpp"
 #include "formats/part/part.hpp"
+#include "reducer/fields/fields.hpp"
 #include "reducer/mesh/mesh.hpp"
-#include "reducer/recovery/fields.hpp"
 #include "reducer/report/certificate.hpp"
 
 namespace tisserand::reducer {

@@ -5,7 +5,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 
 #include "reducer/algebra/factor.hpp"
 #include "reducer/algebra/symmetric_rows.hpp"
@@ -55,15 +54,6 @@ MatrixXd unit_loads(const AnsweredBody& body, std::vector<formats::AppliedLoad>&
   }
   for (std::size_t k = 0; k < place.size(); ++k) g(place[k], formats::inertia_loads + static_cast<Index>(k)) = 1.0;
   return g;
-}
-
-/// Six coordinates that no rigid motion leaves unmoved.
-std::vector<int> six_coordinates(const System& system) {
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(system.R.transpose());
-  std::vector<int> six;
-  for (Index k = 0; k < 6; ++k) six.push_back(qr.colsPermutation().indices()[k]);
-  std::ranges::sort(six);
-  return six;
 }
 
 /// K_II⁻¹ of all coordinates but the held ones, which stay.

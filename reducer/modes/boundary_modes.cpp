@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include <Eigen/QR>
-
 namespace tisserand::reducer {
 namespace {
 

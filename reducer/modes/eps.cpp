@@ -152,7 +152,7 @@ void Eps::deflate(const Eigen::MatrixXd& known) {
   petsc_check(EPSGetOperators(eps_, &A, nullptr));
   std::vector<Vec> vectors(static_cast<std::size_t>(known.cols()));
   for (Eigen::Index k = 0; k < known.cols(); ++k) {
-    Vec& v = vectors[static_cast<std::size_t>(k)];
+    Vec& v = vectors[k];
     petsc_check(MatCreateVecs(A, nullptr, &v));
     petsc_check(VecPlaceArray(v, known.col(k).data()));
   }

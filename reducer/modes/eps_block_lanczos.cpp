@@ -15,7 +15,6 @@ std::exception_ptr block_lanczos_failure(_p_EPS*) { return nullptr; }
 #else
 
 #include <algorithm>
-#include <utility>
 
 #include <slepc/private/epsimpl.h>
 

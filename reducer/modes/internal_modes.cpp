@@ -34,9 +34,8 @@ void set_place_weights(const InternalProblem& problem, const Eigen::Vector3d& ce
   gauge.square.resize(system.coordinates.count());
   gauge.linear.resize(system.coordinates.count());
   for (int x = 0; x < system.coordinates.count(); ++x) {
-    const auto k = static_cast<std::size_t>(x);
-    const Eigen::Vector3d X = (problem.mesh.position.col(system.coordinates.node[k]) - center) / system.length;
-    const int component = system.coordinates.component[k];
+    const Eigen::Vector3d X = (problem.mesh.position.col(system.coordinates.node[x]) - center) / system.length;
+    const int component = system.coordinates.component[x];
     const double place =
         X.dot(Eigen::Vector3d(0.9, 0.7, 0.5));  // exp: all powers, so no symmetry of a mode hides from it
     gauge.square[x] = system.mesh_mass[x] * component_weight[component] * std::exp(place);

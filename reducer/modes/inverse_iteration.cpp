@@ -24,7 +24,7 @@ void take_columns(const std::vector<Index>& order, VectorXd& value, Eigen::Ref<M
   value = VectorXd(value(order));
   if (std::is_sorted(order.begin(), order.end())) {
     for (Index k = 0; k < count; ++k)
-      if (const Index from = order[static_cast<std::size_t>(k)]; from != k) X.col(k) = X.col(from);
+      if (const Index from = order[k]; from != k) X.col(k) = X.col(from);
     return;
   }
   X.leftCols(count) = MatrixXd(X(Eigen::all, order));
@@ -136,7 +136,7 @@ VectorXd refine(const ShiftedOperator& op, const std::vector<Index>& columns, Ei
   const MatrixXd MY = op.mass(Y), change = MX - MY;
   VectorXd bound(lambda.size());
   for (Index c = 0; c < lambda.size(); ++c) {
-    const Index k = columns[static_cast<std::size_t>(c)];
+    const Index k = columns[c];
     pairs.value[k] = op.shift + lambda[c] * Y.col(c).dot(MX.col(c)) / factor.matrixLLT()(c, c);
     pairs.vector.col(k) = Y.col(c);
     residual[k] = change.col(c).norm() / MY.col(c).norm();

@@ -92,8 +92,8 @@ void merge(const EigenPairs& more, const Side& side, EigenPairs& pairs) {
   pairs.value.resize(static_cast<Index>(all.size()));
   pairs.vector.resize(more.vector.rows(), pairs.value.size());
   for (Index k = 0; k < pairs.value.size(); ++k) {
-    pairs.value[k] = all[static_cast<std::size_t>(k)].first;
-    pairs.vector.col(k) = all[static_cast<std::size_t>(k)].second;
+    pairs.value[k] = all[k].first;
+    pairs.vector.col(k) = all[k].second;
   }
 }
 

@@ -55,12 +55,12 @@ void require_mass_of(const InternalProblem& problem, const MatrixXd& N, const Ma
 Partition pinned(const Partition& p, const std::vector<int>& pins) {
   Partition result = p;
   for (const int pin : pins) {
-    result.boundary.push_back(p.internal[static_cast<std::size_t>(pin)]);
+    result.boundary.push_back(p.internal[pin]);
     result.boundary_node.push_back(-1);
     result.boundary_component.push_back(0);
   }
   result.internal.clear();
-  for (const Index i : stiff_rows(p.n_I(), pins)) result.internal.push_back(p.internal[static_cast<std::size_t>(i)]);
+  for (const Index i : stiff_rows(p.n_I(), pins)) result.internal.push_back(p.internal[i]);
   return result;
 }
 

@@ -2,8 +2,6 @@
 // part leave inside (Rubin, MacNeal).
 #pragma once
 
-#include <optional>
-
 #include <Eigen/Core>
 
 #include "formats/part/part.hpp"

@@ -2,7 +2,6 @@
 #include "reducer/modes/search.hpp"
 
 #include <array>
-#include <cmath>
 #include <limits>
 #include <utility>
 

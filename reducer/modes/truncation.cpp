@@ -183,7 +183,7 @@ TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::Matrix
     const double most_error = error_of(most_below), least_error = error_of(least_below);
     const double likely_error = error_of(share_with(modes, out, rigid + k, likely, most_below));
     errors.estimate[k] = std::max(likely_error, 0.5 * most_error);
-    errors.known[static_cast<std::size_t>(k)] = likely_error >= 0.5 * most_error || most_error <= 4.0 * least_error;
+    errors.known[k] = likely_error >= 0.5 * most_error || most_error <= 4.0 * least_error;
   }
   return errors;
 }

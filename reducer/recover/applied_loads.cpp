@@ -1,8 +1,6 @@
 // What is said of load cases, and of forces on nodes of modal bodies.
 #include "reducer/recover/inertia_loads.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "common/text.hpp"

@@ -67,9 +67,7 @@ int find_element(const Recovery& r, const std::string& word, const std::string& 
   const int group = slash == std::string::npos ? -1 : find_group(r, word.substr(0, slash), where);
   std::vector<int> found;
   for (int e = 0; e < r.elements.count(); ++e)
-    if (r.elements.id[static_cast<std::size_t>(e)] == number &&
-        (group < 0 || r.elements.group[static_cast<std::size_t>(e)] == group))
-      found.push_back(e);
+    if (r.elements.id[e] == number && (group < 0 || r.elements.group[e] == group)) found.push_back(e);
   if (found.empty())
     throw Error(
         fmt::format("has no element '{}'", printable_line(word, 60)), where,
@@ -78,9 +76,9 @@ int find_element(const Recovery& r, const std::string& word, const std::string& 
   if (found.size() == 1) return found[0];
   std::vector<std::string> names;
   for (const int e : found) names.push_back(element_text(r, e));
-  const auto other = static_cast<std::size_t>(r.elements.group[static_cast<std::size_t>(found[0])]);
   throw Error(fmt::format("has {} elements '{}': {}", found.size(), word, listed(names)), where,
-              group < 0 ? fmt::format("give the group too, such as --element {}/{}", r.group_name[other], number)
+              group < 0 ? fmt::format("give the group too, such as --element {}/{}",
+                                      r.group_name[r.elements.group[found[0]]], number)
                         : "choose their nodes with --point");
 }
 

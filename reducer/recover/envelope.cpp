@@ -23,11 +23,10 @@ LargestOverTime::LargestOverTime(int items)
       place_(static_cast<std::size_t>(items), 0) {}
 
 void LargestOverTime::raise(int item, const Placed& found, int instant) {
-  const auto i = static_cast<std::size_t>(item);
-  if (instant_[i] >= 0 && !is_larger(found.value, value_[i])) return;
-  value_[i] = found.value;
-  instant_[i] = instant;
-  place_[i] = found.place;
+  if (instant_[item] >= 0 && !is_larger(found.value, value_[item])) return;
+  value_[item] = found.value;
+  instant_[item] = instant;
+  place_[item] = found.place;
 }
 
 int LargestOverTime::largest(int first, int end) const {
@@ -80,9 +79,9 @@ void Envelope::add(const FieldBlock& block, const BodyMotion& motion, Index firs
 
 void Envelope::finish(const SolidPoints& points) {
   for (int e = recovery_.beams() + recovery_.shells(); e < recovery_.elements.count(); ++e) {
-    const int begin = points.first[static_cast<std::size_t>(e)], end = points.first[static_cast<std::size_t>(e) + 1];
+    const int begin = points.first[e], end = points.first[e + 1];
     for (int k = begin; k < end; ++k) {
-      const int p = points.point[static_cast<std::size_t>(k)], place = k - begin + 1;
+      const int p = points.point[k], place = k - begin + 1;
       take(point.von_mises, p, e, place, element.von_mises);
       take(point.largest, p, e, place, element.largest);
       take(point.negated_smallest, p, e, place, element.negated_smallest);

@@ -18,9 +18,9 @@ class LargestOverTime {
   explicit LargestOverTime(int items);
 
   void raise(int item, const Placed& found, int instant);
-  float value(int item) const { return value_[static_cast<std::size_t>(item)]; }
-  int instant(int item) const { return instant_[static_cast<std::size_t>(item)]; }  ///< −1: none yet
-  int place(int item) const { return place_[static_cast<std::size_t>(item)]; }      ///< Placed
+  float value(int item) const { return value_[item]; }
+  int instant(int item) const { return instant_[item]; }  ///< −1: none yet
+  int place(int item) const { return place_[item]; }      ///< Placed
   const std::vector<float>& values() const { return value_; }
   /// The largest of the items [first, end), of equal ones the earliest; −1: there is none.
   int largest(int first, int end) const;

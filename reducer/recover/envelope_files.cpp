@@ -47,16 +47,14 @@ std::string cells_of(const Recovery& r, int element, const LargestOverTime& over
   const int instant = over_time.instant(element);
   if (instant < 0) return ",,,";
   const double value = sign * static_cast<double>(over_time.value(element));
-  return fmt::format(",{:.7g},{:.12g},{}", value == 0.0 ? 0.0 : value, motion.time()[static_cast<std::size_t>(instant)],
+  return fmt::format(",{:.7g},{:.12g},{}", value == 0.0 ? 0.0 : value, motion.time()[instant],
                      quoted(place_text(r, element, over_time.place(element), motion.still().to_scene.length)));
 }
 
 std::vector<float> times_of(const LargestOverTime& over_time, const MotionReader& motion) {
   std::vector<float> times;
   for (int i = 0; i < static_cast<int>(over_time.values().size()); ++i)
-    times.push_back(over_time.instant(i) < 0
-                        ? 0.0f
-                        : static_cast<float>(motion.time()[static_cast<std::size_t>(over_time.instant(i))]));
+    times.push_back(over_time.instant(i) < 0 ? 0.0f : static_cast<float>(motion.time()[over_time.instant(i)]));
   return times;
 }
 
@@ -79,8 +77,7 @@ std::vector<float> negated(std::vector<float> values) {
 std::vector<float> on_nodes(const Recovery& r, const LargestOverTime& points, float sign) {
   LargestOverTime nodes(r.nodes());
   for (int p = 0; p < r.stress_points(); ++p)
-    if (points.instant(p) >= 0)
-      nodes.raise(r.stress_node[static_cast<std::size_t>(p)], {points.value(p), 0}, points.instant(p));
+    if (points.instant(p) >= 0) nodes.raise(r.stress_node[p], {points.value(p), 0}, points.instant(p));
   return sign < 0.0f ? negated(nodes.values()) : nodes.values();
 }
 
@@ -89,17 +86,16 @@ std::vector<float> on_nodes(const Recovery& r, const LargestOverTime& points, fl
 std::string place_text(const Recovery& r, int element, int place, double length) {
   if (element < r.beams()) {
     const int end = place % 2 == 1 ? 1 : 2, corner = (place - end) / 2;
-    const auto section = static_cast<std::size_t>(r.beam_section[static_cast<std::size_t>(2 * element + end - 1)]);
-    const std::vector<Eigen::Vector2d>& outline = r.sections[section].outline;
+    const std::vector<Eigen::Vector2d>& outline = r.sections[r.beam_section[2 * element + end - 1]].outline;
     if (corner < 0 || corner >= static_cast<int>(outline.size())) return fmt::format("end {}", end);
-    Eigen::Vector2d at = length * outline[static_cast<std::size_t>(corner)];
+    Eigen::Vector2d at = length * outline[corner];
     for (double& value : at)
       if (std::abs(value) < round_off * at.norm()) value = 0.0;
     return fmt::format("end {} (y {:.4g}, z {:.4g})", end, at.x(), at.y());
   }
   if (element < r.beams() + r.shells()) return place == 1 ? "top" : "bottom";
-  const int node = r.elements.first[static_cast<std::size_t>(element)] + place - 1;
-  return r.node_label[static_cast<std::size_t>(r.elements.node[static_cast<std::size_t>(node)])];
+  const int node = r.elements.first[element] + place - 1;
+  return r.node_label[r.elements.node[node]];
 }
 
 void write_envelope_csv(const std::string& path, const Recovery& r, const MotionReader& motion,
@@ -110,9 +106,9 @@ void write_envelope_csv(const std::string& path, const Recovery& r, const Motion
   for (int e = 0; e < r.elements.count(); ++e) {
     const auto element = static_cast<std::size_t>(e);
     const Eigen::Vector3d middle = to_body.cwiseProduct(element_middle(r, e));
-    text += fmt::format("{},{},{},{:.9g},{:.9g},{:.9g}", r.elements.id[element],
-                        quoted(r.group_name[static_cast<std::size_t>(r.elements.group[element])]), kind_of(r, e),
-                        middle.x(), middle.y(), middle.z());
+    text +=
+        fmt::format("{},{},{},{:.9g},{:.9g},{:.9g}", r.elements.id[element],
+                    quoted(r.group_name[r.elements.group[element]]), kind_of(r, e), middle.x(), middle.y(), middle.z());
     text += cells_of(r, e, envelope.element.von_mises, 1.0, motion) +
             cells_of(r, e, envelope.element.largest, 1.0, motion) +
             cells_of(r, e, envelope.element.negated_smallest, -1.0, motion) + '\n';

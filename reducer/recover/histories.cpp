@@ -42,8 +42,7 @@ void Histories::end(const BodyMotion& motion) {
   for (std::size_t k = 0; k < files_.size(); ++k) {
     std::string text;
     for (Eigen::Index t = 0; t < motion.instants(); ++t)
-      text +=
-          fmt::format("{:.17g}", motion.time[static_cast<std::size_t>(t)]) + chosen_.tables[k]->cells(motion, t) + '\n';
+      text += fmt::format("{:.17g}", motion.time[t]) + chosen_.tables[k]->cells(motion, t) + '\n';
     files_[k]->write(text);
   }
 }

@@ -30,10 +30,9 @@ std::string stress_unit(const BodyMotion& still) { return unit_label(still.scene
 Eigen::Matrix<float, 6, 1> six_of(const Eigen::MatrixXf& rows, Index instant) { return rows.col(instant).head<6>(); }
 
 bool is_node_of(const Recovery& r, int element, int node) {
-  const auto e = static_cast<std::size_t>(element);
   const auto begin = r.elements.node.begin();
-  return std::find(begin + r.elements.first[e], begin + r.elements.first[e + 1], node) !=
-         begin + r.elements.first[e + 1];
+  return std::find(begin + r.elements.first[element], begin + r.elements.first[element + 1], node) !=
+         begin + r.elements.first[element + 1];
 }
 
 template <class Values>
@@ -62,7 +61,7 @@ NodeTable::NodeTable(const Recovery& r, const BodyMotion& still, RecoverFrame fr
       if (is_node_of(r, e, node.index)) (e < r.beams() ? around.beams : around.shells).push_back(e);
     for (int& shell : around.shells) shell -= r.beams();
     for (int p = 0; p < r.stress_points(); ++p)
-      if (r.stress_node[static_cast<std::size_t>(p)] == node.index) around.points.push_back(p);
+      if (r.stress_node[p] == node.index) around.points.push_back(p);
     for (const int beam : around.beams) beam_.want(beam);
     for (const int shell : around.shells) shell_.want(shell);
     for (const int point : around.points) solid_.want(point);
@@ -126,8 +125,7 @@ StressTable::StressTable(const Recovery& r, const BodyMotion& still, std::vector
     } else {
       const auto begin = points.point.begin();
       std::vector<int>& own = points_[e];
-      own.assign(begin + points.first[static_cast<std::size_t>(e)],
-                 begin + points.first[static_cast<std::size_t>(e) + 1]);
+      own.assign(begin + points.first[e], begin + points.first[e + 1]);
       for (const int point : own) solid_.want(point);
     }
   }
@@ -209,8 +207,7 @@ std::string StressTable::cells(const BodyMotion& motion, Index t) const {
 
 GroupTable::GroupTable(const Recovery& r, const BodyMotion& still, std::vector<ChosenItem> groups)
     : recovery_(r), still_(still), groups_(std::move(groups)), row_(r.group_name.size(), -1) {
-  for (const ChosenItem& item : groups_)
-    row_[static_cast<std::size_t>(item.index)] = static_cast<int>(&item - groups_.data());
+  for (const ChosenItem& item : groups_) row_[item.index] = static_cast<int>(&item - groups_.data());
 }
 
 std::string GroupTable::header() const {
@@ -228,7 +225,7 @@ void GroupTable::begin(Index instants) {
 }
 
 void GroupTable::raise(int group, const FieldBlock& block, Index i) {
-  const int row = row_[static_cast<std::size_t>(group)], item = block.first + static_cast<int>(i);
+  const int row = row_[group], item = block.first + static_cast<int>(i);
   if (row < 0) return;
   for (Index t = 0; t < block.values.cols(); ++t) {
     const bool is_point = block.field == RecoveryField::solid_stress;
@@ -236,7 +233,7 @@ void GroupTable::raise(int group, const FieldBlock& block, Index i) {
                            : block.field == RecoveryField::shell_stress
                                ? shell_measures(block.item<6>(i, t))
                                : beam_measures(recovery_, item, block.item<12>(i, t), still_.stress_factor());
-    Worst& worst = worst_[static_cast<std::size_t>(row)][static_cast<std::size_t>(t)];
+    Worst& worst = worst_[row][t];
     const int at = block.field == RecoveryField::shell_stress ? recovery_.beams() + item : item;
     const bool first = worst.at < 0;
     worst.largest = first ? found.largest.value : std::max(worst.largest, found.largest.value);
@@ -273,14 +270,14 @@ void GroupTable::take(const FieldBlock& block) {
 std::string GroupTable::cells(const BodyMotion& /*motion*/, Index t) const {
   std::string text;
   for (const std::vector<Worst>& over_time : worst_) {
-    const Worst& worst = over_time[static_cast<std::size_t>(t)];
+    const Worst& worst = over_time[t];
     if (worst.at < 0) {
       text += ",,,,";
       continue;
     }
     const auto at = static_cast<std::size_t>(worst.at);
-    const std::string place = worst.is_point ? recovery_.node_label[static_cast<std::size_t>(recovery_.stress_node[at])]
-                                             : element_text(recovery_, worst.at);
+    const std::string place =
+        worst.is_point ? recovery_.node_label[recovery_.stress_node[at]] : element_text(recovery_, worst.at);
     std::string quoted = printable_line(place, 80);
     std::replace(quoted.begin(), quoted.end(), '"', '\'');
     text += fmt::format(",{:.9g},\"{}\",{:.9g},{:.9g}", worst.von_mises, quoted, worst.largest, worst.smallest);

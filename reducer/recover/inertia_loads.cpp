@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "formats/recovery/load_factors.hpp"
 #include "reducer/recover/stresses.hpp"
 
@@ -22,8 +20,7 @@ MatrixXd second_rates(const MatrixXd& f, const std::vector<double>& time) {
   MatrixXd rates = MatrixXd::Zero(f.rows(), f.cols());
   if (f.cols() < 3) return rates;
   for (Index t = 1; t + 1 < f.cols(); ++t) {
-    const double before = time[static_cast<std::size_t>(t)] - time[static_cast<std::size_t>(t - 1)],
-                 after = time[static_cast<std::size_t>(t + 1)] - time[static_cast<std::size_t>(t)];
+    const double before = time[t] - time[t - 1], after = time[t + 1] - time[t];
     if (!(before > 0.0 && after > 0.0)) continue;
     rates.col(t) = 2.0 / (before + after) * ((f.col(t + 1) - f.col(t)) / after - (f.col(t) - f.col(t - 1)) / before);
   }

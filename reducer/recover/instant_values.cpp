@@ -9,8 +9,7 @@ namespace {
 LargestAt largest_of(const std::vector<float>& values, int first, int end) {
   LargestAt largest;
   for (int i = first; i < end; ++i)
-    if (const float value = values[static_cast<std::size_t>(i)];
-        largest.at < 0 || value > (1.0f + equal_by_symmetry) * largest.value)
+    if (const float value = values[i]; largest.at < 0 || value > (1.0f + equal_by_symmetry) * largest.value)
       largest = {value, i};
   return largest;
 }
@@ -40,8 +39,8 @@ InstantValues instant_values(const formats::Recovery& r, const SolidPoints& poin
     } else if (const Eigen::Index s = e - r.beams(); s < r.shells()) {
       value = std::max(fields.shell_von_mises(2 * s, t), fields.shell_von_mises(2 * s + 1, t));
     } else {
-      for (int k = points.first[static_cast<std::size_t>(e)]; k < points.first[static_cast<std::size_t>(e) + 1]; ++k)
-        value = std::max(value, fields.solid_von_mises(points.point[static_cast<std::size_t>(k)], t));
+      for (int k = points.first[e]; k < points.first[e + 1]; ++k)
+        value = std::max(value, fields.solid_von_mises(points.point[k], t));
     }
     values.von_mises.push_back(value);
   }

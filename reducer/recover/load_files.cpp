@@ -2,7 +2,6 @@
 #include "reducer/recover/load_files.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -72,8 +71,8 @@ std::vector<std::string> head_lines(const LoadHead& head, LoadFormat format) {
     lines.push_back(
         fmt::format("{} nodes have no number in the mesh file; they are called:", head.numbers.unknown.size()));
     for (const int n : head.numbers.unknown)
-      lines.push_back(fmt::format("  {}  {}  at {}", head.numbers.number[static_cast<std::size_t>(n)],
-                                  r.node_label[static_cast<std::size_t>(n)], three(r.position.col(n))));
+      lines.push_back(
+          fmt::format("  {}  {}  at {}", head.numbers.number[n], r.node_label[n], three(r.position.col(n))));
   }
   return lines;
 }
@@ -111,8 +110,8 @@ std::string nastran_text(const LoadInstant& at, const LoadHead& head, int k) {
     text += fmt::format("$ set {}: {}\n", own, what) + cards;
     sum += fmt::format("{:>8}{:>8}", "1.0", own);
   };
-  const auto of_node = [&](Index n) { return head.numbers.number[static_cast<std::size_t>(n)]; };
-  const auto of_boundary = [&](Index b) { return of_node(head.recovery.boundary_node[static_cast<std::size_t>(b)]); };
+  const auto of_node = [&](Index n) { return head.numbers.number[n]; };
+  const auto of_boundary = [&](Index b) { return of_node(head.recovery.boundary_node[b]); };
   add(at.loads.boundary, set + 1, "forces at boundary nodes", of_boundary);
   add(at.loads.frame, set + 2, "weight and inertia of the moving frame", of_node);
   add(at.loads.deformation, set + 3, "inertia of the deformation", of_node);
@@ -123,13 +122,11 @@ std::string nastran_text(const LoadInstant& at, const LoadHead& head, int k) {
 std::string calculix_text(const LoadInstant& at, const LoadHead& head) {
   NodeForces all = at.loads.frame + at.loads.deformation;
   for (Index b = 0; b < at.loads.boundary.cols(); ++b)
-    all.col(head.recovery.boundary_node[static_cast<std::size_t>(b)]) += at.loads.boundary.col(b);
+    all.col(head.recovery.boundary_node[b]) += at.loads.boundary.col(b);
   std::string text = "*STEP\n*STATIC\n*CLOAD, OP=NEW\n";
   for_forces(all, [&](bool is_force, Index n, const Vector3d& v) {
     for (int c = 0; c < 3; ++c)
-      if (v[c] != 0.0)
-        text += fmt::format("{}, {}, {:.12e}\n", head.numbers.number[static_cast<std::size_t>(n)],
-                            c + (is_force ? 1 : 4), v[c]);
+      if (v[c] != 0.0) text += fmt::format("{}, {}, {:.12e}\n", head.numbers.number[n], c + (is_force ? 1 : 4), v[c]);
   });
   return text + "*NODE FILE\nU, RF\n*EL FILE\nS\n*END STEP\n";
 }
@@ -147,7 +144,7 @@ NodeNumbers node_numbers(const Recovery& r) {
   numbers.number.resize(static_cast<std::size_t>(r.nodes()), 0);
   int last = numbers.number.empty() ? 0 : *std::max_element(numbers.number.begin(), numbers.number.end());
   for (int n = 0; n < r.nodes(); ++n)
-    if (int& number = numbers.number[static_cast<std::size_t>(n)]; number == 0) {
+    if (int& number = numbers.number[n]; number == 0) {
       number = ++last;
       numbers.unknown.push_back(n);
     }

@@ -72,7 +72,7 @@ NormalStresses normal_stresses(const formats::RecoverySection& section, const Ve
   const Vector2d centroid(section.centroid_y, section.centroid_z);
   found.largest = found.smallest = force[0] / section.area;
   for (int k = 0; k < static_cast<int>(section.outline.size()); ++k) {
-    const double stress = force[0] / section.area + slope.dot(section.outline[static_cast<std::size_t>(k)] - centroid);
+    const double stress = force[0] / section.area + slope.dot(section.outline[k] - centroid);
     if (k == 0 || stress > found.largest) found.largest = stress, found.largest_corner = k;
     if (k == 0 || stress < found.smallest) found.smallest = stress, found.smallest_corner = k;
   }
@@ -82,9 +82,9 @@ NormalStresses normal_stresses(const formats::RecoverySection& section, const Ve
 Measures beam_measures(const formats::Recovery& r, int beam, const Eigen::Matrix<float, 12, 1>& force, double factor) {
   Measures measures;
   for (const int end : {1, 2}) {
-    const int section = r.beam_section[static_cast<std::size_t>(2 * beam + end - 1)];
+    const int section = r.beam_section[2 * beam + end - 1];
     const Vector6 at_end = force.segment<6>(6 * (end - 1)).cast<double>();
-    const NormalStresses s = normal_stresses(r.sections[static_cast<std::size_t>(section)], at_end);
+    const NormalStresses s = normal_stresses(r.sections[section], at_end);
     const Placed largest{static_cast<float>(factor * s.largest), 2 * s.largest_corner + end},
         smallest{static_cast<float>(factor * s.smallest), 2 * s.smallest_corner + end};
     extend_measures(largest.value, largest, smallest, end == 1, measures);
@@ -94,9 +94,7 @@ Measures beam_measures(const formats::Recovery& r, int beam, const Eigen::Matrix
 }
 
 bool has_stress(const formats::Recovery& r, int beam) {
-  const auto area = [&r, beam](int end) {
-    return r.sections[static_cast<std::size_t>(r.beam_section[static_cast<std::size_t>(2 * beam + end)])].area;
-  };
+  const auto area = [&r, beam](int end) { return r.sections[r.beam_section[2 * beam + end]].area; };
   return area(0) > 0.0 && area(1) > 0.0;
 }
 

@@ -207,7 +207,7 @@ void MotionReader::look_at_all(const RecoverRequest& request) {
   if (stiffened && !recovery_.second_order) notes_.push_back(formats::no_second_order_note);
   if (!body_.is_modal)
     for (Index k = 0; k < n; ++k)
-      if (recovery_.dof_node[static_cast<std::size_t>(k)] < 0 && largest[k] == 0.0) zero_.push_back(k);
+      if (recovery_.dof_node[k] < 0 && largest[k] == 0.0) zero_.push_back(k);
   if (has_loads_) dropped_ = moved_by_loads(reach, zero_);
   if (request.frame == RecoverFrame::world && !place_known)
     throw Error(

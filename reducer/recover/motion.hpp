@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include "common/units.hpp"
 #include "formats/recovery/recovery.hpp"

@@ -36,7 +36,7 @@ Vector6 resultant(const Eigen::Matrix3Xd& position, const NodeForces& forces) {
 
 Eigen::Matrix3Xd boundary_positions(const Recovery& r) {
   Eigen::Matrix3Xd X(3, static_cast<Index>(r.boundary_node.size()));
-  for (Index k = 0; k < X.cols(); ++k) X.col(k) = r.position.col(r.boundary_node[static_cast<std::size_t>(k)]);
+  for (Index k = 0; k < X.cols(); ++k) X.col(k) = r.position.col(r.boundary_node[k]);
   return X;
 }
 
@@ -82,8 +82,7 @@ NodalLoads nodal_loads(const formats::RecoveryReader& file, const BodyMotion& mo
     add(NodalForce::load_moment, NodalForce::mode_moment, RecoveryField::rotation, 3);
   }
   const VectorXd F = r.loads->boundary_stiffness * e.head(n_B) - work;
-  for (Index k = 0; k < n_B; ++k)
-    loads.boundary(r.dof_component[static_cast<std::size_t>(k)], r.dof_node[static_cast<std::size_t>(k)]) = F[k];
+  for (Index k = 0; k < n_B; ++k) loads.boundary(r.dof_component[k], r.dof_node[k]) = F[k];
   return loads;
 }
 
@@ -114,8 +113,7 @@ void compare_with_run(const formats::ResultsReader& results, const MotionReader&
   const formats::ResultsLayout& layout = results.layout();
   if (reader.body().row + 1 >= layout.boundary_offset.size()) return;
   const Index first = layout.boundary_offset[reader.body().row], count = loads.boundary.cols();
-  const MatrixXd stored =
-      results.read_dataset("superelements/boundary_force", {reader.rows()[static_cast<std::size_t>(row)]});
+  const MatrixXd stored = results.read_dataset("superelements/boundary_force", {reader.rows()[row]});
   if (stored.cols() < 6 * (first + count) || !stored.allFinite()) return;
   const Eigen::Matrix3d R = frame_axes(motion, RecoverFrame::world, instant);
   balance.compared = true;

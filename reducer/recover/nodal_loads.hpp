@@ -1,9 +1,6 @@
 // Forces on the nodes of the unreduced part at one instant, whose static answer is what recovery gives.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include <Eigen/Core>
 
 #include "reducer/recover/motion.hpp"

@@ -26,33 +26,28 @@ bool read_position(const std::string& text, Eigen::Vector3d& position) {
 }  // namespace
 
 std::string element_text(const formats::Recovery& r, int element) {
-  const auto e = static_cast<std::size_t>(element);
   const char* kind = element < r.beams() ? "beam" : element < r.beams() + r.shells() ? "shell" : "solid";
-  return fmt::format("{} {} of '{}'", kind, r.elements.id[e],
-                     printable_line(r.group_name[static_cast<std::size_t>(r.elements.group[e])], 60));
+  return fmt::format("{} {} of '{}'", kind, r.elements.id[element],
+                     printable_line(r.group_name[r.elements.group[element]], 60));
 }
 
 Eigen::Vector3d element_middle(const formats::Recovery& r, int element) {
-  const auto e = static_cast<std::size_t>(element);
-  const int first = r.elements.first[e], end = r.elements.first[e + 1];
+  const int first = r.elements.first[element], end = r.elements.first[element + 1];
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (int k = first; k < end; ++k) middle += r.position.col(r.elements.node[static_cast<std::size_t>(k)]);
+  for (int k = first; k < end; ++k) middle += r.position.col(r.elements.node[k]);
   return middle / (end - first);
 }
 
 SolidPoints solid_points(const formats::Recovery& r) {
   std::vector<int> order(r.stress_node.size());
   for (std::size_t p = 0; p < order.size(); ++p) order[p] = static_cast<int>(p);
-  const auto key = [&r](int p) {
-    return std::pair(r.stress_node[static_cast<std::size_t>(p)], r.stress_group[static_cast<std::size_t>(p)]);
-  };
+  const auto key = [&r](int p) { return std::pair(r.stress_node[p], r.stress_group[p]); };
   std::sort(order.begin(), order.end(), [&key](int a, int b) { return key(a) < key(b); });
   SolidPoints points;
   points.first.push_back(0);
   for (int e = 0; e < r.elements.count(); ++e) {
-    const auto element = static_cast<std::size_t>(e);
-    for (int k = r.elements.first[element]; e >= r.beams() + r.shells() && k < r.elements.first[element + 1]; ++k) {
-      const std::pair wanted(r.elements.node[static_cast<std::size_t>(k)], r.elements.group[element]);
+    for (int k = r.elements.first[e]; e >= r.beams() + r.shells() && k < r.elements.first[e + 1]; ++k) {
+      const std::pair wanted(r.elements.node[k], r.elements.group[e]);
       const auto found = std::lower_bound(order.begin(), order.end(), wanted,
                                           [&key](int p, const auto& value) { return key(p) < value; });
       if (found != order.end() && key(*found) == wanted) points.point.push_back(*found);
@@ -64,8 +59,7 @@ SolidPoints solid_points(const formats::Recovery& r) {
 
 int find_node(const formats::Recovery& r, const std::string& point, const std::string& where) {
   const auto boundary = std::find(r.boundary_name.begin(), r.boundary_name.end(), point);
-  if (boundary != r.boundary_name.end())
-    return r.boundary_node[static_cast<std::size_t>(boundary - r.boundary_name.begin())];
+  if (boundary != r.boundary_name.end()) return r.boundary_node[boundary - r.boundary_name.begin()];
   const auto label = std::find(r.node_label.begin(), r.node_label.end(), point);
   if (label != r.node_label.end()) return static_cast<int>(label - r.node_label.begin());
   if (Eigen::Vector3d position; read_position(point, position)) {

@@ -65,7 +65,7 @@ std::string peak_line(const char* what, const LargestOverTime& over_time, double
   const int at = over_time.largest(first, end);
   if (at < 0) return "";
   const double value = sign * static_cast<double>(over_time.value(at));
-  const double time = motion.time()[static_cast<std::size_t>(over_time.instant(at))];
+  const double time = motion.time()[over_time.instant(at)];
   return fmt::format("{:<29}{:.6g}{} at {:.6g}{} at {}\n", what, value, after_number(unit), time,
                      after_number(labels_of(motion.still().scene_units).time), place(at));
 }
@@ -79,7 +79,7 @@ std::string element_place(const Recovery& r, const BodyMotion& still, int elemen
 /// "tip (0.3, 0, 0)", likewise.
 std::string node_place(const Recovery& r, const BodyMotion& still, int node) {
   const Eigen::Vector3d place = still.to_scene.length * still.mirror.cwiseProduct(r.position.col(node));
-  return printable_line(r.node_label[static_cast<std::size_t>(node)], 60) +
+  return printable_line(r.node_label[node], 60) +
          fmt::format(" ({:.4g}, {:.4g}, {:.4g})", place.x(), place.y(), place.z());
 }
 
@@ -97,7 +97,7 @@ std::string peaks_text(const Recovery& r, const MotionReader& motion, const Enve
   const int beams = r.beams(), shells = beams + r.shells(), all = r.elements.count();
   const auto node = [&](int n) { return node_place(r, motion.still(), n); };
   const auto element = [&](int e) { return element_place(r, motion.still(), e); };
-  const auto point = [&](int p) { return node(r.stress_node[static_cast<std::size_t>(p)]); };
+  const auto point = [&](int p) { return node(r.stress_node[p]); };
   const auto placed = [&](const LargestOverTime& over_time) {
     return [&](int e) {
       return element(e) + ", " +
@@ -130,8 +130,7 @@ void write_series(const Recovery& r, const RecoveredFields& fields, const BodyMo
     const InstantValues values = instant_values(r, points, fields, t);
     const Eigen::Matrix3Xd rest = rest_positions(places, motion, request.frame, t);
     const Eigen::Matrix3d axes = frame_axes(motion, request.frame, t);
-    files.series.emplace_back(motion.time[static_cast<std::size_t>(t)],
-                              fmt::format("{}_{:05}.vtu", files.stem, first + t));
+    files.series.emplace_back(motion.time[t], fmt::format("{}_{:05}.vtu", files.stem, first + t));
     formats::write_vtu(files.path(files.series.back().second), rest.cast<float>(), cells,
                        vtu_point_data(r, fields, values, axes, t), vtu_cell_data(r, fields, values, t));
   }

@@ -64,9 +64,9 @@ void add_beams(const formats::Recovery& recovery, const UnitConversion& to, Reco
     for (Index b = 0; b < beams; ++b) {
       double largest = 0.0;
       for (Index end = 0; end < 2; ++end) {
-        const int section = recovery.beam_section[static_cast<std::size_t>(2 * b + end)];
+        const int section = recovery.beam_section[2 * b + end];
         const Vector6 force = out.beam_force.col(t).segment<6>(12 * b + 6 * end).cast<double>();
-        largest = std::max(largest, normal_stress(recovery.sections[static_cast<std::size_t>(section)], force));
+        largest = std::max(largest, normal_stress(recovery.sections[section], force));
       }
       out.beam_stress(b, t) = static_cast<float>(largest * stress_factor);
     }

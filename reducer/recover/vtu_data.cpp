@@ -15,7 +15,7 @@ VtuArray on_cells(const std::string& name, const Eigen::MatrixXf& all, Index ins
   VtuArray array{name, width, std::vector<float>(static_cast<std::size_t>(cells) * static_cast<std::size_t>(width))};
   for (Index item = 0; item < all.rows() / stride; ++item)
     for (Index k = 0; k < width; ++k)
-      array.values[static_cast<std::size_t>((first_cell + item) * width + k)] = all(item * stride + from + k, instant);
+      array.values[(first_cell + item) * width + k] = all(item * stride + from + k, instant);
   return array;
 }
 

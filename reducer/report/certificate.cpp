@@ -2,7 +2,6 @@
 #include "reducer/report/certificate.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "reducer/mesh/coordinates.hpp"
 #include "reducer/modes/spectrum.hpp"
 #include "reducer/modes/truncation.hpp"
 
@@ -23,8 +23,7 @@ constexpr int most_frequencies = 20;
 /// Rotations divided by the characteristic length: entries of one unit.
 Eigen::VectorXd row_scale(const formats::Superelement& element, double length) {
   return Eigen::VectorXd::NullaryExpr(element.size(), [&](Eigen::Index i) {
-    const auto k = static_cast<std::size_t>(i);
-    return element.dof_node[k] >= 0 && element.dof_component[k] >= 3 ? 1.0 / length : 1.0;
+    return element.dof_node[i] >= 0 && element.dof_component[i] >= 3 ? 1.0 / length : 1.0;
   });
 }
 
@@ -36,12 +35,9 @@ std::vector<int> internal_rows(const formats::Superelement& element) {
 }
 
 std::string coordinate_text(const formats::Superelement& element, Eigen::Index row) {
-  constexpr std::array<const char*, 6> words{"translation x", "translation y", "translation z",
-                                             "rotation x",    "rotation y",    "rotation z"};
-  const auto k = static_cast<std::size_t>(row);
-  const auto component = static_cast<std::size_t>(element.dof_component[k]);
-  if (element.dof_node[k] < 0) return fmt::format("internal coordinate {}", component);
-  return fmt::format("{} {}", element.node_name[element.dof_node[k]], words[component]);
+  const int component = element.dof_component[row];
+  if (element.dof_node[row] < 0) return fmt::format("internal coordinate {}", component);
+  return fmt::format("{} {}", element.node_name[element.dof_node[row]], component_text(component));
 }
 
 std::vector<double> fixed_frequencies(const formats::Superelement& element) {
@@ -88,7 +84,7 @@ void find_effective_masses(const formats::Superelement& element, FileCertificate
   if (m == 0 || !element.mass(rows, rows).isIdentity(1e-9)) return;
   Eigen::MatrixXd S = element.stiffness(rows, Eigen::all);
   const double whole_norm = S.norm();
-  for (Eigen::Index k = 0; k < m; ++k) S(k, rows[static_cast<std::size_t>(k)]) = 0.0;
+  for (Eigen::Index k = 0; k < m; ++k) S(k, rows[k]) = 0.0;
   if (S.norm() > 1e-9 * whole_norm) return;
   const Eigen::MatrixXd MR = element.mass * formats::rigid_motions(element, c.rigid.center_of_mass);
   const Eigen::MatrixXd Gamma = MR(rows, Eigen::all);

@@ -1,9 +1,12 @@
 // The certificate as JSON beside the superelement file and as text for people.
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <fstream>
 #include <limits>
 #include <map>
+#include <optional>
+#include <type_traits>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,7 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-json rigid_json(const formats::RigidProperties& rigid) {
+json as_json(const formats::RigidProperties& rigid) {
   json inertia = json::array();
   for (int i = 0; i < 3; ++i) inertia.push_back({rigid.inertia(i, 0), rigid.inertia(i, 1), rigid.inertia(i, 2)});
   return {{"mass", rigid.mass},
@@ -27,24 +30,16 @@ json rigid_json(const formats::RigidProperties& rigid) {
           {"inertia", inertia}};
 }
 
-formats::RigidProperties rigid_from(const json& j) {
-  formats::RigidProperties rigid;
+void read_json(const json& j, formats::RigidProperties& rigid) {
   rigid.mass = j.at("mass");
   for (int i = 0; i < 3; ++i) {
     rigid.center_of_mass[i] = j.at("center_of_mass").at(i);
     for (int k = 0; k < 3; ++k) rigid.inertia(i, k) = j.at("inertia").at(i).at(k);
   }
-  return rigid;
-}
-
-json optional_json(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
-
-std::optional<double> optional_from(const json& j) {
-  return j.is_null() ? std::nullopt : std::optional<double>(j.get<double>());
 }
 
 json file_json(const FileCertificate& c) {
-  return {{"rigid", rigid_json(c.rigid)},
+  return {{"rigid", as_json(c.rigid)},
           {"rigid_residual", c.rigid_residual},
           {"characteristic_length", c.characteristic_length},
           {"fixed_boundary_frequency", c.fixed_frequency},
@@ -59,27 +54,6 @@ json file_json(const FileCertificate& c) {
           {"warnings", c.warnings}};
 }
 
-json modal_body_json(const std::optional<ModalBodyCertificate>& c) {
-  if (!c) return nullptr;
-  return {{"reference", c->reference},
-          {"frequency", c->frequency},
-          {"rigid", rigid_json(c->rigid)},
-          {"eigenvalue_solver", c->eigenvalue_solver}};
-}
-
-std::optional<ModalBodyCertificate> modal_body_from(const json& j) {
-  if (j.is_null()) return std::nullopt;
-  return ModalBodyCertificate{j.at("reference"), j.at("frequency").get<std::vector<double>>(),
-                              rigid_from(j.at("rigid")), j.value("eigenvalue_solver", std::string())};
-}
-
-/// null where a number is unknown.
-json numbers_or_null(const std::vector<double>& values) {
-  json list = json::array();
-  for (const double value : values) list.push_back(std::isfinite(value) ? json(value) : json(nullptr));
-  return list;
-}
-
 std::vector<double> numbers_or_unknown(const json& list) {
   std::vector<double> values;
   for (const json& value : list)
@@ -87,69 +61,121 @@ std::vector<double> numbers_or_unknown(const json& list) {
   return values;
 }
 
-json mesh_json(const MeshCertificate& c) {
-  return {{"boundary_held", c.boundary_held},
-          {"frequency", c.frequency},
-          {"error", numbers_or_null(c.error)},
-          {"unknown", c.unknown},
-          {"beams", c.beam},
-          {"shells", c.shell},
-          {"solids", c.solid},
-          {"place", c.place}};
+/// Of the fields of a certificate: one list of them, which both ways go through. `later`: files of former versions lack
+/// it. `unknown`: numbers some of which may be NaN.
+template <class C, class Type>
+concept Is = std::same_as<std::remove_const_t<C>, Type>;
+
+void fields(Is<formats::Accuracy> auto& c, const auto& field) {
+  field("error", c.error);
+  field("up_to", c.up_to);
 }
 
-MeshCertificate mesh_from(const json& j) {
-  const auto numbers = [&j](const char* key) { return j.at(key).get<std::vector<double>>(); };
-  return {j.at("boundary_held"),
-          numbers("frequency"),
-          numbers_or_unknown(j.at("error")),
-          numbers("beams"),
-          numbers("shells"),
-          numbers("solids"),
-          j.at("place").get<std::vector<std::string>>(),
-          j.value("unknown", std::vector<std::string>())};
+void fields(Is<ModalBodyCertificate> auto& c, const auto& field) {
+  field("reference", c.reference);
+  field("frequency", c.frequency);
+  field("rigid", c.rigid);
+  field.later("eigenvalue_solver", c.eigenvalue_solver);
 }
 
-json model_json(const ModelCertificate& c) {
-  return {{"part", c.part},
-          {"nodes", c.nodes},
-          {"elements", c.elements},
-          {"coordinates", c.coordinates},
-          {"rigid", rigid_json(c.rigid)},
-          {"modes_requested", c.modes_requested},
-          {"modes_kept", c.modes_kept},
-          {"modes_available", c.modes_available},
-          {"mechanisms", c.mechanisms},
-          {"moment_vectors", c.moment_vectors},
-          {"free_modes", c.free_modes ? json(*c.free_modes) : json(nullptr)},
-          {"cutoff", optional_json(c.cutoff)},
-          {"accuracy", c.accuracy ? json{{"error", c.accuracy->error}, {"up_to", c.accuracy->up_to}} : json(nullptr)},
-          {"truncation_estimate", numbers_or_null(c.truncation_estimate)},
-          {"truncation_lower", c.truncation_lower},
-          {"truncation_upper", c.truncation_upper},
-          {"first_dropped_frequency", optional_json(c.first_dropped_frequency)},
-          {"eigenvalue_solver", c.eigenvalue_solver},
-          {"mode_residual", c.mode_residual},
-          {"modes_counted", c.modes_counted ? json(*c.modes_counted) : json(nullptr)},
-          {"boundary_rigid_defect", c.boundary_rigid_defect},
-          {"rigid_residual_before_projection", c.rigid_residual_before_projection},
-          {"stiffness_coupling", c.stiffness_coupling},
-          {"orthonormality", c.orthonormality},
-          {"free_frequency", c.free_frequency},
-          {"assurance", c.assurance},
-          {"notes", c.notes},
-          {"beams", c.beams},
-          {"shells", c.shells},
-          {"solids", c.solids},
-          {"springs", c.springs},
-          {"masses", c.masses},
-          {"spiders", c.spiders},
-          {"eliminated", c.eliminated},
-          {"redundant", c.redundant},
-          {"inactive", c.inactive},
-          {"mesh_error", mesh_json(c.mesh_error)},
-          {"modal_body", modal_body_json(c.modal_body)},
-          {"warnings", c.warnings}};
+void fields(Is<MeshCertificate> auto& c, const auto& field) {
+  field("boundary_held", c.boundary_held);
+  field("frequency", c.frequency);
+  field.unknown("error", c.error);
+  field("beams", c.beam);
+  field("shells", c.shell);
+  field("solids", c.solid);
+  field("place", c.place);
+  field.later("unknown", c.unknown);
+}
+
+void fields(Is<ModelCertificate> auto& c, const auto& field) {
+  field("part", c.part);
+  field("nodes", c.nodes);
+  field("elements", c.elements);
+  field("coordinates", c.coordinates);
+  field("rigid", c.rigid);
+  field("modes_requested", c.modes_requested);
+  field("modes_kept", c.modes_kept);
+  field("modes_available", c.modes_available);
+  field.later("mechanisms", c.mechanisms);
+  field.later("moment_vectors", c.moment_vectors);
+  field.later("free_modes", c.free_modes);
+  field("cutoff", c.cutoff);
+  field("accuracy", c.accuracy);
+  field.unknown("truncation_estimate", c.truncation_estimate);
+  field("truncation_lower", c.truncation_lower);
+  field("truncation_upper", c.truncation_upper);
+  field("first_dropped_frequency", c.first_dropped_frequency);
+  field("eigenvalue_solver", c.eigenvalue_solver);
+  field("mode_residual", c.mode_residual);
+  field("modes_counted", c.modes_counted);
+  field("boundary_rigid_defect", c.boundary_rigid_defect);
+  field("rigid_residual_before_projection", c.rigid_residual_before_projection);
+  field("stiffness_coupling", c.stiffness_coupling);
+  field("orthonormality", c.orthonormality);
+  field("free_frequency", c.free_frequency);
+  field.later("assurance", c.assurance);
+  field("notes", c.notes);
+  field("beams", c.beams);
+  field("shells", c.shells);
+  field("solids", c.solids);
+  field("springs", c.springs);
+  field("masses", c.masses);
+  field("spiders", c.spiders);
+  field("eliminated", c.eliminated);
+  field("redundant", c.redundant);
+  field("inactive", c.inactive);
+  field.later("mesh_error", c.mesh_error);
+  field.later("modal_body", c.modal_body);
+  field("warnings", c.warnings);
+}
+
+template <class T>
+json as_json(const std::optional<T>& value);
+json as_json(const auto& value);
+template <class T>
+void read_json(const json& j, std::optional<T>& value);
+void read_json(const json& j, auto& value);
+
+struct Writer {
+  json& j;
+  void operator()(const char* key, const auto& value) const { j[key] = as_json(value); }
+  void later(const char* key, const auto& value) const { j[key] = as_json(value); }
+  void unknown(const char* key, const std::vector<double>& values) const { j[key] = values; }  // NaN: null
+};
+
+struct Reader {
+  const json& j;
+  void operator()(const char* key, auto& value) const { read_json(j.at(key), value); }
+  void later(const char* key, auto& value) const {
+    if (const auto found = j.find(key); found != j.end()) read_json(*found, value);
+  }
+  void unknown(const char* key, std::vector<double>& values) const { values = numbers_or_unknown(j.at(key)); }
+};
+
+template <class T>
+json as_json(const std::optional<T>& value) {
+  return value ? as_json(*value) : json(nullptr);
+}
+json as_json(const auto& value) {
+  json j;
+  if constexpr (requires(Writer writer) { fields(value, writer); })
+    fields(value, Writer{j});
+  else
+    j = value;
+  return j;
+}
+
+template <class T>
+void read_json(const json& j, std::optional<T>& value) {
+  if (!j.is_null()) read_json(j, value.emplace());
+}
+void read_json(const json& j, auto& value) {
+  if constexpr (requires(Reader reader) { fields(value, reader); })
+    fields(value, Reader{j});
+  else
+    j.get_to(value);
 }
 
 json import_json(const ImportCertificate& c) {
@@ -171,51 +197,6 @@ json base_json(const formats::Superelement& element, const FileCertificate& file
           {"name", element.name},
           {"producer", element.producer},
           {"file", file_json(file)}};
-}
-
-ModelCertificate model_from(const json& j) {
-  ModelCertificate c;
-  c.part = j.at("part");
-  c.nodes = j.at("nodes");
-  c.elements = j.at("elements");
-  c.coordinates = j.at("coordinates");
-  c.rigid = rigid_from(j.at("rigid"));
-  c.modes_requested = j.at("modes_requested");
-  c.modes_kept = j.at("modes_kept");
-  c.modes_available = j.at("modes_available");
-  c.mechanisms = j.value("mechanisms", 0);
-  c.moment_vectors = j.value("moment_vectors", 0);
-  if (const json free = j.value("free_modes", json()); !free.is_null()) c.free_modes = free.get<int>();
-  c.cutoff = optional_from(j.at("cutoff"));
-  if (const json& accuracy = j.at("accuracy"); !accuracy.is_null())
-    c.accuracy = formats::Accuracy{accuracy.at("error"), accuracy.at("up_to")};
-  c.truncation_estimate = numbers_or_unknown(j.at("truncation_estimate"));
-  c.truncation_lower = j.at("truncation_lower").get<std::vector<double>>();
-  c.truncation_upper = j.at("truncation_upper").get<std::vector<double>>();
-  c.first_dropped_frequency = optional_from(j.at("first_dropped_frequency"));
-  c.eigenvalue_solver = j.at("eigenvalue_solver");
-  c.mode_residual = j.at("mode_residual");
-  if (const json& counted = j.at("modes_counted"); !counted.is_null()) c.modes_counted = counted.get<int>();
-  c.boundary_rigid_defect = j.at("boundary_rigid_defect");
-  c.rigid_residual_before_projection = j.at("rigid_residual_before_projection");
-  c.stiffness_coupling = j.at("stiffness_coupling");
-  c.orthonormality = j.at("orthonormality");
-  c.free_frequency = j.at("free_frequency").get<std::vector<double>>();
-  c.assurance = j.value("assurance", c.assurance);
-  c.notes = j.at("notes").get<std::vector<std::string>>();
-  c.beams = j.at("beams");
-  c.shells = j.at("shells");
-  c.solids = j.at("solids");
-  c.springs = j.at("springs");
-  c.masses = j.at("masses");
-  c.spiders = j.at("spiders");
-  c.eliminated = j.at("eliminated");
-  c.redundant = j.at("redundant");
-  c.inactive = j.at("inactive").get<std::vector<std::string>>();
-  if (const auto mesh = j.find("mesh_error"); mesh != j.end()) c.mesh_error = mesh_from(*mesh);
-  c.modal_body = modal_body_from(j.value("modal_body", json()));
-  c.warnings = j.at("warnings").get<std::vector<std::string>>();
-  return c;
 }
 
 /// Values below 1e-12 of the largest are round-off and shown as 0.
@@ -414,7 +395,7 @@ std::string certificate_json(const formats::Superelement& element, const FileCer
                              const ModelCertificate& model) {
   json j = base_json(element, file);
   j["verdict"] = verdict(file, model, element.units);
-  j["model"] = model_json(model);
+  j["model"] = as_json(model);
   return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -432,7 +413,8 @@ std::optional<ModelCertificate> read_certificate(const std::string& superelement
   try {
     const json j = json::parse(file);
     if (j.at("content_id") != content_id) return std::nullopt;
-    ModelCertificate model = model_from(j.at("model"));
+    ModelCertificate model;
+    read_json(j.at("model"), model);
     model.content_id = content_id;
     return model;
   } catch (const json::exception&) {

@@ -1,7 +1,6 @@
 // Figures from every stage of a reduction.
 #include "reducer/report/describe.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -68,7 +67,7 @@ void warn_of_unknown(const formats::Part& part, const MeshErrors& errors, ModelC
   std::map<MeshDoubt, std::vector<std::string>> modes;
   for (Eigen::Index k = 0; k < errors.relative.size(); ++k) {
     if (accuracy && frequency(errors.lambda[k]) > accuracy->up_to) break;
-    const MeshDoubt doubt = errors.doubts.doubt[static_cast<std::size_t>(k)];
+    const MeshDoubt doubt = errors.doubts.doubt[k];
     if (doubt != MeshDoubt::none && doubt != MeshDoubt::too_large && errors.doubts.size[k] > limit)
       modes[doubt].push_back(fmt::format("{:.4g}", frequency(errors.lambda[k])));
   }
@@ -87,7 +86,7 @@ void warn_of_mesh(const formats::Part& part, const MeshErrors& errors, ModelCert
   Eigen::Index worst = -1;
   for (Eigen::Index k = 0; k < errors.relative.size(); ++k) {
     if (accuracy && frequency(errors.lambda[k]) > accuracy->up_to) break;
-    const MeshDoubt doubt = errors.doubts.doubt[static_cast<std::size_t>(k)];
+    const MeshDoubt doubt = errors.doubts.doubt[k];
     if (doubt != MeshDoubt::none && doubt != MeshDoubt::too_large) continue;
     if (worst < 0 || std::abs(errors.relative[k]) > std::abs(errors.relative[worst])) worst = k;
   }
@@ -100,7 +99,7 @@ void warn_of_mesh(const formats::Part& part, const MeshErrors& errors, ModelCert
       "'{}': {}",
       errors.boundary_held ? "fixed" : "free", frequency(errors.lambda[worst]), 100.0 * share,
       share < 1.0 ? "" : " or more", errors.relative[worst] > 0.0 ? "high" : "low", 100.0 * limit,
-      accuracy ? "asked for" : "usual", errors.place[static_cast<std::size_t>(worst)], remedy_for(part, kind)));
+      accuracy ? "asked for" : "usual", errors.place[worst], remedy_for(part, kind)));
 }
 
 void describe_mesh_errors(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c) {

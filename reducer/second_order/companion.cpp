@@ -104,7 +104,7 @@ class ElementBatches {
       for (; end < count && end - begin < most && rows_[end].sections == like.sections; ++end)
         place_[end] = {static_cast<std::size_t>(batches), end - begin};
       if (batches == static_cast<int>(batches_.size())) batches_.emplace_back();
-      StrainBatch& batch = batches_[static_cast<std::size_t>(batches)];
+      StrainBatch& batch = batches_[batches];
       batch.sections = like.sections;
       batch.count = end - begin;
       batch.stress.resize(like.stress.rows() * batch.count, displacements_.cols());
@@ -149,8 +149,7 @@ MatrixXd all_loads(const Mesh& mesh, const LoadVectors& cases, const MatrixXd& i
   MatrixXd g = MatrixXd::Zero(std::max(inertial.rows(), of_shapes.rows()), inertial_loads + cases.x.cols() + shapes);
   g.topLeftCorner(inertial.rows(), inertial_loads) = inertial;
   for (Index c = 0; c < cases.x.cols(); ++c)
-    g.col(inertial_loads + c).head(inertial.rows()) =
-        inertial.leftCols<3>() * mesh.load_cases[static_cast<std::size_t>(c)].gravity;
+    g.col(inertial_loads + c).head(inertial.rows()) = inertial.leftCols<3>() * mesh.load_cases[c].gravity;
   g.middleCols(inertial_loads, cases.x.cols()).topRows(cases.x.rows()) += cases.x;
   if (shapes > 0) g.rightCols(shapes).topRows(of_shapes.rows()) = of_shapes;
   return g;
@@ -163,8 +162,7 @@ std::vector<formats::LoadCase> reduced_cases(const InternalProblem& problem, con
   MatrixXd force(f_B.rows() + internal.lambda.size(), f_B.cols());
   force << f_B + boundary.Psi.transpose() * f_I, internal.Phi.transpose() * f_I;
   std::vector<formats::LoadCase> reduced;
-  for (Index c = 0; c < force.cols(); ++c)
-    reduced.push_back({problem.mesh.load_cases[static_cast<std::size_t>(c)].name, force.col(c), {}});
+  for (Index c = 0; c < force.cols(); ++c) reduced.push_back({problem.mesh.load_cases[c].name, force.col(c), {}});
   return reduced;
 }
 

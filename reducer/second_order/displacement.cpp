@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <random>
 
 #include <Eigen/Eigenvalues>
@@ -212,7 +211,7 @@ SecondOrderDisplacement second_order_displacement(SecondOrderShapes shapes, cons
     for (Index k = 0; k < m; ++k) {
       if (!(moves[k] > small_mode * largest)) continue;
       result.forms.coordinate.push_back(static_cast<int>(first + k));
-      result.forms.of_coordinate.push_back(std::move(forms[static_cast<std::size_t>(k)]));
+      result.forms.of_coordinate.push_back(std::move(forms[k]));
     }
   }
   result.left_out = shapes.left_out;

@@ -69,13 +69,12 @@ std::vector<bool> turns_of(const ElementRows& at) {
 VectorXd unit_of(const MatrixXd& K, const std::vector<bool>& turns) {
   double largest[2] = {0.0, 0.0};
   for (Index k = 0; k < K.rows(); ++k) {
-    double& of_kind = largest[turns[static_cast<std::size_t>(k)] ? 1 : 0];
+    double& of_kind = largest[turns[k] ? 1 : 0];
     of_kind = std::max(of_kind, K(k, k));
   }
   VectorXd unit(K.rows());
   for (Index k = 0; k < K.rows(); ++k)
-    unit[k] =
-        K(k, k) > no_stiffness * largest[turns[static_cast<std::size_t>(k)] ? 1 : 0] ? 1.0 / std::sqrt(K(k, k)) : 0.0;
+    unit[k] = K(k, k) > no_stiffness * largest[turns[k] ? 1 : 0] ? 1.0 / std::sqrt(K(k, k)) : 0.0;
   return unit;
 }
 

@@ -117,8 +117,7 @@ void add_block(const FreeBlock& block, SymmetricPair& pair) {
     for (std::size_t b = a; b < block.row.size(); ++b) {
       at = std::lower_bound(at, end, block.row[b]);
       TISSERAND_ENSURE(at != end && *at == block.row[b], "no entry ({}, {})", block.row[a], block.row[b]);
-      pair.M[static_cast<std::size_t>(at - pair.column.begin())] +=
-          block.K(static_cast<Index>(a), static_cast<Index>(b));
+      pair.M[at - pair.column.begin()] += block.K(static_cast<Index>(a), static_cast<Index>(b));
     }
   }
 }

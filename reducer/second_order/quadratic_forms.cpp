@@ -24,7 +24,7 @@ struct StressTerms {
 std::vector<StressTerms> terms_of(const std::vector<StrainSection>& sections, Eigen::Index count) {
   std::vector<StressTerms> stresses(static_cast<std::size_t>(stress_rows(sections)));
   for_each_product(sections, [&](int stress, int first, int second, double coefficient) {
-    stresses[static_cast<std::size_t>(stress)].products.push_back({first * count, second * count, coefficient});
+    stresses[stress].products.push_back({first * count, second * count, coefficient});
   });
   return stresses;
 }

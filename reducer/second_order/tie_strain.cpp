@@ -225,11 +225,9 @@ MatrixXd tie_residual(const Mesh& mesh, const Coordinates& coordinates, const Ti
       residual.row(static_cast<Index>(i)).tail(g.cols()) += g.row(forces.dependent[i]);
   ElementMatrices matrices;
   for (int e = 0; e < mesh.elements(); ++e) {
-    const ElementNodes nodes = element_nodes(mesh, e);
     bool tied = false;
-    for (int i = 0; i < nodes.count; ++i)
-      for (int x = coordinates.first[nodes.node[i]]; x < coordinates.first[nodes.node[i] + 1]; ++x)
-        tied = tied || forces.row_of[x] >= 0;
+    for (const int n : element_nodes(mesh, e))
+      for (int x = coordinates.first[n]; x < coordinates.first[n + 1]; ++x) tied = tied || forces.row_of[x] >= 0;
     if (!tied) continue;
     with_element(mesh, e, [&](const auto& kind) { element_matrices(mesh, kind, matrices); });
     const ElementRows rows = element_rows(mesh, coordinates, e, matrices.S.rows());

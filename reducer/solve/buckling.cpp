@@ -2,7 +2,6 @@
 #include "reducer/solve/buckling.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -50,8 +49,7 @@ Eigen::MatrixXd forces_on_mesh(const Mesh& mesh, const System& system, const Loa
   const auto heavy = [](const MeshLoadCase& load) { return !load.gravity.isZero(0.0); };
   if (mesh.spiders.empty() || std::ranges::none_of(mesh.load_cases, heavy)) return force;
   const Eigen::MatrixXd weights = mesh_weights(mesh, system);
-  for (Index c = 0; c < force.cols(); ++c)
-    force.col(c) += weights * mesh.load_cases[static_cast<std::size_t>(c)].gravity;
+  for (Index c = 0; c < force.cols(); ++c) force.col(c) += weights * mesh.load_cases[c].gravity;
   return force;
 }
 
@@ -96,7 +94,7 @@ std::vector<CaseBuckling> buckling(const BucklingProblem& problem, int count, co
   const Eigen::MatrixXd force = forces_on_mesh(problem.mesh, problem.system, problem.loads);
   std::vector<CaseBuckling> result;
   for (Index c = 0; c < problem.statics.q.cols(); ++c) {
-    const MeshLoadCase& load = problem.mesh.load_cases[static_cast<std::size_t>(c)];
+    const MeshLoadCase& load = problem.mesh.load_cases[c];
     begin(fmt::format("buckling, {}", printable_line(load.name, 40)));
     result.push_back(
         case_buckling(problem, part, {problem.statics.q.col(c), force.col(c), load.gravity}, load, count, begin));

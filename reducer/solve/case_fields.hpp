@@ -3,8 +3,8 @@
 
 #include <functional>
 
+#include "reducer/fields/fields.hpp"
 #include "reducer/recover/stresses.hpp"
-#include "reducer/recovery/fields.hpp"
 
 namespace tisserand::reducer {
 

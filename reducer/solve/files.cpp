@@ -2,7 +2,6 @@
 #include "reducer/solve/files.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
@@ -57,8 +56,8 @@ void write_cases(const Solution& s, const std::string& stem, const formats::VtuC
     std::vector<formats::VtuArray> on_points =
         vtu_point_data(s.tables, s.fields, values, Eigen::Matrix3d::Identity(), c);
     on_points.insert(on_points.begin() + 1, vectors("rotation", motion, c, 3, 1.0));
-    formats::write_vtu(case_file(stem, s.mesh.load_cases[static_cast<std::size_t>(c)].name),
-                       s.mesh.position.cast<float>(), cells, on_points, vtu_cell_data(s.tables, s.fields, values, c));
+    formats::write_vtu(case_file(stem, s.mesh.load_cases[c].name), s.mesh.position.cast<float>(), cells, on_points,
+                       vtu_cell_data(s.tables, s.fields, values, c));
   }
 }
 
@@ -135,7 +134,7 @@ std::string solution_table(const Solution& s, const formats::Part& part, const S
     }
   };
   const Eigen::MatrixXd motion = node_motions(s.system, s.statics.q);
-  for (Index c = 0; c < motion.cols(); ++c) add(s.mesh.load_cases[static_cast<std::size_t>(c)].name, motion, c);
+  for (Index c = 0; c < motion.cols(); ++c) add(s.mesh.load_cases[c].name, motion, c);
   if (s.modes) {
     const Eigen::MatrixXd shapes = node_motions(s.system, s.modes->q);
     for (Index k = 0; k < shapes.cols(); ++k) add(fmt::format("mode_{}", k + 1), shapes, k);

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <Eigen/Geometry>
 
 #include "common/text.hpp"
 #include "reducer/recover/instant_values.hpp"
 #include "reducer/report/certificate.hpp"
+#include "reducer/report/verdict.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -45,15 +45,14 @@ Vector3d middle_of(const Solution& s, const MeshSupport& support) {
 
 std::string node_text(const Solution& s, Index node) {
   const Vector3d x = s.mesh.position.col(node);
-  return fmt::format("{} {}", printable_line(s.mesh.node_label[static_cast<std::size_t>(node)], 60),
-                     vector_text(x, s.system.length));
+  return fmt::format("{} {}", printable_line(s.mesh.node_label[node], 60), vector_text(x, s.system.length));
 }
 
 std::string components_text(Components components) {
   constexpr std::array<const char*, 6> words{"x", "y", "z", "rx", "ry", "rz"};
   std::vector<std::string> held;
   for (int c = 0; c < 6; ++c)
-    if ((components >> c & 1) != 0) held.emplace_back(words[static_cast<std::size_t>(c)]);
+    if ((components >> c & 1) != 0) held.emplace_back(words[c]);
   return join(held, " ");
 }
 
@@ -115,7 +114,7 @@ std::string case_text(const Solution& s, Index c, const Labels& labels) {
     return fmt::format("force {}{}, moment {}{}", vector_text(w.head<3>(), size), labels.force,
                        vector_text(w.tail<3>(), moments), labels.moment);
   };
-  std::string text = fmt::format("\nload case '{}'\n", s.mesh.load_cases[static_cast<std::size_t>(c)].name);
+  std::string text = fmt::format("\nload case '{}'\n", s.mesh.load_cases[c].name);
   text += fmt::format(line_form, "applied", wrench(applied) + " about the origin");
   text += peaks_text(s, c, labels);
   text += fmt::format(line_form, "strain energy", fmt::format("{:.9g}{}", s.statics.energy[c], labels.energy));
@@ -136,7 +135,7 @@ std::string modes_text(const Solution& s, const Units& units) {
   std::string text =
       fmt::format("\nmodes, {}\n",
                   !s.is_free ? "supported" : fmt::format("free: {} rigid motions at frequency 0, then", modes.rigid));
-  const std::string unit = units.named() ? (units.time.factor == 1.0 ? "Hz" : "1/" + units.time.label) : "1/time";
+  const std::string unit = frequency_unit(units);
   text += fmt::format("  {:>4} {:>16}{}\n", "mode", "frequency [" + unit + "]",
                       s.is_free ? "" : "   effective mass and inertia [% of the part's] x, y, z, rx, ry, rz");
   Vector6 whole;
@@ -183,9 +182,9 @@ std::string count_text(const CaseBuckling& b) {
 }
 
 std::string buckling_text(const Solution& s, Index c) {
-  const CaseBuckling& b = s.buckling[static_cast<std::size_t>(c)];
+  const CaseBuckling& b = s.buckling[c];
   const Eigen::MatrixXd motion = node_motions(s.system, b.q);
-  std::string text = fmt::format("\nbuckling, load case '{}'\n", s.mesh.load_cases[static_cast<std::size_t>(c)].name);
+  std::string text = fmt::format("\nbuckling, load case '{}'\n", s.mesh.load_cases[c].name);
   if (b.factor.size() > 0) text += fmt::format("  {:>4} {:>16}   shape, largest 1\n", "mode", "load factor");
   for (Index k = 0; k < b.factor.size(); ++k)
     text += fmt::format("  {:>4} {:>16.8g}   {}\n", k + 1, b.factor[k], shape_text(s, motion, k));
@@ -204,8 +203,8 @@ Vector6 reaction_of(const Solution& s, int support, Index load_case, const Vecto
   Vector6 sum = Vector6::Zero();
   const Eigen::MatrixXd R = rigid_motions_about(s.system, point);
   for (Index b = 0; b < s.partition.n_B(); ++b)
-    if (support < 0 || s.partition.boundary_node[static_cast<std::size_t>(b)] == support)
-      sum += s.statics.reaction(b, load_case) * R.row(s.partition.boundary[static_cast<std::size_t>(b)]).transpose();
+    if (support < 0 || s.partition.boundary_node[b] == support)
+      sum += s.statics.reaction(b, load_case) * R.row(s.partition.boundary[b]).transpose();
   return sum;
 }
 

@@ -35,10 +35,10 @@ Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& re
   Solution s;
   s.mesh = std::move(mesh);
   s.warnings = check_elements(s.mesh, part).all;
-  const std::vector<HeldCoordinate> held = held_coordinates(s.mesh, number_coordinates(s.mesh));
+  const std::vector<OwnedCoordinate> held = held_coordinates(s.mesh, number_coordinates(s.mesh));
   begin("assembly");
   std::vector<int> held_x;
-  for (const HeldCoordinate& h : held) held_x.push_back(h.x);
+  for (const OwnedCoordinate& h : held) held_x.push_back(h.x);
   s.system = build_system(s.mesh, held_x, part.file, begin.share);
   s.rigid = full_rigid_properties(s.system);
   if (request.modes > 0) require_mass(s.system, part.file);

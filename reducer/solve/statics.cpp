@@ -46,7 +46,7 @@ void check_balanced(const Mesh& mesh, const System& system, const LoadVectors& l
     const Eigen::Matrix<double, 6, 1> rest = R.transpose() * loads.q.col(c);
     const double force = rest.head<3>().norm(), moment = rest.tail<3>().norm();
     if (force + moment / system.length <= balanced * loads.size[c]) continue;
-    const MeshLoadCase& load = mesh.load_cases[static_cast<std::size_t>(c)];
+    const MeshLoadCase& load = mesh.load_cases[c];
     throw Error(fmt::format("the part has no supports, and load case '{}' is not in equilibrium: its resultant is a "
                             "force of {:.6g} and a moment of {:.6g} about the middle, {:.1e} of its forces",
                             load.name, force, moment, (force + moment / system.length) / loads.size[c]),

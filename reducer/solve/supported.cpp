@@ -1,11 +1,9 @@
 // Held and free coordinates.
 #include "reducer/solve/supported.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
-#include <Eigen/QR>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
@@ -15,36 +13,17 @@
 namespace tisserand::reducer {
 namespace {
 
-/// By support; coordinates without stiffness and mass rest anyway.
-Partition held_partition(const System& system, const std::vector<HeldCoordinate>& held) {
-  Partition p;
-  std::vector<bool> is_held(static_cast<std::size_t>(system.size()), false);
-  for (const HeldCoordinate& h : held) {
-    const int q = system.T.row[h.x];
-    if (q < 0) continue;
-    p.boundary.push_back(q);
-    p.boundary_node.push_back(h.support);
-    p.boundary_component.push_back(system.coordinates.component[h.x]);
-    is_held[q] = true;
-  }
-  for (int q = 0; q < system.size(); ++q)
-    if (!is_held[q]) p.internal.push_back(q);
-  return p;
+/// Six coordinates on which a free part rests.
+std::vector<OwnedCoordinate> rest_of_free(const System& system) {
+  std::vector<OwnedCoordinate> rest;
+  for (const int q : six_coordinates(system)) rest.push_back({system.T.source[q], 0});
+  return rest;
 }
 
-/// Six coordinates whose rigid motions are as independent as possible: pivots of R.
-std::vector<HeldCoordinate> six_coordinates(const System& system) {
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivots(system.R.transpose());
-  std::vector<HeldCoordinate> held;
-  for (int k = 0; k < 6; ++k) held.push_back({system.T.source[pivots.colsPermutation().indices()[k]], 0});
-  std::ranges::sort(held, {}, &HeldCoordinate::x);
-  return held;
-}
-
-void check_rigid(const Mesh& mesh, const System& system, const std::vector<HeldCoordinate>& held,
+void check_rigid(const Mesh& mesh, const System& system, const std::vector<OwnedCoordinate>& held,
                  const std::string& where) {
   std::vector<HeldComponents> nodes;
-  for (const HeldCoordinate& h : held)
+  for (const OwnedCoordinate& h : held)
     nodes.push_back({system.coordinates.node[h.x], static_cast<Components>(1U << system.coordinates.component[h.x])});
   const std::vector<std::string> motions = free_motions(mesh, nodes);
   if (motions.empty()) return;
@@ -62,12 +41,12 @@ void check_stiff(const Supported& s, const Mesh& mesh, const System& system, con
 
 }  // namespace
 
-Supported support(const Mesh& mesh, const System& system, const std::vector<HeldCoordinate>& held, int modes,
+Supported support(const Mesh& mesh, const System& system, const std::vector<OwnedCoordinate>& held, int modes,
                   const std::string& where, const PhaseListener& begin) {
   Supported s;
   s.is_free = mesh.supports.empty();
   if (!s.is_free) check_rigid(mesh, system, held, where);
-  s.partition = held_partition(system, s.is_free ? six_coordinates(system) : held);
+  s.partition = partition(system, s.is_free ? rest_of_free(system) : held);
   if (s.partition.n_I() == 0)
     throw Error("the supports hold every coordinate of the part", where, "support fewer nodes or directions");
   SystemMatrices free = to_petsc(internal_matrices(system.matrices, s.partition));

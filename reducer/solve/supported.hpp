@@ -20,7 +20,7 @@ struct Supported {
 
 /// Throws Error if supports leave a rigid motion (named), if something inside moves without stiffness, or if the
 /// memory does not suffice for the factor and `modes` modes.
-Supported support(const Mesh& mesh, const System& system, const std::vector<HeldCoordinate>& held, int modes,
+Supported support(const Mesh& mesh, const System& system, const std::vector<OwnedCoordinate>& held, int modes,
                   const std::string& where, const PhaseListener& begin);
 
 }  // namespace tisserand::reducer

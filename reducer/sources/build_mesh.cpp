@@ -53,9 +53,9 @@ void finish(MeshBuilder& builder) {
   }
   if (!builder.node_of_id.empty()) mesh.node_number.assign(static_cast<std::size_t>(count), 0);
   for (const auto& [number, node] : builder.node_of_id) {
-    const int own = row[static_cast<std::size_t>(node)];
+    const int own = row[node];
     if (own < 0 || number <= 0 || number > std::numeric_limits<int>::max()) continue;
-    int& least = mesh.node_number[static_cast<std::size_t>(own)];  // merged nodes have several
+    int& least = mesh.node_number[own];  // merged nodes have several
     if (least == 0 || number < least) least = static_cast<int>(number);
   }
   for_nodes(mesh, [&row](int& node) { node = row[node]; });

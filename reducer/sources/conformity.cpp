@@ -1,6 +1,5 @@
 // Whether the edges of patches and beams that touch have the same nodes.
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include <fmt/format.h>

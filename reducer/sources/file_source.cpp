@@ -7,6 +7,7 @@
 #include "reducer/mesh/mesh_file.hpp"
 #include "reducer/mesher/import.hpp"
 #include "reducer/sources/mesh_builder.hpp"
+#include "reducer/sources/node_references.hpp"
 #include "reducer/sources/selection.hpp"
 
 namespace tisserand::reducer {
@@ -96,27 +97,13 @@ void append(std::vector<T>& to, std::vector<T>& from) {
 
 /// Nodes and properties of a deck come after those that are there.
 void shift_deck(Mesh& deck, int nodes, const Mesh& before) {
-  const auto shift = [](int& value, std::size_t by) { value += static_cast<int>(by); };
-  const auto by = static_cast<std::size_t>(nodes);
-  for (BeamElement& e : deck.beams)
-    shift(e.first, by), shift(e.second, by), shift(e.property, before.beam_properties.size());
-  for (ShellElement& e : deck.shells) {
-    for (int k = 0; k < e.corners(); ++k) shift(e.nodes[k], by);
-    shift(e.property, before.shell_properties.size());
-  }
-  for (SolidElement& e : deck.solids) {
-    for (int k = 0; k < node_count(e.shape); ++k) shift(e.nodes[k], by);
-    shift(e.property, before.solid_properties.size());
-  }
-  for (Spring& e : deck.springs) shift(e.first, by), shift(e.second, by);
-  for (NodalMass& e : deck.masses) shift(e.node, by);
-  for (Spider& e : deck.spiders) {
-    shift(e.reference, by);
-    for (int& node : e.nodes) shift(node, by);
-  }
-  for (TieEquation& e : deck.equations)
-    for (TieTerm& term : e.terms) shift(term.node, by);
-  for (MeshBoundary& e : deck.boundary) shift(e.node, by);
+  for_nodes(deck, [nodes](int& node) { node += nodes; });
+  const auto shift = [](auto& elements, const auto& properties) {
+    for (auto& e : elements) e.property += static_cast<int>(properties.size());
+  };
+  shift(deck.beams, before.beam_properties);
+  shift(deck.shells, before.shell_properties);
+  shift(deck.solids, before.solid_properties);
 }
 
 /// The deck's nodes, elements, sets and boundary.

@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "reducer/mesh/coordinates.hpp"
 #include "reducer/sources/lines.hpp"
 #include "reducer/sources/mesh_builder.hpp"
 #include "reducer/sources/selection.hpp"
@@ -215,13 +216,8 @@ void check_nothing_is_left(const MeshBuilder& builder) {
 void mark_used_nodes(MeshBuilder& builder) {
   const Mesh& mesh = builder.mesh;
   builder.used.assign(builder.cells.position.size(), 0);
-  const auto use = [&builder](int node) { builder.used[node] = 1; };
-  for (const BeamElement& e : mesh.beams) use(e.first), use(e.second);
-  for (const ShellElement& e : mesh.shells)
-    for (int k = 0; k < e.corners(); ++k) use(e.nodes[k]);
-  for (const SolidElement& e : mesh.solids)
-    for (int k = 0; k < node_count(e.shape); ++k) use(e.nodes[k]);
-  for (const Spring& e : mesh.springs) use(e.first), use(e.second);
+  for (int e = 0; e < mesh.elements(); ++e)
+    for (const int node : element_nodes(mesh, e)) builder.used[node] = 1;
 }
 
 void add_group_elements(MeshBuilder& builder) {

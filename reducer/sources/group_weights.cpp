@@ -1,8 +1,6 @@
 // How the nodes of a group share its length, area or volume.
 #include <algorithm>
-#include <array>
 #include <map>
-#include <unordered_map>
 #include <unordered_set>
 
 #include "reducer/mesh/solid_faces.hpp"
@@ -76,8 +74,7 @@ FaceCells faces_between(const MeshBuilder& builder, const std::vector<int>& name
   faces.sign.assign(faces.cells.size(), 1);
   if (!faces.cells.empty()) return faces;
   for (const ShellElement& shell : builder.mesh.shells)
-    if (std::all_of(shell.nodes.begin(), shell.nodes.begin() + shell.corners(),
-                    [&](int node) { return nodes.contains(node); }))
+    if (std::ranges::all_of(nodes_of(shell), [&](int node) { return nodes.contains(node); }))
       faces.cells.push_back(shell_cell(shell));
   faces.sign.assign(faces.cells.size(), 0);
   return faces;

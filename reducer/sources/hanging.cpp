@@ -1,12 +1,11 @@
 // Hanging nodes: on an edge or face of an element beside their own, which has no node there, so that nothing joins
 // them.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -91,8 +90,8 @@ struct TouchedFace {
 std::vector<TouchedFace> touched_faces(const Mesh& mesh) {
   std::vector<TouchedFace> faces;
   for (int s = 0; s < static_cast<int>(mesh.shells.size()); ++s) {
-    const auto& nodes = mesh.shells[s].nodes;
-    const std::vector<int> corners(nodes.begin(), nodes.begin() + mesh.shells[s].corners());
+    const auto nodes = nodes_of(mesh.shells[s]);
+    const std::vector<int> corners(nodes.begin(), nodes.end());
     faces.push_back({corners, corners, true, s});
   }
   for (const OuterFace& outer : outer_faces_of_solids(mesh)) {
@@ -151,9 +150,8 @@ class HangingPlace {
 class ElementsAtNodes {
  public:
   explicit ElementsAtNodes(const Mesh& mesh, std::size_t nodes) : of_(nodes) {
-    for (const ShellElement& shell : mesh.shells) add({shell.nodes.begin(), shell.nodes.begin() + shell.corners()});
-    for (const SolidElement& solid : mesh.solids)
-      add({solid.nodes.begin(), solid.nodes.begin() + node_count(solid.shape)});
+    for (const ShellElement& shell : mesh.shells) add(nodes_of(shell));
+    for (const SolidElement& solid : mesh.solids) add(nodes_of(solid));
   }
 
   /// Whether an element at `node` has one of the others, too.
@@ -164,9 +162,9 @@ class ElementsAtNodes {
   }
 
  private:
-  void add(std::vector<int> nodes) {
+  void add(std::span<const int> nodes) {
     for (const int n : nodes) of_[n].push_back(static_cast<int>(nodes_.size()));
-    nodes_.push_back(std::move(nodes));
+    nodes_.emplace_back(nodes.begin(), nodes.end());
   }
 
   std::vector<std::vector<int>> of_;

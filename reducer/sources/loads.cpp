@@ -123,7 +123,7 @@ struct LoadedFaces {
     const auto inside = [&nodes](int node) { return nodes.contains(node); };
     for (int s = 0; s < static_cast<int>(mesh.shells.size()); ++s) {
       const ShellElement& shell = mesh.shells[s];
-      if (std::all_of(shell.nodes.begin(), shell.nodes.begin() + shell.corners(), inside))
+      if (std::ranges::all_of(nodes_of(shell), inside))
         shells.emplace(sorted_corners(shell.nodes.data(), shell.corners()), s);
     }
     for (const Cell& face : outer_faces(mesh, inside))

@@ -1,6 +1,4 @@
 // Points, patches and beams that the part file draws, as nodes and elements.
-#include <algorithm>
-#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -80,8 +78,7 @@ void add_line_elements(MeshBuilder& builder, const formats::BeamLine& line, cons
       builder.mesh.beam_properties.push_back({data, line.name});
       builder.mesh.beam_properties.back().data.stations = stations_between(stations, from, to);
     }
-    const auto k = static_cast<std::size_t>(e);
-    builder.mesh.beams.push_back(beam_element(builder, line, {nodes[k], nodes[k + 1], from, to, e + 1}, orientation));
+    builder.mesh.beams.push_back(beam_element(builder, line, {nodes[e], nodes[e + 1], from, to, e + 1}, orientation));
   }
   builder.mesh.beams[builder.mesh.beams.size() - static_cast<std::size_t>(elements)].released |=
       static_cast<std::uint16_t>(line.releases.start);

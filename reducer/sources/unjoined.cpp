@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <limits>
 #include <set>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -100,9 +99,9 @@ std::vector<char> carrying_nodes(const MeshBuilder& builder) {
   const auto add = [&](int node) {
     if (node >= builder.first_file_node && node < builder.last_file_node) carries[node] = 1;
   };
-  for (const BeamElement& beam : mesh.beams) add(beam.first), add(beam.second);
-  for (const ShellElement& shell : mesh.shells) std::for_each_n(shell.nodes.begin(), shell.corners(), add);
-  for (const SolidElement& solid : mesh.solids) std::for_each_n(solid.nodes.begin(), node_count(solid.shape), add);
+  for (const BeamElement& beam : mesh.beams) std::ranges::for_each(nodes_of(beam), add);
+  for (const ShellElement& shell : mesh.shells) std::ranges::for_each(nodes_of(shell), add);
+  for (const SolidElement& solid : mesh.solids) std::ranges::for_each(nodes_of(solid), add);
   return carries;
 }
 

@@ -2,7 +2,6 @@
 #include "reducer/survey/labels.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "reducer/recovery/fields.hpp"
+#include "reducer/fields/fields.hpp"
 #include "reducer/view/part_page.hpp"
 
 namespace tisserand::reducer {

@@ -8,7 +8,6 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <Eigen/Geometry>
 
 #include "common/error.hpp"
 #include "common/gnuplot.hpp"

@@ -2,7 +2,6 @@
 #include "reducer/survey/survey.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include <fmt/format.h>

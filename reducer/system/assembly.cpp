@@ -38,16 +38,14 @@ Incidence find_incidence(const Mesh& mesh) {
   for (int e = 0; e < mesh.elements(); ++e) {
     const ElementNodes nodes = element_nodes(mesh, e);
     total += nodes.count;
-    for (int i = 0; i < nodes.count; ++i) ++incidence.begin[static_cast<std::size_t>(nodes.node[i]) + 1];
+    for (const int n : nodes) ++incidence.begin[n + 1];
   }
   check_entry_count(total);
   for (std::size_t n = 1; n < incidence.begin.size(); ++n) incidence.begin[n] += incidence.begin[n - 1];
   incidence.element.resize(static_cast<std::size_t>(total));
   std::vector<int> next(incidence.begin);
-  for (int e = 0; e < mesh.elements(); ++e) {
-    const ElementNodes nodes = element_nodes(mesh, e);
-    for (int i = 0; i < nodes.count; ++i) incidence.element[next[nodes.node[i]]++] = e;
-  }
+  for (int e = 0; e < mesh.elements(); ++e)
+    for (const int n : element_nodes(mesh, e)) incidence.element[next[n]++] = e;
   return incidence;
 }
 
@@ -57,11 +55,9 @@ NodeGraph share_of_graph(const Mesh& mesh, const Coordinates& coordinates, const
   std::vector<int> found;
   for (int n = share.first; n < share.end; ++n) {
     found.assign(1, n);
-    for (int k = incidence.begin[n]; k < incidence.begin[n + 1]; ++k) {
-      const ElementNodes nodes = element_nodes(mesh, incidence.element[k]);
-      for (int i = 0; i < nodes.count; ++i)
-        if (nodes.node[i] > n) found.push_back(nodes.node[i]);
-    }
+    for (int k = incidence.begin[n]; k < incidence.begin[n + 1]; ++k)
+      for (const int m : element_nodes(mesh, incidence.element[k]))
+        if (m > n) found.push_back(m);
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
     int width = 0;
@@ -159,8 +155,7 @@ std::vector<int> elements_at(const Mesh& mesh, Share nodes) {
   std::vector<int> elements;
   for (int e = 0; e < mesh.elements(); ++e) {
     const ElementNodes of = element_nodes(mesh, e);
-    if (std::any_of(of.node.begin(), of.node.begin() + of.count,
-                    [&](int n) { return n >= nodes.first && n < nodes.end; }))
+    if (std::any_of(of.begin(), of.end(), [&](int n) { return n >= nodes.first && n < nodes.end; }))
       elements.push_back(e);
   }
   return elements;
@@ -200,10 +195,8 @@ void add_masses(const Mesh& mesh, const Coordinates& coordinates, SymmetricPair&
 int fingerprint(const Mesh& mesh) {
   std::size_t hash = std::hash<std::string_view>()({reinterpret_cast<const char*>(mesh.position.data()),
                                                     sizeof(double) * static_cast<std::size_t>(mesh.position.size())});
-  for (int e = 0; e < mesh.elements(); ++e) {
-    const ElementNodes nodes = element_nodes(mesh, e);
-    for (int i = 0; i < nodes.count; ++i) hash = 31 * hash + static_cast<std::size_t>(nodes.node[i]);
-  }
+  for (int e = 0; e < mesh.elements(); ++e)
+    for (const int n : element_nodes(mesh, e)) hash = 31 * hash + static_cast<std::size_t>(n);
   return static_cast<int>(hash >> 33);
 }
 

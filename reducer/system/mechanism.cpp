@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
@@ -40,14 +39,12 @@ Movement movement_of(const Mesh& mesh, const System& system, const Partition& p,
   const VectorXd x = expand(system.T, q).col(0);
   Movement m;
   m.length = characteristic_length(mesh);
-  const auto of_length = [&](int k) {
-    return x[k] * (system.coordinates.component[static_cast<std::size_t>(k)] < 3 ? 1.0 : m.length);
-  };
+  const auto of_length = [&](int k) { return x[k] * (system.coordinates.component[k] < 3 ? 1.0 : m.length); };
   for (int k = 0; k < system.coordinates.count(); ++k) m.largest = std::max(m.largest, std::abs(of_length(k)));
   std::vector<double> u;
   for (int k = 0; k < system.coordinates.count(); ++k) {
     if (!(std::abs(of_length(k)) > still * m.largest)) continue;
-    const int node = system.coordinates.node[static_cast<std::size_t>(k)];
+    const int node = system.coordinates.node[k];
     if (m.nodes.empty() || m.nodes.back() != node) m.nodes.push_back(node);
     m.x.push_back(k);
     u.push_back(of_length(k));
@@ -70,16 +67,15 @@ bool fit_rigid(const Mesh& mesh, const System& system, const Movement& m, RigidF
   for (const int node : m.nodes)
     for (int c = 0; c < 3; ++c) rows.push_back(system.coordinates.of(node, c));
   for (const int x : m.x)
-    if (system.coordinates.component[static_cast<std::size_t>(x)] >= 3) rows.push_back(x);
+    if (system.coordinates.component[x] >= 3) rows.push_back(x);
   MatrixXd A = MatrixXd::Zero(static_cast<Index>(rows.size()), 6);
   VectorXd b = VectorXd::Zero(A.rows());
   for (Index r = 0; r < A.rows(); ++r) {
-    const int x = rows[static_cast<std::size_t>(r)], c = system.coordinates.component[static_cast<std::size_t>(x)];
+    const int x = rows[r], c = system.coordinates.component[x];
     if (c >= 3) {
       A(r, c) = 1.0;
     } else {
-      const Vector3d arm =
-          (mesh.position.col(system.coordinates.node[static_cast<std::size_t>(x)]) - fit.center) / m.length;
+      const Vector3d arm = (mesh.position.col(system.coordinates.node[x]) - fit.center) / m.length;
       A(r, c) = 1.0;
       A.block<1, 3>(r, 3) = arm.cross(Vector3d::Unit(c)).transpose();
     }
@@ -110,7 +106,7 @@ std::string node_words(const Mesh& mesh, const std::vector<int>& nodes) {
   std::vector<std::string> names;
   for (const int node : nodes) {
     if (names.size() == most && nodes.size() > most + 1) break;
-    names.push_back(mesh.node_label[static_cast<std::size_t>(node)]);
+    names.push_back(mesh.node_label[node]);
   }
   if (names.size() < nodes.size()) names.push_back(fmt::format("{} nodes more", nodes.size() - names.size()));
   if (names.size() == 1) return names[0];
@@ -129,7 +125,7 @@ std::string axis_words(const Mesh& mesh, const Vector3d& point, const Vector3d& 
     if (arm.cross(direction).norm() > on_axis * length) continue;
     if (names.empty()) first = mesh.position.col(b.node);
     if (names.size() == 1 && (mesh.position.col(b.node) - first).norm() <= on_axis * length) continue;
-    if (names.size() < 2) names.push_back(mesh.node_label[static_cast<std::size_t>(b.node)]);
+    if (names.size() < 2) names.push_back(mesh.node_label[b.node]);
   }
   if (names.size() == 2) return fmt::format("the line through {} and {}", names[0], names[1]);
   return fmt::format("the axis {} through {}", vector_words(direction, 1e-4),
@@ -170,7 +166,7 @@ std::string motion_words(const Mesh& mesh, const System& system, const Partition
   if (m.x.empty()) {
     Index largest = 0;
     v.cwiseAbs().maxCoeff(&largest);
-    return coordinate_name(mesh, system, system.T.source[p.internal[static_cast<std::size_t>(largest)]]);
+    return coordinate_name(mesh, system, system.T.source[p.internal[largest]]);
   }
   RigidFit fit;
   return fit_rigid(mesh, system, m, fit) ? rigid_words(mesh, m, fit) : coordinate_words(mesh, system, m);

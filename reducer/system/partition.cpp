@@ -1,7 +1,10 @@
 // Partition of the coordinates and extraction of the blocks.
 #include "reducer/system/partition.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include <Eigen/QR>
 
 namespace tisserand::reducer {
 namespace {
@@ -17,19 +20,36 @@ std::vector<int> places(const Partition& p) {
 }  // namespace
 
 Partition partition(const Mesh& mesh, const System& system) {
-  Partition p;
-  std::vector<bool> retained(static_cast<std::size_t>(system.size()), false);
+  std::vector<OwnedCoordinate> boundary;
   for (std::size_t b = 0; b < mesh.boundary.size(); ++b)
-    for (int component = 0; component < 6; ++component) {
-      if (!(component < 3 ? mesh.boundary[b].translations : mesh.boundary[b].rotations)) continue;
-      p.boundary.push_back(system.T.row[system.coordinates.of(mesh.boundary[b].node, component)]);
-      p.boundary_node.push_back(static_cast<int>(b));
-      p.boundary_component.push_back(component);
-      retained[p.boundary.back()] = true;
-    }
-  for (int i = 0; i < system.size(); ++i)
-    if (!retained[i]) p.internal.push_back(i);
+    for (int component = 0; component < 6; ++component)
+      if (component < 3 ? mesh.boundary[b].translations : mesh.boundary[b].rotations)
+        boundary.push_back({system.coordinates.of(mesh.boundary[b].node, component), static_cast<int>(b)});
+  return partition(system, boundary);
+}
+
+Partition partition(const System& system, const std::vector<OwnedCoordinate>& boundary) {
+  Partition p;
+  std::vector<bool> taken(static_cast<std::size_t>(system.size()), false);
+  for (const OwnedCoordinate& b : boundary) {
+    const int q = system.T.row[b.x];
+    if (q < 0) continue;
+    p.boundary.push_back(q);
+    p.boundary_node.push_back(b.owner);
+    p.boundary_component.push_back(system.coordinates.component[b.x]);
+    taken[q] = true;
+  }
+  for (int q = 0; q < system.size(); ++q)
+    if (!taken[q]) p.internal.push_back(q);
   return p;
+}
+
+std::vector<int> six_coordinates(const System& system) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivots(system.R.transpose());
+  std::vector<int> six;
+  for (Eigen::Index k = 0; k < 6; ++k) six.push_back(static_cast<int>(pivots.colsPermutation().indices()[k]));
+  std::ranges::sort(six);
+  return six;
 }
 
 SymmetricPair internal_matrices(SymmetricPair matrices, const Partition& p) {

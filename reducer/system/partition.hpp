@@ -15,7 +15,7 @@ namespace tisserand::reducer {
 /// Internal: ascending; coordinates that a boundary node does not retain are among them.
 struct Partition {
   std::vector<int> boundary;
-  std::vector<int> boundary_node;       ///< row of Mesh::boundary
+  std::vector<int> boundary_node;       ///< row of Mesh::boundary (::held, ::supports)
   std::vector<int> boundary_component;  ///< 0-5
   std::vector<int> internal;
 
@@ -24,6 +24,12 @@ struct Partition {
 };
 
 Partition partition(const Mesh& mesh, const System& system);
+
+/// The same of other coordinates than those of Mesh::boundary. Those without stiffness and mass rest anyway.
+Partition partition(const System& system, const std::vector<OwnedCoordinate>& boundary);
+
+/// Six coordinates whose rigid motions are as independent as possible: pivots of R.
+std::vector<int> six_coordinates(const System& system);
 
 /// S_II, M_II symmetric sparse; S_IB, M_IB (n_I x n_B); S_BB, M_BB.
 struct Blocks {

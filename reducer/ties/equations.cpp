@@ -1,7 +1,6 @@
 // Equations of rigid spiders and of the mesh's own ones; averaging spiders have a file of their own.
 #include "reducer/ties/equations.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -71,9 +70,8 @@ void check_rigid(const Mesh& mesh, const Coordinates& coordinates, const TieSyst
   Vector6 sum = Vector6::Zero();
   double size = 0.0;
   for (const Term& term : equation.terms) {
-    const auto k = static_cast<std::size_t>(term.coordinate);
-    sum += term.coefficient * ties.rigid[k];
-    size += std::abs(term.coefficient) / ties.scale[k];
+    sum += term.coefficient * ties.rigid[term.coordinate];
+    size += std::abs(term.coefficient) / ties.scale[term.coordinate];
   }
   if (sum.cwiseAbs().maxCoeff() <= 1e-6 * size) return;
   std::vector<std::string> words, motions;

@@ -32,13 +32,9 @@ bool has_axes(const Matrix3d& K, const Vector3d& first_to_second) {
 /// Nodes with rotations that something defines: all three of them.
 std::vector<bool> turning_nodes(const Mesh& mesh) {
   std::vector<bool> turns(static_cast<std::size_t>(mesh.nodes()), false);
-  const auto turn = [&turns](int node) { turns[static_cast<std::size_t>(node)] = true; };
-  for (const BeamElement& beam : mesh.beams) {
-    turn(beam.first);
-    turn(beam.second);
-  }
-  for (const ShellElement& shell : mesh.shells)
-    for (int i = 0; i < shell.corners(); ++i) turn(shell.nodes[i]);
+  const auto turn = [&turns](int node) { turns[node] = true; };
+  for (const BeamElement& beam : mesh.beams) std::ranges::for_each(nodes_of(beam), turn);
+  for (const ShellElement& shell : mesh.shells) std::ranges::for_each(nodes_of(shell), turn);
   for (const NodalMass& mass : mesh.masses)
     if (!mass.inertia.isZero(0.0) || !mass.offset.isZero(0.0)) turn(mass.node);
   for (const Spider& spider : mesh.spiders) {
@@ -68,7 +64,7 @@ std::map<int, std::string> nodes_to_turn(const Mesh& mesh) {
     const Vector3d arm = mesh.position.col(spring.second) - mesh.position.col(spring.first);
     if (!has_axes(spring.stiffness.topLeftCorner<3, 3>(), arm)) continue;
     for (const int node : {spring.first, spring.second})
-      if (!turns[static_cast<std::size_t>(node)]) nodes.try_emplace(node, spring.name);
+      if (!turns[node]) nodes.try_emplace(node, spring.name);
   }
   return nodes;
 }
@@ -103,14 +99,12 @@ std::vector<Spider> turned_by_spider(const Mesh& mesh, int node) {
 /// Nodes of the solids at each of `nodes`.
 std::map<int, std::set<int>> solid_neighbours(const Mesh& mesh, const std::map<int, std::string>& nodes) {
   std::map<int, std::set<int>> neighbours;
-  for (const SolidElement& solid : mesh.solids) {
-    const int count = node_count(solid.shape);
-    for (int i = 0; i < count; ++i) {
-      if (!nodes.contains(solid.nodes[i])) continue;
-      for (int j = 0; j < count; ++j)
-        if (j != i) neighbours[solid.nodes[i]].insert(solid.nodes[j]);
+  for (const SolidElement& solid : mesh.solids)
+    for (const int node : nodes_of(solid)) {
+      if (!nodes.contains(node)) continue;
+      for (const int other : nodes_of(solid))
+        if (other != node) neighbours[node].insert(other);
     }
-  }
   return neighbours;
 }
 

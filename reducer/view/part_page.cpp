@@ -102,13 +102,9 @@ std::vector<Piece> groups_of(const ViewedPart& part) {
 
 /// Lines from the reference node to its legs.
 Piece spider_of(const Recovery& r, const Spider& spider) {
-  Piece piece{"spider " + spider.name,
-              spider.kind == SpiderKind::rigid ? "rigid spider" : "averaging spider",
-              "",
-              {},
-              {},
-              0,
-              {}};
+  Piece piece;
+  piece.name = "spider " + spider.name;
+  piece.kind = spider.kind == SpiderKind::rigid ? "rigid spider" : "averaging spider";
   const auto add = [&](int node) {
     piece.surface.vertices.push_back(r.position.col(node));
     piece.carriers.push_back({node, Vector3d::Zero()});

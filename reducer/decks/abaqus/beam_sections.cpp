@@ -1,6 +1,5 @@
 // *BEAM SECTION and *BEAM GENERAL SECTION: shapes and constants of beams, with what follows them.
 #include <array>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -14,28 +13,24 @@ namespace {
 
 using formats::Section;
 
-Error fault(const Model& model, const Line& line, std::string what, std::string remedy) {
-  return Error(std::move(what), model.input.where(line), std::move(remedy));
-}
-
 /// All sizes of the first data line; throws Error unless there are `count` and each is finite and > 0.
 std::vector<double> sizes_of(Model& model, const Block& block, std::size_t count) {
   if (block.data.empty())
-    throw Error(fmt::format("{} without sizes", block.title), model.input.where(block), "give them in the data lines");
+    throw Error(fmt::format("{} without sizes", block.title), model.where(block), "give them in the data lines");
   const Line& line = block.data[0];
   std::vector<double> sizes;
   for (const std::string_view field : split(line.text)) {
     if (field.empty() && sizes.size() >= count) continue;
     const std::optional<double> size = to_number(field);
     if (!size || *size < 0.0)
-      throw fault(model, line, fmt::format("{}: size '{}'", block.title, field), "give finite sizes >= 0");
+      throw model.error(fmt::format("{}: size '{}'", block.title, field), line, "give finite sizes >= 0");
     sizes.push_back(*size);
   }
   if (sizes.size() < count)
-    throw fault(model, line, fmt::format("{}: {} of {} sizes", block.title, sizes.size(), count), "give all sizes");
+    throw model.error(fmt::format("{}: {} of {} sizes", block.title, sizes.size(), count), line, "give all sizes");
   for (std::size_t k = 0; k < count; ++k)
     if (!(sizes[k] > 0.0))
-      throw fault(model, line, fmt::format("{}: size {} = 0", block.title, k + 1), "give sizes > 0");
+      throw model.error(fmt::format("{}: size {} = 0", block.title, k + 1), line, "give sizes > 0");
   return sizes;
 }
 
@@ -44,20 +39,19 @@ Section circle(Model& model, const Block& block) {
   const std::vector<double> sizes = sizes_of(model, block, 1);
   if (sizes.size() == 1) return formats::circle_section(sizes[0]);
   if (sizes.size() == 2 && sizes[0] == sizes[1]) {
-    model.deck.mesh.warnings.push_back(
-        fmt::format("{}: SECTION=CIRC with two sizes is read as CalculiX does, diameter {}",
-                    model.input.where(block.data[0]), sizes[0]));
+    model.deck.mesh.warnings.push_back(fmt::format(
+        "{}: SECTION=CIRC with two sizes is read as CalculiX does, diameter {}", model.where(block.data[0]), sizes[0]));
     return formats::circle_section(0.5 * sizes[0]);
   }
-  throw fault(model, block.data[0], "SECTION=CIRC with the sizes of an ellipse",
-              "give one radius (Abaqus), two equal diameters (CalculiX), or constants by *BEAM GENERAL SECTION");
+  throw model.error("SECTION=CIRC with the sizes of an ellipse", block.data[0],
+                    "give one radius (Abaqus), two equal diameters (CalculiX), or constants by *BEAM GENERAL SECTION");
 }
 
 Section pipe(Model& model, const Block& block) {
   const std::vector<double> sizes = sizes_of(model, block, 2);
   if (sizes[1] > sizes[0])
-    throw fault(model, block.data[0], fmt::format("SECTION=PIPE: thickness {} exceeds radius {}", sizes[1], sizes[0]),
-                "give the outer radius, then the thickness");
+    throw model.error(fmt::format("SECTION=PIPE: thickness {} exceeds radius {}", sizes[1], sizes[0]), block.data[0],
+                      "give the outer radius, then the thickness");
   if (sizes[1] == sizes[0]) return formats::circle_section(sizes[0]);
   return formats::hollow_circle_section(sizes[0], sizes[1]);
 }
@@ -65,14 +59,14 @@ Section pipe(Model& model, const Block& block) {
 /// Throws Error for sizes that make no such shape.
 void check_profile(Model& model, const Block& block, const char* shape, const std::vector<double>& sizes) {
   if (const std::optional<std::string> what = formats::profile_fault(shape, sizes))
-    throw fault(model, block.data[0], fmt::format("{}: {}", block.title, *what), "correct the sizes of the section");
+    throw model.error(fmt::format("{}: {}", block.title, *what), block.data[0], "correct the sizes of the section");
 }
 
 Section box(Model& model, const Block& block) {
   const std::vector<double> s = sizes_of(model, block, 6);
   if (s[2] != s[3] || s[2] != s[4] || s[2] != s[5])
-    throw fault(model, block.data[0], "SECTION=BOX with walls of several thicknesses is not understood",
-                "give equal ones, or constants by *BEAM GENERAL SECTION, SECTION=GENERAL");
+    throw model.error("SECTION=BOX with walls of several thicknesses is not understood", block.data[0],
+                      "give equal ones, or constants by *BEAM GENERAL SECTION, SECTION=GENERAL");
   const std::vector<double> sizes = {s[1], s[0], s[2], s[3], s[4], s[5]};
   check_profile(model, block, "box", sizes);
   return formats::profile_section("box", sizes);
@@ -81,7 +75,7 @@ Section box(Model& model, const Block& block) {
 /// l, h, b1, b2, t1, t2, t3: the node is at height l above the bottom of the lower flange; n2 points up.
 Section i_section(Model& model, const Block& block) {
   if (block.data.empty() || split(block.data[0].text).size() < 7)
-    throw Error("SECTION=I needs seven sizes", model.input.where(block), "give l, h, b1, b2, t1, t2, t3");
+    throw Error("SECTION=I needs seven sizes", model.where(block), "give l, h, b1, b2, t1, t2, t3");
   std::array<double, 7> s{};
   if (!read_numbers(model, block, block.data[0], s)) return {};
   const std::vector<double> sizes = {s[1], s[3], s[6], s[5], s[2], s[4]};
@@ -98,17 +92,17 @@ Section i_section(Model& model, const Block& block) {
 /// A, I11, I12, I22, J; the warping constants after them are not used. k = 1 as Abaqus has it for these sections.
 Section general(Model& model, const Block& block) {
   if (block.keyword != "BEAMGENERALSECTION")
-    throw Error("*BEAM SECTION, SECTION=GENERAL is not understood", model.input.where(block),
+    throw Error("*BEAM SECTION, SECTION=GENERAL is not understood", model.where(block),
                 "use *BEAM GENERAL SECTION, SECTION=GENERAL");
   std::array<double, 7> c{};
   if (block.data.empty() || !read_numbers(model, block, block.data[0], c)) return {};
   const auto [A, I11, I12, I22, J, sectorial_moment, warping] = c;
   if (!(A > 0.0 && I11 > 0.0 && I22 > 0.0 && J > 0.0 && I11 * I22 > I12 * I12))
-    throw fault(model, block.data[0], fmt::format("A = {}, I11 = {}, I12 = {}, I22 = {}, J = {}", A, I11, I12, I22, J),
-                "give A, I11, I22, J > 0 and I12² < I11 I22");
+    throw model.error(fmt::format("A = {}, I11 = {}, I12 = {}, I22 = {}, J = {}", A, I11, I12, I22, J), block.data[0],
+                      "give A, I11, I22, J > 0 and I12² < I11 I22");
   if (sectorial_moment != 0.0)
-    throw fault(model, block.data[0], fmt::format("sectorial moment {} is not understood", sectorial_moment),
-                "give sections about their shear centre, with 0");
+    throw model.error(fmt::format("sectorial moment {} is not understood", sectorial_moment), block.data[0],
+                      "give sections about their shear centre, with 0");
   Section section;
   section.area = section.shear_area_y = section.shear_area_z = A;
   section.second_moment_y = I11;
@@ -121,8 +115,8 @@ Section general(Model& model, const Block& block) {
 }
 
 Section section_of(Model& model, const Block& block) {
-  const std::string shape = block.find("SECTION") == nullptr ? (block.keyword == "BEAMGENERALSECTION" ? "GENERAL" : "")
-                                                             : upper_without_blanks(*block.find("SECTION"));
+  const bool is_general = block.keyword == "BEAMGENERALSECTION";
+  const std::string shape = block.word_of("SECTION", is_general ? "GENERAL" : "");
   if (shape == "RECT") {
     const std::vector<double> sizes = sizes_of(model, block, 2);
     return formats::rectangle_section(sizes[0], sizes[1]);
@@ -132,7 +126,7 @@ Section section_of(Model& model, const Block& block) {
   if (shape == "BOX") return box(model, block);
   if (shape == "I") return i_section(model, block);
   if (shape == "GENERAL") return general(model, block);
-  throw Error(fmt::format("{}, SECTION={} is not understood", block.title, shape), model.input.where(block),
+  throw Error(fmt::format("{}, SECTION={} is not understood", block.title, shape), model.where(block),
               "use RECT, CIRC, PIPE, BOX, I, or the constants of *BEAM GENERAL SECTION, SECTION=GENERAL");
 }
 
@@ -141,15 +135,14 @@ formats::Material general_material(Model& model, const Block& block) {
   const std::optional<double> E = number_at(model, block, 2, 0, "Young's modulus in the third data line");
   const std::optional<double> G = number_at(model, block, 2, 1, "shear modulus in the third data line");
   if (!E || !G) return {};
-  if (!(*E > 0.0 && *G > 0.0))
-    throw fault(model, block.data[2], fmt::format("E = {}, G = {}", *E, *G), "give E, G > 0");
+  if (!(*E > 0.0 && *G > 0.0)) throw model.error(fmt::format("E = {}, G = {}", *E, *G), block.data[2], "give E, G > 0");
   formats::Material material;
   material.youngs_modulus = *E;
   material.poisson_ratio = 0.5 * *E / *G - 1.0;  // so that E / (2 (1 + ν)) is G
   const std::string* density = block.find("DENSITY");
   const std::optional<double> value = density == nullptr ? 0.0 : to_number(*density);
   if (!value || *value < 0.0)
-    throw Error(fmt::format("{}: DENSITY={}", block.title, *density), model.input.where(block), "give a density >= 0");
+    throw Error(fmt::format("{}: DENSITY={}", block.title, *density), model.where(block), "give a density >= 0");
   material.density = *value;
   return material;
 }
@@ -166,7 +159,7 @@ void read_following(Model& model, const Block& block, double shear_modulus, Sect
     section.shear_center_z = v[1];
   } else {
     if (!(v[0] > 0.0 && v[1] > 0.0))
-      throw fault(model, block.data[0], fmt::format("K23 = {}, K13 = {}", v[0], v[1]), "give both > 0");
+      throw model.error(fmt::format("K23 = {}, K13 = {}", v[0], v[1]), block.data[0], "give both > 0");
     section.shear_area_z = v[0] / shear_modulus;
     section.shear_area_y = v[1] / shear_modulus;
     section.shear_coupling = 0.0;
@@ -185,7 +178,7 @@ void read_all_following(Model& model, const std::vector<const Block*>& blocks, s
   for (std::size_t k = index + 1; k < blocks.size() && belongs_to_section(*blocks[k]); ++k) {
     const Block& block = *blocks[k];
     if (!is_general && block.keyword != "TRANSVERSESHEARSTIFFNESS")
-      throw Error(fmt::format("{} after SECTION={}", block.title, *shape), model.input.where(block),
+      throw Error(fmt::format("{} after SECTION={}", block.title, *shape), model.where(block),
                   "use it with SECTION=GENERAL only");
     read_following(model, block, beam.material.shear_modulus(), beam.section);
   }
@@ -199,7 +192,7 @@ void read_all_following(Model& model, const std::vector<const Block*>& blocks, s
 void read_beam_section(Model& model, int scope, std::size_t index) {
   const Scope& owner = model.scopes[scope];
   const Block& block = *owner.blocks[index];
-  const std::string where = model.input.where(block);
+  const std::string where = model.where(block);
   for (const char* name : {"OFFSET1", "OFFSET2"})
     if (const std::string* value = block.find(name); value != nullptr && to_number(*value) != 0.0)
       throw Error(fmt::format("{}: {}={} is not understood", block.title, name, *value), where,
@@ -210,8 +203,7 @@ void read_beam_section(Model& model, int scope, std::size_t index) {
   if (block.keyword == "BEAMGENERALSECTION") {
     property.data.material = general_material(model, block);
   } else {
-    const std::string* name = block.find("MATERIAL");
-    const AbaqusMaterial* material = find_material(model, name == nullptr ? "" : *name, where);
+    const AbaqusMaterial* material = find_material(model, block);
     if (material == nullptr) return;
     if (material->kind != AbaqusMaterial::Kind::isotropic)
       throw Error(fmt::format("{}: material '{}' is not isotropic", block.title, material->name), where,
@@ -230,9 +222,8 @@ void read_beam_section(Model& model, int scope, std::size_t index) {
     if (!read_numbers(model, block, block.data[1], n1)) return;
   }
   use.direction = owner.placement.R * Eigen::Vector3d(n1[0], n1[1], n1[2]);
-  if (!(use.direction.norm() > 0.0)) throw fault(model, block.data[1], "n1 is zero", "give a direction");
-  use.property = static_cast<int>(model.deck.mesh.beam_properties.size());
-  model.deck.mesh.beam_properties.push_back(std::move(property));
+  if (!(use.direction.norm() > 0.0)) throw model.error("n1 is zero", block.data[1], "give a direction");
+  use.property = add_row(model.deck.mesh.beam_properties, std::move(property));
   give_section(model, scope, block, use);
 }
 

@@ -27,9 +27,9 @@ std::vector<Components> used_components(const Mesh& mesh) {
     for (const int node : {beam.first, beam.second}) use(node, is_rod ? translations_only : all_components);
   }
   for (const ShellElement& shell : mesh.shells)
-    for (int k = 0; k < shell.corners(); ++k) use(shell.nodes[k], all_components);
+    for (const int node : nodes_of(shell)) use(node, all_components);
   for (const SolidElement& solid : mesh.solids)
-    for (int k = 0; k < node_count(solid.shape); ++k) use(solid.nodes[k], translations_only);
+    for (const int node : nodes_of(solid)) use(node, translations_only);
   for (const Spring& spring : mesh.springs)
     for (int row = 0; row < 12; ++row)
       if (spring.stiffness(row, row) != 0.0)
@@ -83,18 +83,18 @@ void read_support(Model& model, int scope, const Block& block, Supports& support
     Fields fields(line.text);
     std::string_view first;
     if (!fields.next(first)) continue;
-    const auto nodes = find_nodes(model, scope, first, model.input.where(line));
+    const auto nodes = find_nodes(model, scope, first, model.where(line));
     const std::optional<Components> held = held_components(model, line);
     if (!nodes || !held) continue;
     const auto bearing =
         std::find_if(nodes->begin(), nodes->end(), [&](int node) { return (supports.used[node] & *held) != 0; });
     if (bearing == nodes->end()) {
       if (supports.lines_without_effect++ == 0)
-        supports.example = fmt::format("{}: '{}'", model.input.where(line), line.text.substr(0, 60));
+        supports.example = fmt::format("{}: '{}'", model.where(line), line.text.substr(0, 60));
       continue;
     }
-    model.findings.add(fmt::format("*BOUNDARY holds {} against the ground", model.node_text(*bearing)),
-                       model.input.where(line), "a superelement floats: put the support into the scene");
+    model.fault(fmt::format("*BOUNDARY holds {} against the ground", model.node_text(*bearing)), line,
+                "a superelement floats: put the support into the scene");
   }
 }
 
@@ -115,7 +115,7 @@ void read_retained(Model& model, const Block& block, std::map<int, Retained>& re
     Fields fields(line.text);
     std::string_view first;
     if (!fields.next(first)) continue;
-    const auto nodes = find_nodes(model, 0, first, model.input.where(line));
+    const auto nodes = find_nodes(model, 0, first, model.where(line));
     const std::optional<Components> components = read_components(model, line, 1);
     if (!nodes || !components) continue;
     for (const int node : *nodes) {
@@ -139,9 +139,9 @@ void make_boundary(Model& model, const std::map<int, Retained>& retained, const 
   for (const auto& [node, entry] : retained) {
     const Components translations = entry.components & translations_only, rotations = entry.components & rotations_only;
     if ((translations != 0 && translations != translations_only) || (rotations != 0 && rotations != rotations_only)) {
-      model.findings.add(fmt::format("*RETAINED NODAL DOFS: {} retains some of its translations or rotations only",
-                                     model.node_text(node)),
-                         where, "retain 1 to 3, 4 to 6 or 1 to 6");
+      model.fault(fmt::format("*RETAINED NODAL DOFS: {} retains some of its translations or rotations only",
+                              model.node_text(node)),
+                  where, "retain 1 to 3, 4 to 6 or 1 to 6");
       continue;
     }
     const bool has_own_name = !entry.name.empty() && uses[entry.name] == 1;
@@ -164,7 +164,7 @@ void read_boundary(Model& model) {
   blocks.insert(blocks.end(), model.steps.begin(), model.steps.end());
   for (const Block* block : blocks)
     if (block->keyword == "RETAINEDNODALDOFS") {
-      retained_at = model.input.where(*block);
+      retained_at = model.where(*block);
       read_retained(model, *block, retained);
     }
   for (const Block* block : model.steps) {

@@ -5,7 +5,7 @@
 
 namespace tisserand::reducer::abaqus {
 
-/// *RETAINED NODAL DOFS -> Mesh::boundary; *BOUNDARY of the model and of steps: a finding unless the components have
+/// *RETAINED NODAL DOFS -> Mesh::boundary; *BOUNDARY of the model and of steps: a fault unless the components have
 /// neither stiffness nor mass, then a warning. Other keywords of steps: one warning that lists them.
 void read_boundary(Model& model);
 

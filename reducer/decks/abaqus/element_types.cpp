@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+
+#include "reducer/elements/mesh_error.hpp"
 
 namespace tisserand::reducer::abaqus {
 namespace {
@@ -81,14 +84,6 @@ constexpr std::array kPrismFaces = {Face{{0, 1, 2, 6, 7, 8}, 3}, Face{{3, 5, 4, 
                                     Face{{0, 3, 4, 1, 12, 9, 13, 6}, 4}, Face{{1, 4, 5, 2, 13, 10, 14, 7}, 4},
                                     Face{{2, 5, 3, 0, 14, 11, 12, 8}, 4}};
 
-enum class Order { linear, quadratic };
-
-std::span<const int> face_of(std::span<const Face> faces, int face, Order order) {
-  if (face < 0 || static_cast<std::size_t>(face) >= faces.size()) return {};
-  const Face& chosen = faces[face];
-  return std::span<const int>(chosen.nodes).first(chosen.corners * (order == Order::linear ? 1 : 2));
-}
-
 }  // namespace
 
 const ElementType* find_element_type(const std::string& name) {
@@ -98,54 +93,30 @@ const ElementType* find_element_type(const std::string& name) {
 }
 
 RefusedType refused_type(const std::string& name) {
-  static const std::array quadratic_shells = {"S6", "S8", "S8R", "S8R5", "S9R5", "STRI65"};
-  for (const char* shell_name : quadratic_shells)
-    if (name == shell_name)
-      return {"shells with nodes on the middle of their edges are not understood", "mesh with S3 and S4 or S4R"};
-  static const std::array quadratic_beams = {"B32", "B32R", "B32H", "PIPE32", "T3D3"};
-  for (const char* beam_name : quadratic_beams)
-    if (name == beam_name) return {"beams and trusses of three nodes are not understood", "mesh with B31, B33 or T3D2"};
-  static const std::array open_beams = {"B31OS", "B31OSH", "B32OS", "B32OSH"};
-  for (const char* beam_name : open_beams)
-    if (name == beam_name)
-      return {"beams with a warping coordinate are not understood", "mesh with B31 or with shells"};
+  static const std::vector<std::pair<std::vector<std::string_view>, RefusedType>> refused{
+      {{"S6", "S8", "S8R", "S8R5", "S9R5", "STRI65"},
+       {"shells with nodes on the middle of their edges are not understood", "mesh with S3 and S4 or S4R"}},
+      {{"B32", "B32R", "B32H", "PIPE32", "T3D3"},
+       {"beams and trusses of three nodes are not understood", "mesh with B31, B33 or T3D2"}},
+      {{"B31OS", "B31OSH", "B32OS", "B32OSH"},
+       {"beams with a warping coordinate are not understood", "mesh with B31 or with shells"}}};
+  for (const auto& [names, type] : refused)
+    if (std::find(names.begin(), names.end(), name) != names.end()) return type;
   return {};
 }
 
 std::span<const int> gmsh_order(SolidShape shape) {
-  switch (shape) {
-    case SolidShape::tetrahedron4:
-      return kTetrahedron4;
-    case SolidShape::tetrahedron10:
-      return kTetrahedron10;
-    case SolidShape::hexahedron8:
-      return kHexahedron8;
-    case SolidShape::hexahedron20:
-      return kHexahedron20;
-    case SolidShape::prism6:
-      return kPrism6;
-    case SolidShape::prism15:
-      return kPrism15;
-  }
-  return {};
+  static constexpr std::array<std::span<const int>, 6> orders{kTetrahedron4, kTetrahedron10, kHexahedron8,
+                                                              kHexahedron20, kPrism6,        kPrism15};
+  return orders[static_cast<int>(shape)];
 }
 
 std::span<const int> face_nodes(SolidShape shape, int face) {
-  switch (shape) {
-    case SolidShape::tetrahedron4:
-      return face_of(kTetrahedronFaces, face, Order::linear);
-    case SolidShape::tetrahedron10:
-      return face_of(kTetrahedronFaces, face, Order::quadratic);
-    case SolidShape::hexahedron8:
-      return face_of(kHexahedronFaces, face, Order::linear);
-    case SolidShape::hexahedron20:
-      return face_of(kHexahedronFaces, face, Order::quadratic);
-    case SolidShape::prism6:
-      return face_of(kPrismFaces, face, Order::linear);
-    case SolidShape::prism15:
-      return face_of(kPrismFaces, face, Order::quadratic);
-  }
-  return {};
+  static constexpr std::array<std::span<const Face>, 6> of_shape{kTetrahedronFaces, kTetrahedronFaces, kHexahedronFaces,
+                                                                 kHexahedronFaces,  kPrismFaces,       kPrismFaces};
+  const std::span<const Face> faces = of_shape[static_cast<int>(shape)];
+  if (face < 0 || static_cast<std::size_t>(face) >= faces.size()) return {};
+  return std::span<const int>(faces[face].nodes).first(faces[face].corners * (is_second_order(shape) ? 2 : 1));
 }
 
 std::vector<double> face_weights(std::size_t nodes) {

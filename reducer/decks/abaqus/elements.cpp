@@ -30,8 +30,8 @@ Placement read_system(Model& model, const Block& block) {
   const Eigen::Vector3d x = (b - a).normalized();
   const Eigen::Vector3d z = x.cross(c - a);
   if (block.data.size() < 2 || !(z.norm() > 1e-9 * (c - a).norm()) || !((b - a).norm() > 0.0)) {
-    model.findings.add("*SYSTEM: its points do not span a plane", model.input.where(block),
-                       "give the origin a, b on the x axis and, in a second line, c in the x-y plane");
+    model.fault("*SYSTEM: its points do not span a plane", block,
+                "give the origin a, b on the x axis and, in a second line, c in the x-y plane");
     return system;
   }
   system.R << x, z.normalized().cross(x), z.normalized();
@@ -49,8 +49,8 @@ bool read_node_line(Model& model, const Line& line, long& id, Eigen::Vector3d& p
   std::string_view field;
   const std::optional<long> number = fields.next(field) ? to_integer(field) : std::nullopt;
   if (!number || *number <= 0) {
-    model.findings.add(fmt::format("*NODE: '{}' is no node number", field), model.input.where(line),
-                       "begin the line with a positive whole number");
+    model.fault(fmt::format("*NODE: '{}' is no node number", field), line,
+                "begin the line with a positive whole number");
     return false;
   }
   id = *number;
@@ -59,8 +59,7 @@ bool read_node_line(Model& model, const Line& line, long& id, Eigen::Vector3d& p
     if (field.empty()) continue;
     const std::optional<double> value = to_number(field);
     if (!value) {
-      model.findings.add(fmt::format("node {}: '{}' is no coordinate", id, field), model.input.where(line),
-                         "write a finite number");
+      model.fault(fmt::format("node {}: '{}' is no coordinate", id, field), line, "write a finite number");
       return false;
     }
     position[k] = *value;
@@ -70,18 +69,15 @@ bool read_node_line(Model& model, const Line& line, long& id, Eigen::Vector3d& p
 
 void read_node_block(Model& model, int scope_index, const Block& block, const Placement& system) {
   Scope& scope = model.scopes[scope_index];
-  const std::string axes = block.find("SYSTEM") != nullptr ? upper_without_blanks(*block.find("SYSTEM")) : "R";
-  if (axes != "R" && axes != "C") {
-    model.findings.add(fmt::format("*NODE, SYSTEM={} is not understood", axes), model.input.where(block),
-                       "use SYSTEM=R or SYSTEM=C");
-    return;
-  }
+  const std::string axes = block.word_of("SYSTEM", "R");
+  if (axes != "R" && axes != "C")
+    return model.fault(fmt::format("*NODE, SYSTEM={} is not understood", axes), block, "use SYSTEM=R or SYSTEM=C");
   const std::string set = block.name_of("NSET");
   std::vector<int>* members = set.empty() ? nullptr : &scope.node_sets[set];
   const Eigen::Matrix3d R = scope.placement.R * system.R;
   const Eigen::Vector3d t = scope.placement.R * system.t + scope.placement.t;
   if (model.positions.size() + block.data.size() > kMostNodes)
-    throw Error(fmt::format("more than {} nodes", kMostNodes), model.input.where(block), "reduce the part in pieces");
+    throw Error(fmt::format("more than {} nodes", kMostNodes), model.where(block), "reduce the part in pieces");
   scope.nodes.reserve(scope.nodes.size() + block.data.size());
   for (const Line& line : block.data) {
     long id = 0;
@@ -89,8 +85,7 @@ void read_node_block(Model& model, int scope_index, const Block& block, const Pl
     if (!read_node_line(model, line, id, position)) continue;
     const int row = static_cast<int>(model.positions.size());
     if (!scope.nodes.try_emplace(id, row).second) {
-      model.findings.add(fmt::format("node {} is defined twice", id), model.input.where(line),
-                         "renumber or delete one of them");
+      model.fault(fmt::format("node {} is defined twice", id), line, "renumber or delete one of them");
       continue;
     }
     model.positions.emplace_back(R * (axes == "C" ? from_cylindrical(position) : position) + t);
@@ -108,7 +103,7 @@ class ElementBlock {
 
   void read() {
     if (model_.elements.size() + block_.data.size() > kMostElements)
-      throw Error(fmt::format("more than {} elements", kMostElements), model_.input.where(block_),
+      throw Error(fmt::format("more than {} elements", kMostElements), model_.where(block_),
                   "reduce the part in pieces");
     scope().elements.reserve(scope().elements.size() + block_.data.size());
     for (const Line& line : block_.data) read_line(line);
@@ -136,8 +131,8 @@ class ElementBlock {
     is_sound_ = id && *id > 0;
     found_ = 0;
     if (!is_sound_)
-      model_.findings.add(fmt::format("*ELEMENT: '{}' is no element number", field), model_.input.where(line),
-                          "begin the line with a positive whole number");
+      model_.fault(fmt::format("*ELEMENT: '{}' is no element number", field), line,
+                   "begin the line with a positive whole number");
     element_ = {};
     element_.id = id.value_or(0);
     element_.type = &type_;
@@ -153,8 +148,8 @@ class ElementBlock {
     if (node)
       model_.connectivity.push_back(*node);
     else if (is_sound_)
-      model_.findings.add(fmt::format("element {}: node '{}' does not exist", element_.id, field),
-                          model_.input.where(line), "define it with *NODE or correct the number");
+      model_.fault(fmt::format("element {}: node '{}' does not exist", element_.id, field), line,
+                   "define it with *NODE or correct the number");
     is_sound_ = is_sound_ && node;
   }
 
@@ -162,9 +157,8 @@ class ElementBlock {
     is_open_ = false;
     const int most = type_.nodes + (type_.kind == ElementKind::beam ? 1 : 0);
     if (is_sound_ && found_ > most) {
-      model_.findings.add(
-          fmt::format("element {}: {} nodes, but {} has {}", element_.id, found_, type_.name, type_.nodes),
-          model_.input.where(line), "correct the type or the nodes");
+      model_.fault(fmt::format("element {}: {} nodes, but {} has {}", element_.id, found_, type_.name, type_.nodes),
+                   line, "correct the type or the nodes");
       is_sound_ = false;
     }
     if (is_sound_) is_sound_ = is_new(line);
@@ -173,8 +167,7 @@ class ElementBlock {
       return;
     }
     element_.count = found_;
-    const int row = static_cast<int>(model_.elements.size());
-    model_.elements.push_back(element_);
+    const int row = add_row(model_.elements, element_);
     scope().elements.emplace(element_.id, row);
     if (const std::string set = block_.name_of("ELSET"); !set.empty()) scope().element_sets[set].push_back(row);
   }
@@ -182,16 +175,15 @@ class ElementBlock {
   bool is_new(const Line& line) {
     const auto other = scope().elements.find(element_.id);
     if (other == scope().elements.end()) return true;
-    model_.findings.add(fmt::format("element {} is defined twice, first at {}", element_.id,
-                                    model_.where(model_.elements[other->second])),
-                        model_.input.where(line), "renumber or delete one of them");
+    model_.fault(fmt::format("element {} is defined twice, first at {}", element_.id,
+                             model_.where(model_.elements[other->second])),
+                 line, "renumber or delete one of them");
     return false;
   }
 
   void too_few(const Line& line) {
-    model_.findings.add(
-        fmt::format("element {}: {} of the {} nodes of {}", element_.id, found_, type_.nodes, type_.name),
-        model_.input.where(line), "give all nodes; is the file truncated?");
+    model_.fault(fmt::format("element {}: {} of the {} nodes of {}", element_.id, found_, type_.nodes, type_.name),
+                 line, "give all nodes; is the file truncated?");
     model_.connectivity.resize(element_.first);
   }
 
@@ -208,15 +200,11 @@ class ElementBlock {
 
 void read_element_block(Model& model, int scope, const Block& block) {
   const std::string* name = block.find("TYPE");
-  if (name == nullptr) {
-    model.findings.add("*ELEMENT without TYPE", model.input.where(block), "write *ELEMENT, TYPE=...");
-    return;
-  }
+  if (name == nullptr) return model.fault("*ELEMENT without TYPE", block, "write *ELEMENT, TYPE=...");
   const std::string type_name = upper_without_blanks(*name);
   const RefusedType refused = refused_type(type_name);
   if (!refused.why.empty()) {
-    model.findings.add(fmt::format("*ELEMENT, TYPE={}: {}", type_name, refused.why), model.input.where(block),
-                       refused.remedy);
+    model.fault(fmt::format("*ELEMENT, TYPE={}: {}", type_name, refused.why), block, refused.remedy);
     model.has_unknown_elements = true;
     return;
   }

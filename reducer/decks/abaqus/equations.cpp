@@ -49,8 +49,8 @@ class EquationReader {
       const std::optional<long> count = fields.size() == 1 ? to_integer(fields[0]) : std::nullopt;
       ++line_;
       if (!count || *count < 1) {
-        fault(line, fmt::format("*EQUATION: '{}' is no number of terms", line.text.substr(0, 60)),
-              "begin every equation with a line that holds its number of terms");
+        model_.fault(fmt::format("*EQUATION: '{}' is no number of terms", line.text.substr(0, 60)), line,
+                     "begin every equation with a line that holds its number of terms");
         return;
       }
       if (!read_terms(static_cast<std::size_t>(*count), line)) return;
@@ -59,35 +59,33 @@ class EquationReader {
   }
 
  private:
-  void fault(const Line& line, std::string what, std::string remedy) {
-    model_.findings.add(std::move(what), model_.input.where(line), std::move(remedy));
-  }
-
   bool read_terms(std::size_t count, const Line& start) {
     terms_.clear();
     while (terms_.size() < count && line_ < block_.data.size()) {
       const Line& line = block_.data[line_++];
       const std::vector<std::string_view> fields = split(line.text);
       if (fields.empty() || fields.size() % 3 != 0) {
-        fault(line, "*EQUATION: terms are node, degree of freedom, coefficient", "write three values for each term");
+        model_.fault("*EQUATION: terms are node, degree of freedom, coefficient", line,
+                     "write three values for each term");
         return false;
       }
       for (std::size_t k = 0; k < fields.size(); k += 3)
         if (!read_term(line, fields[k], fields[k + 1], fields[k + 2])) return false;
     }
     if (terms_.size() == count) return true;
-    fault(start, fmt::format("*EQUATION: {} terms announced, {} given", count, terms_.size()), "correct the number");
+    model_.fault(fmt::format("*EQUATION: {} terms announced, {} given", count, terms_.size()), start,
+                 "correct the number");
     return false;
   }
 
   bool read_term(const Line& line, std::string_view node, std::string_view dof, std::string_view value) {
-    const auto nodes = find_nodes(model_, scope_, node, model_.input.where(line));
+    const auto nodes = find_nodes(model_, scope_, node, model_.where(line));
     if (!nodes) return false;
     const std::optional<long> component = to_integer(dof);
     const std::optional<double> coefficient = to_number(value);
     if (!component || *component < 1 || *component > 6 || !coefficient) {
-      fault(line, fmt::format("*EQUATION: degree of freedom '{}', coefficient '{}'", dof, value),
-            "write a number from 1 to 6 and a finite coefficient");
+      model_.fault(fmt::format("*EQUATION: degree of freedom '{}', coefficient '{}'", dof, value), line,
+                   "write a number from 1 to 6 and a finite coefficient");
       return false;
     }
     terms_.push_back({*nodes, static_cast<int>(*component) - 1, *coefficient});
@@ -98,20 +96,20 @@ class EquationReader {
     const std::size_t count = terms_.front().nodes.size();
     for (const Term& term : terms_)
       if (term.nodes.size() != 1 && term.nodes.size() != count) {
-        fault(line, fmt::format("*EQUATION: sets of {} and of {} nodes", count, term.nodes.size()),
-              "let all sets be as large as the first one, or name single nodes");
+        model_.fault(fmt::format("*EQUATION: sets of {} and of {} nodes", count, term.nodes.size()), line,
+                     "let all sets be as large as the first one, or name single nodes");
         return;
       }
     if (terms_.front().coefficient == 0.0) {
-      fault(line, "*EQUATION: the first coefficient is 0", "put a term first that can be eliminated");
+      model_.fault("*EQUATION: the first coefficient is 0", line, "put a term first that can be eliminated");
       return;
     }
     for (std::size_t i = 0; i < count; ++i) {
       TieEquation equation;
-      equation.name = fmt::format("equation at {}", model_.input.where(line));
+      equation.name = fmt::format("equation at {}", model_.where(line));
       for (const Term& term : terms_) {
         const int node = term.nodes[term.nodes.size() == 1 ? 0 : i];
-        if (!has_directions(model_, node, model_.input.where(line))) return;
+        if (!has_directions(model_, node, model_.where(line))) return;
         add_term(model_, node, term, equation);
       }
       model_.deck.mesh.equations.push_back(std::move(equation));

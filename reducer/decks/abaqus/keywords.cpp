@@ -2,73 +2,72 @@
 #include "reducer/decks/abaqus/keywords.hpp"
 
 #include <algorithm>
-#include <array>
+#include <span>
 
 namespace tisserand::reducer::abaqus {
 namespace {
 
-constexpr std::array<std::string_view, 32> kDefines = {"ASSEMBLY",
-                                                       "BEAMGENERALSECTION",
-                                                       "BEAMSECTION",
-                                                       "BOUNDARY",
-                                                       "COUPLING",
-                                                       "ELEMENT",
-                                                       "ELSET",
-                                                       "ENDASSEMBLY",
-                                                       "ENDINSTANCE",
-                                                       "ENDPART",
-                                                       "ENDSTEP",
-                                                       "EQUATION",
-                                                       "INSTANCE",
-                                                       "KINEMATICCOUPLING",
-                                                       "MASS",
-                                                       "MATERIAL",
-                                                       "MPC",
-                                                       "NODE",
-                                                       "NSET",
-                                                       "ORIENTATION",
-                                                       "PART",
-                                                       "RETAINEDNODALDOFS",
-                                                       "RIGIDBODY",
-                                                       "ROTARYINERTIA",
-                                                       "SHELLSECTION",
-                                                       "SOLIDSECTION",
-                                                       "SPRING",
-                                                       "STEP",
-                                                       "SUBSTRUCTUREGENERATE",
-                                                       "SURFACE",
-                                                       "SYSTEM",
-                                                       "TRANSFORM"};
+constexpr std::string_view kDefines[] = {"ASSEMBLY",
+                                         "BEAMGENERALSECTION",
+                                         "BEAMSECTION",
+                                         "BOUNDARY",
+                                         "COUPLING",
+                                         "ELEMENT",
+                                         "ELSET",
+                                         "ENDASSEMBLY",
+                                         "ENDINSTANCE",
+                                         "ENDPART",
+                                         "ENDSTEP",
+                                         "EQUATION",
+                                         "INSTANCE",
+                                         "KINEMATICCOUPLING",
+                                         "MASS",
+                                         "MATERIAL",
+                                         "MPC",
+                                         "NODE",
+                                         "NSET",
+                                         "ORIENTATION",
+                                         "PART",
+                                         "RETAINEDNODALDOFS",
+                                         "RIGIDBODY",
+                                         "ROTARYINERTIA",
+                                         "SHELLSECTION",
+                                         "SOLIDSECTION",
+                                         "SPRING",
+                                         "STEP",
+                                         "SUBSTRUCTUREGENERATE",
+                                         "SURFACE",
+                                         "SYSTEM",
+                                         "TRANSFORM"};
 
-constexpr std::array<std::string_view, 7> kFollows = {
+constexpr std::string_view kFollows[] = {
     "DENSITY", "ELASTIC", "DISTRIBUTING", "KINEMATIC", "CENTROID", "SHEARCENTER", "TRANSVERSESHEARSTIFFNESS"};
 
-constexpr std::array<std::string_view, 16> kSilent = {"HEADING",       "PREPRINT",     "RESTART",       "NODEPRINT",
-                                                      "NODEFILE",      "NODEOUTPUT",   "ELPRINT",       "ELFILE",
-                                                      "ELEMENTOUTPUT", "OUTPUT",       "FILEFORMAT",    "PRINT",
-                                                      "CONTACTOUTPUT", "ENERGYOUTPUT", "SECTIONPOINTS", "SECTIONPRINT"};
+constexpr std::string_view kSilent[] = {"HEADING",       "PREPRINT",     "RESTART",       "NODEPRINT",
+                                        "NODEFILE",      "NODEOUTPUT",   "ELPRINT",       "ELFILE",
+                                        "ELEMENTOUTPUT", "OUTPUT",       "FILEFORMAT",    "PRINT",
+                                        "CONTACTOUTPUT", "ENERGYOUTPUT", "SECTIONPOINTS", "SECTIONPRINT"};
 
-constexpr std::array<std::string_view, 18> kSkipped = {"AMPLITUDE",
-                                                       "CONDUCTIVITY",
-                                                       "DAMPING",
-                                                       "EXPANSION",
-                                                       "FILTER",
-                                                       "FRICTION",
-                                                       "HOURGLASSSTIFFNESS",
-                                                       "INITIALCONDITIONS",
-                                                       "PHYSICALCONSTANTS",
-                                                       "PLASTIC",
-                                                       "SECTIONCONTROLS",
-                                                       "SPECIFICHEAT",
-                                                       "SURFACEBEHAVIOR",
-                                                       "SURFACEINTERACTION",
-                                                       "TIMEPOINTS",
-                                                       "CYCLICHARDENING",
-                                                       "CREEP",
-                                                       "DAMAGEINITIATION"};
+constexpr std::string_view kSkipped[] = {"AMPLITUDE",
+                                         "CONDUCTIVITY",
+                                         "DAMPING",
+                                         "EXPANSION",
+                                         "FILTER",
+                                         "FRICTION",
+                                         "HOURGLASSSTIFFNESS",
+                                         "INITIALCONDITIONS",
+                                         "PHYSICALCONSTANTS",
+                                         "PLASTIC",
+                                         "SECTIONCONTROLS",
+                                         "SPECIFICHEAT",
+                                         "SURFACEBEHAVIOR",
+                                         "SURFACEINTERACTION",
+                                         "TIMEPOINTS",
+                                         "CYCLICHARDENING",
+                                         "CREEP",
+                                         "DAMAGEINITIATION"};
 
-template <std::size_t n>
-bool contains(const std::array<std::string_view, n>& words, std::string_view word) {
+bool contains(std::span<const std::string_view> words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 

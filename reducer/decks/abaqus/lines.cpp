@@ -12,12 +12,13 @@
 
 #include <fmt/format.h>
 
+#include "common/error.hpp"
+
 namespace tisserand::reducer::abaqus {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostErrors = 50;
 constexpr std::size_t kMostFiles = 1000;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
@@ -157,21 +158,6 @@ class Reader {
 
 }  // namespace
 
-void Findings::add(std::string what, std::string where, std::string remedy) {
-  if (errors_.size() < kMostErrors)
-    errors_.emplace_back(std::move(what), std::move(where), std::move(remedy));
-  else
-    ++more_;
-}
-
-void Findings::raise() const {
-  if (errors_.empty()) return;
-  if (more_ == 0) throw merge_errors(errors_);
-  std::vector<Error> all = errors_;
-  all.emplace_back(fmt::format("... and {} more errors", more_), "", "");
-  throw merge_errors(all);
-}
-
 const std::string* Block::find(std::string_view name) const {
   for (const Parameter& parameter : parameters)
     if (parameter.name == name) return &parameter.value;
@@ -181,6 +167,11 @@ const std::string* Block::find(std::string_view name) const {
 std::string Block::name_of(std::string_view parameter) const {
   const std::string* value = find(parameter);
   return value == nullptr ? "" : lower(*value);
+}
+
+std::string Block::word_of(std::string_view parameter, std::string_view if_absent) const {
+  const std::string* value = find(parameter);
+  return value == nullptr ? std::string(if_absent) : upper_without_blanks(*value);
 }
 
 std::string Input::where(const Block& block) const { return fmt::format("{}:{}", paths[block.file], block.line); }

@@ -8,22 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/error.hpp"
-
 namespace tisserand::reducer::abaqus {
-
-/// Errors of one deck, the first fifty in words and the rest as a number.
-class Findings {
- public:
-  void add(std::string what, std::string where, std::string remedy);
-  /// Throws all of them together if there are any.
-  void raise() const;
-  bool empty() const { return errors_.empty(); }
-
- private:
-  std::vector<Error> errors_;
-  std::size_t more_ = 0;
-};
 
 /// One data line; the text lives in Input::texts.
 struct Line {
@@ -51,6 +36,8 @@ struct Block {
   const std::string* find(std::string_view name) const;
   /// The value in lower case, "" if absent: for names of sets, materials, parts.
   std::string name_of(std::string_view parameter) const;
+  /// The value in upper case without blanks: for one of the words that a parameter may have.
+  std::string word_of(std::string_view parameter, std::string_view if_absent) const;
 };
 
 struct Input {

@@ -1,8 +1,6 @@
 // Elastic constants in the forms of *ELASTIC.
 #include "reducer/decks/abaqus/materials.hpp"
 
-#include <array>
-
 #include <fmt/format.h>
 #include <Eigen/LU>
 
@@ -12,18 +10,15 @@
 namespace tisserand::reducer::abaqus {
 namespace {
 
-/// All numbers of the data lines in one row; nothing, with a finding, unless there are as many as `wanted`. One more
+/// All numbers of the data lines in one row; nothing, with a fault, unless there are as many as `wanted`. One more
 /// would be a temperature or a second row of a table.
 std::optional<std::vector<double>> constants_of(Model& model, const Block& block, std::size_t wanted) {
   std::vector<double> values;
   for (const Line& line : block.data)
     for (const std::string_view field : split(line.text)) {
       const std::optional<double> value = to_number(field);
-      if (!value) {
-        model.findings.add(fmt::format("{}: '{}' is no number", block.title, field), model.input.where(line),
-                           "write a finite number");
-        return std::nullopt;
-      }
+      if (!value)
+        return model.refuse(fmt::format("{}: '{}' is no number", block.title, field), line, "write a finite number");
       values.push_back(*value);
       if (values.size() > 2 * wanted) break;
     }
@@ -32,20 +27,16 @@ std::optional<std::vector<double>> constants_of(Model& model, const Block& block
     values.resize(wanted);
     return values;
   }
-  model.findings.add(fmt::format("{}: {} values where {} are expected", block.title, values.size(), wanted),
-                     model.input.where(block),
-                     "give one row: constants that change with temperature are not understood");
-  return std::nullopt;
+  return model.refuse(fmt::format("{}: {} values where {} are expected", block.title, values.size(), wanted), block,
+                      "give one row: constants that change with temperature are not understood");
 }
 
 void read_isotropic(Model& model, const Block& block, AbaqusMaterial& material) {
   const auto c = constants_of(model, block, 2);
   if (!c) return;
-  if (!((*c)[0] > 0.0) || !((*c)[1] > -1.0 && (*c)[1] < 0.5)) {
-    model.findings.add(fmt::format("material '{}': E = {}, nu = {}", material.name, (*c)[0], (*c)[1]),
-                       model.input.where(block), "give E > 0 and -1 < nu < 0.5");
-    return;
-  }
+  if (!((*c)[0] > 0.0) || !((*c)[1] > -1.0 && (*c)[1] < 0.5))
+    return model.fault(fmt::format("material '{}': E = {}, nu = {}", material.name, (*c)[0], (*c)[1]), block,
+                       "give E > 0 and -1 < nu < 0.5");
   material.kind = AbaqusMaterial::Kind::isotropic;
   material.E = (*c)[0];
   material.nu = (*c)[1];
@@ -62,7 +53,7 @@ void read_lamina(Model& model, const Block& block, AbaqusMaterial& material) {
   material.lamina.G23 = (*c)[5];
   Ply ply = material.lamina;
   ply.thickness = 1.0;
-  check_plies({ply}, model.input.where(block));
+  check_plies({ply}, model.where(block));
   material.kind = AbaqusMaterial::Kind::lamina;
 }
 
@@ -74,7 +65,7 @@ void read_engineering(Model& model, const Block& block, AbaqusMaterial& material
   constants.E1 = (*c)[0], constants.E2 = (*c)[1], constants.E3 = (*c)[2];
   constants.nu12 = (*c)[3], constants.nu13 = (*c)[4], constants.nu23 = (*c)[5];
   constants.G12 = (*c)[6], constants.G31 = (*c)[7], constants.G23 = (*c)[8];
-  material.C = orthotropic_elasticity(constants, model.input.where(block));
+  material.C = orthotropic_elasticity(constants, model.where(block));
   material.kind = AbaqusMaterial::Kind::orthotropic;
 }
 
@@ -88,12 +79,12 @@ void read_orthotropic(Model& model, const Block& block, AbaqusMaterial& material
   C(3, 3) = d[6];
   C(5, 5) = d[7];
   C(4, 4) = d[8];
-  material.C = anisotropic_solid(C, Eigen::Matrix3d::Identity(), 0.0, model.input.where(block)).C;
+  material.C = anisotropic_solid(C, Eigen::Matrix3d::Identity(), 0.0, model.where(block)).C;
   material.kind = AbaqusMaterial::Kind::orthotropic;
 }
 
 void read_elastic(Model& model, const Block& block, AbaqusMaterial& material) {
-  const std::string type = block.find("TYPE") == nullptr ? "ISOTROPIC" : upper_without_blanks(*block.find("TYPE"));
+  const std::string type = block.word_of("TYPE", "ISOTROPIC");
   try {
     if (type == "ISOTROPIC" || type == "ISO")
       read_isotropic(model, block, material);
@@ -104,10 +95,10 @@ void read_elastic(Model& model, const Block& block, AbaqusMaterial& material) {
     else if (type == "ORTHOTROPIC" || type == "ORTHO")
       read_orthotropic(model, block, material);
     else
-      model.findings.add(fmt::format("*ELASTIC, TYPE={} is not understood", type), model.input.where(block),
-                         "use ISOTROPIC, ENGINEERING CONSTANTS, ORTHOTROPIC or LAMINA");
+      model.fault(fmt::format("*ELASTIC, TYPE={} is not understood", type), block,
+                  "use ISOTROPIC, ENGINEERING CONSTANTS, ORTHOTROPIC or LAMINA");
   } catch (const Error& error) {
-    model.findings.add(error.message(), model.input.where(block), error.remedy());
+    model.fault(error.message(), block, error.remedy());
   }
 }
 
@@ -116,8 +107,8 @@ void read_density(Model& model, const Block& block, AbaqusMaterial& material) {
   if (density && (*density)[0] >= 0.0)
     material.density = (*density)[0];
   else if (density)
-    model.findings.add(fmt::format("material '{}': density {} < 0", material.name, (*density)[0]),
-                       model.input.where(block), "give a density >= 0");
+    model.fault(fmt::format("material '{}': density {} < 0", material.name, (*density)[0]), block,
+                "give a density >= 0");
 }
 
 }  // namespace
@@ -128,17 +119,15 @@ void read_materials(Model& model) {
     if (block->keyword == "MATERIAL") {
       const std::string name = block->name_of("NAME");
       const auto [entry, is_new] = model.materials.try_emplace(name);
-      if (!is_new)
-        model.findings.add(fmt::format("material '{}' is defined twice", name), model.input.where(*block),
-                           "delete one of them");
+      if (!is_new) model.fault(fmt::format("material '{}' is defined twice", name), *block, "delete one of them");
       present = &entry->second;
       present->name = name;
-      present->where = model.input.where(*block);
+      present->where = model.where(*block);
     }
     if (block->keyword != "ELASTIC" && block->keyword != "DENSITY") continue;
     if (present == nullptr)
-      model.findings.add(fmt::format("{} stands before the first *MATERIAL", block->title), model.input.where(*block),
-                         "write *MATERIAL, NAME=... before it");
+      model.fault(fmt::format("{} stands before the first *MATERIAL", block->title), *block,
+                  "write *MATERIAL, NAME=... before it");
     else if (block->keyword == "ELASTIC")
       read_elastic(model, *block, *present);
     else
@@ -152,14 +141,19 @@ const AbaqusMaterial* find_material(Model& model, const std::string& name, const
     std::vector<std::string> known;
     for (const auto& [key, material] : model.materials) known.push_back(key);
     const std::optional<std::string> close = nearest(name, known);
-    model.findings.add(fmt::format("material '{}' does not exist", name), where,
-                       close ? fmt::format("is '{}' meant?", *close) : "define it with *MATERIAL, NAME=...");
+    model.fault(fmt::format("material '{}' does not exist", name), where,
+                close ? fmt::format("is '{}' meant?", *close) : "define it with *MATERIAL, NAME=...");
     return nullptr;
   }
   if (found->second.kind != AbaqusMaterial::Kind::none) return &found->second;
-  model.findings.add(fmt::format("material '{}' has no elastic constants", name), where,
-                     fmt::format("give it *ELASTIC (it begins at {})", found->second.where));
+  model.fault(fmt::format("material '{}' has no elastic constants", name), where,
+              fmt::format("give it *ELASTIC (it begins at {})", found->second.where));
   return nullptr;
+}
+
+const AbaqusMaterial* find_material(Model& model, const Block& block) {
+  const std::string* name = block.find("MATERIAL");
+  return find_material(model, name == nullptr ? "" : *name, model.where(block));
 }
 
 Ply ply_of(const AbaqusMaterial& material) {

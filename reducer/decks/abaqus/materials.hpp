@@ -9,8 +9,10 @@ namespace tisserand::reducer::abaqus {
 /// Fills Model::materials from the blocks of the assembly.
 void read_materials(Model& model);
 
-/// Nothing, with a finding, if it does not exist or is not elastic.
+/// Nothing, with a fault, if it does not exist or is not elastic.
 const AbaqusMaterial* find_material(Model& model, const std::string& name, const std::string& where);
+/// That of the block's parameter MATERIAL.
+const AbaqusMaterial* find_material(Model& model, const Block& block);
 
 /// Layer of this material, thickness and angle left 0. Orthotropic materials in plane stress: σ33 = 0.
 Ply ply_of(const AbaqusMaterial& material);

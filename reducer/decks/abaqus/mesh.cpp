@@ -19,17 +19,12 @@ namespace {
 /// A number for messages; ids beyond int lose nothing but their place in messages.
 int short_id(long id) { return id <= std::numeric_limits<int>::max() ? static_cast<int>(id) : 0; }
 
-const int* nodes_of(const Model& model, const RawElement& element) { return model.connectivity.data() + element.first; }
-
 const Eigen::Vector3d& position(const Model& model, int node) { return model.positions[node]; }
 
 /// Without *ORIENTATION the material x axis is the projection of the global x axis, of z if x is within 0.1° of the
 /// normal (Abaqus, "Conventions").
 Eigen::Vector3d default_direction(const Model& model, const ShellElement& shell) {
-  const Eigen::Vector3d a = position(model, shell.nodes[0]), b = position(model, shell.nodes[1]),
-                        c = position(model, shell.nodes[2]);
-  const Eigen::Vector3d normal =
-      shell.corners() == 3 ? (b - a).cross(c - a) : (c - a).cross(position(model, shell.nodes[3]) - b);
+  const Eigen::Vector3d normal = normal_of(model.deck.mesh, shell);
   const double cosine = std::abs(normal.x()) / std::max(normal.norm(), std::numeric_limits<double>::min());
   return cosine > std::cos(0.1 * M_PI / 180.0) ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
 }
@@ -45,13 +40,12 @@ std::array<int, 4> shell_nodes(const int* nodes, int count) {
 
 int add_shell(Model& model, const RawElement& element, const SectionUse& use) {
   ShellElement shell;
-  shell.nodes = shell_nodes(nodes_of(model, element), element.count);
+  shell.nodes = shell_nodes(model.nodes_of(element), element.count);
   shell.property = use.property;
   shell.offset = use.offset;
   shell.id = short_id(element.id);
   if (use.has_direction) shell.material_x = use.direction.isZero(0.0) ? default_direction(model, shell) : use.direction;
-  model.deck.mesh.shells.push_back(shell);
-  return static_cast<int>(model.deck.mesh.shells.size()) - 1;
+  return add_row(model.deck.mesh.shells, shell);
 }
 
 /// One section may serve B31 and B33.
@@ -61,14 +55,13 @@ int beam_property(Model& model, const RawElement& element, SectionUse& use) {
   if (use.slender_property < 0) {
     BeamProperty slender = model.deck.mesh.beam_properties[use.property];
     slender.data.theory = formats::BeamTheory::euler_bernoulli;
-    use.slender_property = static_cast<int>(model.deck.mesh.beam_properties.size());
-    model.deck.mesh.beam_properties.push_back(std::move(slender));
+    use.slender_property = add_row(model.deck.mesh.beam_properties, std::move(slender));
   }
   return use.slender_property;
 }
 
 int add_beam(Model& model, const RawElement& element, SectionUse& use) {
-  const int* nodes = nodes_of(model, element);
+  const int* nodes = model.nodes_of(element);
   BeamElement beam;
   beam.first = nodes[0];
   beam.second = nodes[1];
@@ -81,29 +74,26 @@ int add_beam(Model& model, const RawElement& element, SectionUse& use) {
     n1 = std::abs(axis.x()) < 0.9 * axis.norm() ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
   const std::optional<Eigen::Matrix3d> axes = axis.norm() > 0.0 && n1.norm() > 0.0 ? beam_axes(axis, n1) : std::nullopt;
   if (!axes) {
-    model.findings.add(
+    model.fault(
         fmt::format("{}: {}", model.element_text(element),
                     axis.norm() > 0.0 ? fmt::format("n1 = ({}, {}, {}) is parallel to the beam", n1.x(), n1.y(), n1.z())
                                       : std::string("its nodes coincide")),
-        model.where(element),
-        axis.norm() > 0.0 ? "give another n1 in the second data line of the section" : "delete or mend it");
+        element, axis.norm() > 0.0 ? "give another n1 in the second data line of the section" : "delete or mend it");
     return -1;
   }
   beam.R_PE = *axes;
-  model.deck.mesh.beams.push_back(beam);
-  return static_cast<int>(model.deck.mesh.beams.size()) - 1;
+  return add_row(model.deck.mesh.beams, beam);
 }
 
 int add_solid(Model& model, const RawElement& element, const SectionUse& use) {
-  const int* nodes = nodes_of(model, element);
+  const int* nodes = model.nodes_of(element);
   SolidElement solid;
   solid.shape = element.type->shape;
   solid.property = use.property;
   solid.id = short_id(element.id);
   std::size_t k = 0;
   for (const int place : gmsh_order(solid.shape)) solid.nodes[k++] = nodes[place];
-  model.deck.mesh.solids.push_back(solid);
-  return static_cast<int>(model.deck.mesh.solids.size()) - 1;
+  return add_row(model.deck.mesh.solids, solid);
 }
 
 Eigen::Matrix3d component_axes(const Model& model, const SectionUse& use, int node) {
@@ -113,7 +103,7 @@ Eigen::Matrix3d component_axes(const Model& model, const SectionUse& use, int no
 }
 
 int add_spring(Model& model, const RawElement& element, const SectionUse& use) {
-  const int* nodes = nodes_of(model, element);
+  const int* nodes = model.nodes_of(element);
   const Eigen::Vector3d reach = position(model, nodes[1]) - position(model, nodes[0]);
   Spring spring;
   spring.first = nodes[0];
@@ -122,8 +112,8 @@ int add_spring(Model& model, const RawElement& element, const SectionUse& use) {
   if (element.type->kind == ElementKind::axial_spring) {
     const auto stiffness = reducer::axial_spring(use.stiffness, reach);
     if (!stiffness)
-      model.findings.add(fmt::format("{}: its nodes coincide", model.element_text(element)), model.where(element),
-                         "use SPRING2, which has a direction of its own");
+      model.fault(fmt::format("{}: its nodes coincide", model.element_text(element)), element,
+                  "use SPRING2, which has a direction of its own");
     spring.stiffness = stiffness.value_or(Eigen::Matrix<double, 12, 12>::Zero());
   } else {
     if (!use.axes)
@@ -133,19 +123,17 @@ int add_spring(Model& model, const RawElement& element, const SectionUse& use) {
                                      {use.components[1], component_axes(model, use, nodes[1])});
     const double defect = rigid_motion_defect(spring.stiffness, reach);
     if (use.stiffness > 0.0 && defect > 1e-9)
-      model.findings.add(
-          fmt::format("{} holds the part against the ground: its force grows when the part moves as a "
-                      "rigid body (nodes {:.6g} apart, degrees of freedom {} and {})",
-                      model.element_text(element), reach.norm(), use.components[0] + 1, use.components[1] + 1),
-          model.where(element), "a superelement floats: let both nodes coincide, or use SPRINGA");
+      model.fault(fmt::format("{} holds the part against the ground: its force grows when the part moves as a "
+                              "rigid body (nodes {:.6g} apart, degrees of freedom {} and {})",
+                              model.element_text(element), reach.norm(), use.components[0] + 1, use.components[1] + 1),
+                  element, "a superelement floats: let both nodes coincide, or use SPRINGA");
   }
-  model.deck.mesh.springs.push_back(spring);
-  return static_cast<int>(model.deck.mesh.springs.size()) - 1;
+  return add_row(model.deck.mesh.springs, spring);
 }
 
 void add_point(Model& model, const RawElement& element, const SectionUse& use) {
   NodalMass mass;
-  mass.node = nodes_of(model, element)[0];
+  mass.node = model.nodes_of(element)[0];
   mass.mass = use.mass;
   mass.inertia = use.inertia;
   mass.name = use.name;
@@ -170,8 +158,8 @@ int add_element(Model& model, const RawElement& element, SectionUse& use) {
       add_point(model, element, use);
       return -1;
     case ElementKind::ground_spring:
-      model.findings.add(fmt::format("{} holds the part against the ground", model.element_text(element)),
-                         model.where(element), "a superelement floats: put the support into the scene");
+      model.fault(fmt::format("{} holds the part against the ground", model.element_text(element)), element,
+                  "a superelement floats: put the support into the scene");
       return -1;
   }
   return -1;
@@ -230,12 +218,11 @@ void add_missing_section(Model& model, const std::string& set, int count, const 
   const std::string who = count == 1    ? element
                           : set.empty() ? fmt::format("{} elements in no set, from {} on:", count, element)
                                         : fmt::format("set '{}': {} elements, from {} on:", set, count, element);
-  model.findings.add(
-      who + (count == 1 ? " has no section" : " no section"), model.where(first),
-      "name the set in *SHELL SECTION, *SOLID SECTION, *BEAM SECTION, *MASS, *ROTARY INERTIA or *SPRING");
+  model.fault(who + (count == 1 ? " has no section" : " no section"), first,
+              "name the set in *SHELL SECTION, *SOLID SECTION, *BEAM SECTION, *MASS, *ROTARY INERTIA or *SPRING");
 }
 
-/// One finding per set; an element of several counts with the first by name.
+/// One fault per set; an element of several counts with the first by name.
 void find_missing_sections(Model& model) {
   std::vector<bool> told(model.elements.size(), false);
   const auto tell = [&](const std::string& set, const auto& rows) {

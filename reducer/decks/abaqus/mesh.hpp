@@ -8,7 +8,7 @@ namespace tisserand::reducer::abaqus {
 /// Nodes with labels, Deck::node_of_id.
 void fill_nodes(Model& model);
 
-/// All elements, with findings for those without a section.
+/// All elements, with faults for those without a section.
 void fill_elements(Model& model);
 
 }  // namespace tisserand::reducer::abaqus

@@ -6,9 +6,8 @@
 namespace tisserand::reducer::abaqus {
 
 std::string Model::node_text(int node) const {
-  const std::size_t n = static_cast<std::size_t>(node);
-  const std::string& scope = scopes[node_scopes[n]].name;
-  return scope.empty() ? fmt::format("node {}", node_ids[n]) : fmt::format("node {}.{}", scope, node_ids[n]);
+  const std::string& scope = scopes[node_scopes[node]].name;
+  return scope.empty() ? fmt::format("node {}", node_ids[node]) : fmt::format("node {}.{}", scope, node_ids[node]);
 }
 
 std::string Model::element_text(const RawElement& element) const {
@@ -20,17 +19,15 @@ std::string Model::element_text(const RawElement& element) const {
 bool read_numbers(Model& model, const Block& block, const Line& line, std::span<double> values) {
   const std::vector<std::string_view> fields = split(line.text);
   if (fields.size() > values.size()) {
-    model.findings.add(
-        fmt::format("{}: {} values where at most {} are known", block.title, fields.size(), values.size()),
-        model.input.where(line), "see the data lines of the keyword");
+    model.fault(fmt::format("{}: {} values where at most {} are known", block.title, fields.size(), values.size()),
+                line, "see the data lines of the keyword");
     return false;
   }
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (fields[i].empty()) continue;
     const std::optional<double> value = to_number(fields[i]);
     if (!value) {
-      model.findings.add(fmt::format("{}: '{}' is no number", block.title, fields[i]), model.input.where(line),
-                         "write a finite number");
+      model.fault(fmt::format("{}: '{}' is no number", block.title, fields[i]), line, "write a finite number");
       return false;
     }
     values[i] = *value;

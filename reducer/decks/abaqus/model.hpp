@@ -6,14 +6,18 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "common/error.hpp"
 #include "reducer/decks/abaqus/element_types.hpp"
 #include "reducer/decks/abaqus/lines.hpp"
 #include "reducer/decks/deck.hpp"
+#include "reducer/decks/faults.hpp"
 #include "reducer/properties/laminate.hpp"
 
 namespace tisserand::reducer::abaqus {
@@ -99,10 +103,10 @@ struct SectionUse {
 };
 
 struct Model {
-  Model(const Input& text, Findings& faults) : input(text), findings(faults) {}
+  explicit Model(const Input& text) : input(text) {}
 
   const Input& input;
-  Findings& findings;
+  DeckFaults faults{"... and {} more errors"};
   std::vector<Scope> scopes;        ///< [0] the assembly or the flat deck
   std::vector<const Block*> steps;  ///< blocks between *STEP and *END STEP
   std::vector<Eigen::Vector3d> positions;
@@ -122,10 +126,36 @@ struct Model {
   /// "node 7" or "node wing-1.7".
   std::string node_text(int node) const;
   std::string element_text(const RawElement& element) const;
+  /// In the order of Abaqus.
+  const int* nodes_of(const RawElement& element) const { return connectivity.data() + element.first; }
+
+  /// File and line of a block, a data line or an element.
+  std::string where(const Block& block) const { return input.where(block); }
+  std::string where(const Line& line) const { return input.where(line); }
   std::string where(const RawElement& element) const { return input.where(Line{{}, element.file, element.line}); }
+
+  /// Notes an error at a block, a line, an element or a place that is known.
+  template <class Place>
+  void fault(std::string what, const Place& place, std::string remedy) {
+    if constexpr (std::is_convertible_v<Place, std::string>)
+      faults.add(std::move(what), place, std::move(remedy));
+    else
+      faults.add(std::move(what), where(place), std::move(remedy));
+  }
+  /// The same in functions that then have nothing to return.
+  template <class Place>
+  std::nullopt_t refuse(std::string what, const Place& place, std::string remedy) {
+    fault(std::move(what), place, std::move(remedy));
+    return std::nullopt;
+  }
+  /// That error, to be thrown.
+  template <class Place>
+  Error error(std::string what, const Place& place, std::string remedy) const {
+    return {std::move(what), where(place), std::move(remedy)};
+  }
 };
 
-/// The numbers of a data line, at most values.size(); blank fields keep their value. False, with a finding, otherwise.
+/// The numbers of a data line, at most values.size(); blank fields keep their value. False, with a fault, otherwise.
 bool read_numbers(Model& model, const Block& block, const Line& line, std::span<double> values);
 
 }  // namespace tisserand::reducer::abaqus

@@ -11,32 +11,16 @@
 namespace tisserand::reducer::abaqus {
 namespace {
 
-/// Axis near the normal and projected axis of an orientation. Throws Error if it has no second data line.
-struct Projection {
-  Eigen::Vector3d normal;
-  Eigen::Vector3d x;
-};
-Projection projection_of(const Orientation& orientation, std::string_view name) {
-  if (!orientation.is_rectangular || !orientation.normal_axis)
-    throw Error(
-        fmt::format("orientation '{}' {}", name,
-                    orientation.is_rectangular ? "has no second data line, which Abaqus and CalculiX read differently"
-                                               : "is not rectangular with DEFINITION=COORDINATES"),
-        orientation.where, "give rectangular axes and a second line such as '3, 0.'");
-  const int axis = *orientation.normal_axis;
-  return {orientation.axes.col(axis), orientation.axes.col((axis + 1) % 3)};
-}
-
 /// +1 if the normals of all shells of the set are on the side of `axis`, -1 if all are on the other side. Throws Error
 /// if there are both, since the sense of angles follows the normal.
 double side_of_normals(Model& model, int scope, const Block& block, const Eigen::Vector3d& axis) {
-  const std::string where = model.input.where(block);
+  const std::string where = model.where(block);
   const auto elements = find_elements(model, scope, block.name_of("ELSET"), where);
   double side = 0.0;
   for (const int row : elements.value_or(std::vector<int>())) {
     const RawElement& element = model.elements[row];
     if (element.type->kind != ElementKind::shell) continue;
-    const int* nodes = model.connectivity.data() + element.first;
+    const int* nodes = model.nodes_of(element);
     const auto x = [&](int k) -> const Eigen::Vector3d& { return model.positions[nodes[k]]; };
     const double height = (x(2) - x(0)).cross(x(element.count - 1) - x(1)).dot(axis);
     if (side * height < 0.0)
@@ -59,7 +43,7 @@ class Composite {
     for (const Line& line : block_.data)
       if (const std::optional<Ply> ply = read_ply(line)) layers.plies.push_back(*ply);
     if (layers.plies.empty() || layers.plies.size() != block_.data.size()) return std::nullopt;
-    check_plies(layers.plies, model_.input.where(block_));
+    check_plies(layers.plies, model_.where(block_));
     if (base_) layers.x = base_->x;
     return layers;
   }
@@ -67,7 +51,7 @@ class Composite {
  private:
   template <class Place>
   std::optional<Projection> look_up(std::string_view name, const Place& place) {
-    const Orientation* found = find_orientation(model_, scope_, std::string(name), model_.input.where(place));
+    const Orientation* found = find_orientation(model_, scope_, std::string(name), model_.where(place));
     return found == nullptr ? std::nullopt : std::optional<Projection>(projection_of(*found, name));
   }
 
@@ -87,20 +71,18 @@ class Composite {
     if (!own) return std::nullopt;
     if (own->normal.dot(base_->normal) < 1.0 - 1e-12)
       throw Error(fmt::format("orientation '{}' of a layer has another axis than the layers before it", name),
-                  model_.input.where(line), "let the orientations of all layers share the axis near the normal");
+                  model_.where(line), "let the orientations of all layers share the axis near the normal");
     return side_ * std::atan2(base_->x.cross(own->x).dot(base_->normal), base_->x.dot(own->x));
   }
 
   /// thickness, points, material, angle in degrees or orientation; the number of points does not matter.
   std::optional<Ply> read_ply(const Line& line) {
     const std::vector<std::string_view> fields = split(line.text);
-    const std::string where = model_.input.where(line);
+    const std::string where = model_.where(line);
     const std::optional<double> thickness = fields.empty() ? std::nullopt : to_number(fields[0]);
-    if (!thickness || !(*thickness > 0.0) || fields.size() < 3) {
-      model_.findings.add(fmt::format("{}: '{}' is no layer", block_.title, line.text.substr(0, 60)), where,
-                          "write thickness, number of points, material, angle in degrees");
-      return std::nullopt;
-    }
+    if (!thickness || !(*thickness > 0.0) || fields.size() < 3)
+      return model_.refuse(fmt::format("{}: '{}' is no layer", block_.title, line.text.substr(0, 60)), where,
+                           "write thickness, number of points, material, angle in degrees");
     const AbaqusMaterial* material = find_material(model_, std::string(fields[2]), where);
     if (material == nullptr) return std::nullopt;
     Ply ply = ply_of(*material);
@@ -121,6 +103,17 @@ class Composite {
 };
 
 }  // namespace
+
+Projection projection_of(const Orientation& orientation, std::string_view name) {
+  if (!orientation.is_rectangular || !orientation.normal_axis)
+    throw Error(
+        fmt::format("orientation '{}' {}", name,
+                    orientation.is_rectangular ? "has no second data line, which Abaqus and CalculiX read differently"
+                                               : "is not rectangular with DEFINITION=COORDINATES"),
+        orientation.where, "give rectangular axes and a second line such as '3, 0.'");
+  const int axis = *orientation.normal_axis;
+  return {orientation.axes.col(axis), orientation.axes.col((axis + 1) % 3)};
+}
 
 std::optional<Layers> read_layers(Model& model, int scope, const Block& block) {
   return Composite(model, scope, block).read();

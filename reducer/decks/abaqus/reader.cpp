@@ -30,7 +30,7 @@ void tell_unknown(Model& model, const std::string& path, UnknownCards unknown) {
   const std::string text = fmt::format("not understood: {}", with_counts(model.unknown));
   switch (unknown) {
     case UnknownCards::refuse:
-      model.findings.add(text, path, "remove them, or write `unknown: ignore` under mesh if the part can do without");
+      model.fault(text, path, "remove them, or write `unknown: ignore` under mesh if the part can do without");
       break;
     case UnknownCards::ignore:
       model.deck.mesh.warnings.push_back(text + "; ignored as wished");
@@ -57,8 +57,7 @@ void for_each_scope(Model& model, const Step& step) {
 
 Deck read_abaqus(const std::string& path, const DeckOptions& options) {
   const abaqus::Input input = abaqus::read_input(path);
-  abaqus::Findings findings;
-  abaqus::Model model(input, findings);
+  abaqus::Model model(input);
   abaqus::sort_into_scopes(model);
   abaqus::for_each_scope(model, abaqus::read_nodes);
   abaqus::for_each_scope(model, abaqus::read_elements);
@@ -71,7 +70,7 @@ Deck read_abaqus(const std::string& path, const DeckOptions& options) {
   abaqus::read_boundary(model);
   abaqus::tell_massless_materials(model);
   abaqus::tell_unknown(model, path, options.unknown);
-  findings.raise();
+  model.faults.raise();
   abaqus::publish_sets(model);
   if (model.positions.empty()) throw Error("the deck has no nodes", path, "is it an Abaqus or CalculiX deck?");
   return std::move(model.deck);

@@ -30,8 +30,8 @@ Placement read_placement(Model& model, const Block& block) {
     if (!read_numbers(model, block, block.data[1], turn)) return placement;
     const Eigen::Vector3d a(turn[0], turn[1], turn[2]), b(turn[3], turn[4], turn[5]);
     if (!((b - a).norm() > 0.0)) {
-      model.findings.add("*INSTANCE: the two points of the axis of rotation coincide", model.input.where(block.data[1]),
-                         "give two different points and the angle in degrees");
+      model.fault("*INSTANCE: the two points of the axis of rotation coincide", block.data[1],
+                  "give two different points and the angle in degrees");
       return placement;
     }
     placement.R = Eigen::AngleAxisd(turn[6] * M_PI / 180.0, (b - a).normalized()).toRotationMatrix();
@@ -54,10 +54,10 @@ class Sorter {
   void run() {
     for (const Block& block : model_.input.blocks) take(block);
     if (part_ != nullptr || instance_ >= 0 || in_step_)
-      model_.findings.add(fmt::format("the deck ends inside of {}", in_step_           ? "*STEP"
-                                                                    : part_ != nullptr ? "*PART"
-                                                                                       : "*INSTANCE"),
-                          model_.input.paths[0], "is the file truncated? close it with *END ...");
+      model_.fault(fmt::format("the deck ends inside of {}", in_step_           ? "*STEP"
+                                                             : part_ != nullptr ? "*PART"
+                                                                                : "*INSTANCE"),
+                   model_.input.paths[0], "is the file truncated? close it with *END ...");
     for (const auto& [name, part] : parts_)
       if (!part.is_used) model_.deck.mesh.warnings.push_back(fmt::format("part '{}' has no instance", name));
   }
@@ -91,8 +91,8 @@ class Sorter {
     const std::string name = block.name_of("NAME");
     const auto [entry, is_new] = parts_.try_emplace(name);
     if (name.empty() || !is_new)
-      model_.findings.add(fmt::format("*PART '{}' {}", name, name.empty() ? "has no name" : "exists twice"),
-                          model_.input.where(block), "give every part a name of its own: *PART, NAME=...");
+      model_.fault(fmt::format("*PART '{}' {}", name, name.empty() ? "has no name" : "exists twice"), block,
+                   "give every part a name of its own: *PART, NAME=...");
     part_ = &entry->second;
   }
 
@@ -102,20 +102,18 @@ class Sorter {
     const std::string part = block.name_of("PART");
     for (const Scope& other : model_.scopes)
       if (scope.name == other.name)
-        model_.findings.add(
-            fmt::format("*INSTANCE '{}' {}", scope.name, scope.name.empty() ? "has no name" : "exists twice"),
-            model_.input.where(block), "give every instance a name of its own: *INSTANCE, NAME=...");
+        model_.fault(fmt::format("*INSTANCE '{}' {}", scope.name, scope.name.empty() ? "has no name" : "exists twice"),
+                     block, "give every instance a name of its own: *INSTANCE, NAME=...");
     const auto found = parts_.find(part);
     if (found == parts_.end()) {
-      model_.findings.add(fmt::format("*INSTANCE '{}': there is no part '{}'", scope.name, part),
-                          model_.input.where(block), "define it before with *PART, NAME=...");
+      model_.fault(fmt::format("*INSTANCE '{}': there is no part '{}'", scope.name, part), block,
+                   "define it before with *PART, NAME=...");
     } else {
       scope.blocks = found->second.blocks;
       found->second.is_used = true;
     }
     scope.placement = read_placement(model_, block);
-    model_.scopes.push_back(std::move(scope));
-    instance_ = static_cast<int>(model_.scopes.size()) - 1;
+    instance_ = add_row(model_.scopes, std::move(scope));
   }
 
   Model& model_;

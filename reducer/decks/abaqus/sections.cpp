@@ -24,8 +24,8 @@ bool refuse_parameters(Model& model, const Block& block, std::initializer_list<c
   bool found = false;
   for (const char* name : names)
     if (block.find(name) != nullptr) {
-      model.findings.add(fmt::format("{}: parameter {} is not understood", block.title, name), model.input.where(block),
-                         "give constant values, set by set");
+      model.fault(fmt::format("{}: parameter {} is not understood", block.title, name), block,
+                  "give constant values, set by set");
       found = true;
     }
   return found;
@@ -42,27 +42,17 @@ std::optional<double> shell_offset(Model& model, const Block& block, double thic
   if (word == "SNEG") return 0.5 * thickness;
   const std::optional<double> fraction = to_number(word);
   if (fraction) return -*fraction * thickness;
-  model.findings.add(fmt::format("*SHELL SECTION: OFFSET={} is not understood", *text), model.input.where(block),
-                     "write SPOS, SNEG or a number");
-  return std::nullopt;
+  return model.refuse(fmt::format("*SHELL SECTION: OFFSET={} is not understood", *text), block,
+                      "write SPOS, SNEG or a number");
 }
 
 /// x axis of the material on the shell: the axis of *ORIENTATION that follows, cyclically, the one near the normal.
 bool read_shell_direction(Model& model, int scope, const Block& block, SectionUse& use) {
   const std::string* name = block.find("ORIENTATION");
   if (name == nullptr) return true;
-  const Orientation* orientation = find_orientation(model, scope, *name, model.input.where(block));
+  const Orientation* orientation = find_orientation(model, scope, *name, model.where(block));
   if (orientation == nullptr) return false;
-  if (!use.has_direction) return true;
-  if (!orientation->is_rectangular || !orientation->normal_axis) {
-    model.findings.add(fmt::format("orientation '{}' {}", *name,
-                                   orientation->is_rectangular ? "has no second data line, which Abaqus and CalculiX "
-                                                                 "read differently"
-                                                               : "is not rectangular with DEFINITION=COORDINATES"),
-                       orientation->where, "give rectangular axes and a second line such as '3, 0.'");
-    return false;
-  }
-  use.direction = orientation->axes.col((*orientation->normal_axis + 1) % 3);
+  if (use.has_direction) use.direction = projection_of(*orientation, *name).x;
   return true;
 }
 
@@ -76,16 +66,15 @@ std::optional<ShellSection> read_composite(Model& model, int scope, const Block&
 }
 
 std::optional<ShellSection> read_sheet(Model& model, const Block& block, bool& has_direction) {
-  const std::string* name = block.find("MATERIAL");
-  const AbaqusMaterial* material = find_material(model, name == nullptr ? "" : *name, model.input.where(block));
+  const AbaqusMaterial* material = find_material(model, block);
   const std::optional<double> thickness = number_at(model, block, 0, 0, "thickness");
   if (material == nullptr || !thickness) return std::nullopt;
-  if (!(*thickness > 0.0)) throw not_positive("*SHELL SECTION: thickness", *thickness, model.input.where(block));
+  if (!(*thickness > 0.0)) throw not_positive("*SHELL SECTION: thickness", *thickness, model.where(block));
   has_direction = material->kind != Kind::isotropic;
   if (!has_direction) return isotropic_shell(material->E, material->nu, material->density, *thickness, 5.0 / 6.0);
   Ply ply = ply_of(*material);
   ply.thickness = *thickness;
-  check_plies({ply}, model.input.where(block));
+  check_plies({ply}, model.where(block));
   return laminate({ply}, -0.5 * *thickness);
 }
 
@@ -93,12 +82,10 @@ std::optional<ShellSection> read_sheet(Model& model, const Block& block, bool& h
 void read_shear(Model& model, const Block& block, ShellSection& section) {
   std::array<double, 3> k{};
   if (block.data.empty() || !read_numbers(model, block, block.data[0], k)) return;
-  if (!(k[0] > 0.0 && k[1] > 0.0 && k[0] * k[1] > k[2] * k[2])) {
-    model.findings.add(
-        fmt::format("{}: K11 = {}, K22 = {}, K12 = {} are not positive definite", block.title, k[0], k[1], k[2]),
-        model.input.where(block), "give K11, K22 > 0 and K12² < K11 K22");
-    return;
-  }
+  if (!(k[0] > 0.0 && k[1] > 0.0 && k[0] * k[1] > k[2] * k[2]))
+    return model.fault(
+        fmt::format("{}: K11 = {}, K22 = {}, K12 = {} are not positive definite", block.title, k[0], k[1], k[2]), block,
+        "give K11, K22 > 0 and K12² < K11 K22");
   section.As << k[0], k[2], k[2], k[1];
 }
 
@@ -119,8 +106,8 @@ void read_shell_section(Model& model, int scope, std::size_t index) {
   const std::optional<double> offset = shell_offset(model, block, section->thickness);
   if (!offset || !read_shell_direction(model, scope, block, use)) return;
   use.offset = *offset;
-  use.property = static_cast<int>(model.deck.mesh.shell_properties.size());
-  model.deck.mesh.shell_properties.push_back({*section, formats::MassMatrix::consistent, block.name_of("ELSET")});
+  use.property =
+      add_row(model.deck.mesh.shell_properties, {*section, formats::MassMatrix::consistent, block.name_of("ELSET")});
   give_section(model, scope, block, use);
 }
 
@@ -132,9 +119,9 @@ bool holds(const Model& model, const std::vector<int>& elements, ElementKind kin
 void read_truss(Model& model, int scope, const Block& block, const AbaqusMaterial& material) {
   const std::optional<double> area = number_at(model, block, 0, 0, "area of the trusses");
   if (!area) return;
-  if (!(*area > 0.0)) throw not_positive("*SOLID SECTION: area of the trusses", *area, model.input.where(block));
+  if (!(*area > 0.0)) throw not_positive("*SOLID SECTION: area of the trusses", *area, model.where(block));
   if (material.kind != Kind::isotropic)
-    throw Error("trusses need an isotropic material", model.input.where(block), "use *ELASTIC, TYPE=ISOTROPIC");
+    throw Error("trusses need an isotropic material", model.where(block), "use *ELASTIC, TYPE=ISOTROPIC");
   BeamProperty property;
   property.name = block.name_of("ELSET");
   property.data.section.name = property.name;
@@ -144,15 +131,14 @@ void read_truss(Model& model, int scope, const Block& block, const AbaqusMateria
   property.data.mass_matrix = formats::MassMatrix::lumped;
   SectionUse use;
   use.kind = ElementKind::truss;
-  use.property = static_cast<int>(model.deck.mesh.beam_properties.size());
-  model.deck.mesh.beam_properties.push_back(std::move(property));
+  use.property = add_row(model.deck.mesh.beam_properties, std::move(property));
   give_section(model, scope, block, use);
 }
 
 void read_solid(Model& model, int scope, const Block& block, const AbaqusMaterial& material) {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   if (const std::string* name = block.find("ORIENTATION"); name != nullptr) {
-    const Orientation* orientation = find_orientation(model, scope, *name, model.input.where(block));
+    const Orientation* orientation = find_orientation(model, scope, *name, model.where(block));
     if (orientation == nullptr) return;
     if (!orientation->is_rectangular && material.kind != Kind::isotropic)
       throw Error(fmt::format("orientation '{}' is not rectangular with DEFINITION=COORDINATES", *name),
@@ -160,24 +146,22 @@ void read_solid(Model& model, int scope, const Block& block, const AbaqusMateria
     axes = orientation->axes;
   } else if (material.kind != Kind::isotropic) {
     throw Error(fmt::format("*SOLID SECTION: material '{}' has directions, but there is no ORIENTATION", material.name),
-                model.input.where(block), "add ORIENTATION=...");
+                model.where(block), "add ORIENTATION=...");
   }
   if (material.kind == Kind::lamina)
     throw Error(fmt::format("*SOLID SECTION: material '{}' is a LAMINA, which only shells can use", material.name),
-                model.input.where(block), "use *ELASTIC, TYPE=ENGINEERING CONSTANTS");
+                model.where(block), "use *ELASTIC, TYPE=ENGINEERING CONSTANTS");
   SectionUse use;
   use.kind = ElementKind::solid;
-  use.property = static_cast<int>(model.deck.mesh.solid_properties.size());
-  model.deck.mesh.solid_properties.push_back(
-      {solid_of(material, axes), formats::MassMatrix::consistent, block.name_of("ELSET")});
+  use.property = add_row(model.deck.mesh.solid_properties,
+                         {solid_of(material, axes), formats::MassMatrix::consistent, block.name_of("ELSET")});
   give_section(model, scope, block, use);
 }
 
 void read_solid_section(Model& model, int scope, const Block& block) {
   if (refuse_parameters(model, block, {"COMPOSITE", "STACKDIRECTION"})) return;
-  const std::string where = model.input.where(block);
-  const std::string* name = block.find("MATERIAL");
-  const AbaqusMaterial* material = find_material(model, name == nullptr ? "" : *name, where);
+  const std::string where = model.where(block);
+  const AbaqusMaterial* material = find_material(model, block);
   const auto elements = find_elements(model, scope, block.name_of("ELSET"), where);
   if (material == nullptr || !elements) return;
   if (holds(model, *elements, ElementKind::truss))
@@ -189,7 +173,7 @@ void read_solid_section(Model& model, int scope, const Block& block) {
 void read_mass(Model& model, int scope, const Block& block) {
   const std::optional<double> mass = number_at(model, block, 0, 0, "mass");
   if (!mass) return;
-  if (*mass < 0.0) throw Error(fmt::format("*MASS: {} < 0", *mass), model.input.where(block), "give a mass >= 0");
+  if (*mass < 0.0) throw Error(fmt::format("*MASS: {} < 0", *mass), model.where(block), "give a mass >= 0");
   SectionUse use;
   use.kind = ElementKind::mass;
   use.mass = *mass;
@@ -206,10 +190,10 @@ void read_rotary_inertia(Model& model, int scope, const Block& block) {
   const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
   if (!(principal.minCoeff() >= -1e-9 * principal.cwiseAbs().maxCoeff()))
     throw Error(fmt::format("*ROTARY INERTIA has the negative principal value {:.6g}", principal.minCoeff()),
-                model.input.where(block), "check the six entries I11, I22, I33, I12, I13, I23");
+                model.where(block), "check the six entries I11, I22, I33, I12, I13, I23");
   Eigen::Matrix3d axes = model.scopes[scope].placement.R;
   if (const std::string* name = block.find("ORIENTATION"); name != nullptr) {
-    const Orientation* orientation = find_orientation(model, scope, *name, model.input.where(block));
+    const Orientation* orientation = find_orientation(model, scope, *name, model.where(block));
     if (orientation == nullptr) return;
     if (!orientation->is_rectangular)
       throw Error(fmt::format("orientation '{}' is not rectangular", *name), orientation->where,
@@ -226,7 +210,7 @@ void read_rotary_inertia(Model& model, int scope, const Block& block) {
 /// not count, so that the first line of SPRINGA may be absent.
 void read_spring(Model& model, int scope, const Block& block) {
   if (refuse_parameters(model, block, {"NONLINEAR", "COMPLEXSTIFFNESS", "DEPENDENCIES", "RTOL"})) return;
-  const std::string where = model.input.where(block);
+  const std::string where = model.where(block);
   const auto elements = find_elements(model, scope, block.name_of("ELSET"), where);
   if (!elements) return;
   SectionUse use;
@@ -268,31 +252,29 @@ std::optional<double> number_at(Model& model, const Block& block, std::size_t li
       line < block.data.size() ? split(block.data[line].text) : std::vector<std::string_view>();
   const std::optional<double> value = field < fields.size() ? to_number(fields[field]) : std::nullopt;
   if (!value)
-    model.findings.add(
-        fmt::format("{}: {} {}", block.title, meaning,
-                    field < fields.size() ? fmt::format("'{}' is no number", fields[field]) : "is missing"),
-        line < block.data.size() ? model.input.where(block.data[line]) : model.input.where(block),
-        "write a finite number in the data lines");
+    model.fault(fmt::format("{}: {} {}", block.title, meaning,
+                            field < fields.size() ? fmt::format("'{}' is no number", fields[field]) : "is missing"),
+                line < block.data.size() ? model.where(block.data[line]) : model.where(block),
+                "write a finite number in the data lines");
   return value;
 }
 
 void give_section(Model& model, int scope, const Block& block, const SectionUse& use) {
-  const std::string where = model.input.where(block);
+  const std::string where = model.where(block);
   const std::string set = block.name_of("ELSET");
   const auto elements = find_elements(model, scope, set, where);
   if (!elements) return;
-  const int section = static_cast<int>(model.sections.size());
-  model.sections.push_back(use);
+  const int section = add_row(model.sections, use);
   model.sections.back().name = set;
   for (const int row : *elements) {
     RawElement& element = model.elements[row];
     if (element.type->kind != use.kind)
-      model.findings.add(fmt::format("{}, ELSET={} does not fit {}", block.title, set, model.element_text(element)),
-                         where, "name a set with elements of one kind");
+      model.fault(fmt::format("{}, ELSET={} does not fit {}", block.title, set, model.element_text(element)), where,
+                  "name a set with elements of one kind");
     else if (element.section >= 0 && element.section != section)
-      model.findings.add(fmt::format("{} has two sections, of '{}' and of '{}'", model.element_text(element),
-                                     model.sections[element.section].name, set),
-                         where, "let the sets of sections not overlap");
+      model.fault(fmt::format("{} has two sections, of '{}' and of '{}'", model.element_text(element),
+                              model.sections[element.section].name, set),
+                  where, "let the sets of sections not overlap");
     else
       element.section = section;
   }
@@ -310,8 +292,7 @@ void read_sections(Model& model, int scope) {
       if (block.keyword == "ROTARYINERTIA") read_rotary_inertia(model, scope, block);
       if (block.keyword == "SPRING") read_spring(model, scope, block);
     } catch (const Error& error) {
-      model.findings.add(error.message(), error.where().empty() ? model.input.where(block) : error.where(),
-                         error.remedy());
+      model.fault(error.message(), error.where().empty() ? model.where(block) : error.where(), error.remedy());
     }
   }
 }

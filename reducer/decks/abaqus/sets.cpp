@@ -53,12 +53,11 @@ std::optional<std::vector<int>> find_members(Model& model, int scope, std::strin
   const auto set = sets.find(lower(place.rest));
   if (set != sets.end() && !set->second.empty()) return set->second;
   if (kind.ids == &Scope::elements && model.has_unknown_elements) return std::nullopt;
-  model.findings.add(
+  return model.refuse(
       fmt::format("{} {} '{}' {}", kind.word, to_integer(place.rest) ? "number" : "set", text,
                   set == sets.end() ? "does not exist" : "is empty"),
       where,
       fmt::format("define it before, with *{}", kind.ids == &Scope::nodes ? "NODE or *NSET" : "ELEMENT or *ELSET"));
-  return std::nullopt;
 }
 
 /// first, last, step: the ids between them that exist. Looks at ids or at the steps, whichever are fewer.
@@ -67,11 +66,9 @@ void add_range(Model& model, const Scope& scope, const SetKind& kind, const Line
   const std::optional<long> first = fields.empty() ? std::nullopt : to_integer(fields[0]);
   const std::optional<long> last = fields.size() < 2 ? first : to_integer(fields[1]);
   const std::optional<long> step = fields.size() < 3 || fields[2].empty() ? 1L : to_integer(fields[2]);
-  if (!first || !last || !step || *step <= 0 || *first <= 0 || *last < *first || fields.size() > 3) {
-    model.findings.add(fmt::format("GENERATE: '{}' is no range", line.text.substr(0, 60)), model.input.where(line),
+  if (!first || !last || !step || *step <= 0 || *first <= 0 || *last < *first || fields.size() > 3)
+    return model.fault(fmt::format("GENERATE: '{}' is no range", line.text.substr(0, 60)), line,
                        "write first, last, step with first <= last and step > 0");
-    return;
-  }
   const auto& ids = scope.*kind.ids;
   const std::size_t before = members.size();
   if (static_cast<unsigned long>((*last - *first) / *step) <= 4 * ids.size()) {
@@ -88,39 +85,21 @@ void add_range(Model& model, const Scope& scope, const SetKind& kind, const Line
     for (const auto& [id, row] : inside) members.push_back(row);
   }
   if (members.size() == before && (kind.ids == &Scope::nodes || !model.has_unknown_elements))
-    model.findings.add(fmt::format("GENERATE: no {} from {} to {} exists", kind.word, *first, *last),
-                       model.input.where(line), "correct the range");
-}
-
-void unify(std::vector<int>& members) {
-  std::sort(members.begin(), members.end());
-  members.erase(std::unique(members.begin(), members.end()), members.end());
-}
-
-/// The nodes of all elements of a set.
-void add_nodes_of(const Model& model, const std::vector<int>& elements, std::vector<int>& members) {
-  for (const int row : elements) {
-    const RawElement& element = model.elements[row];
-    const auto begin = model.connectivity.begin() + static_cast<std::ptrdiff_t>(element.first);
-    members.insert(members.end(), begin, begin + element.type->nodes);
-  }
+    model.fault(fmt::format("GENERATE: no {} from {} to {} exists", kind.word, *first, *last), line,
+                "correct the range");
 }
 
 void read_set(Model& model, int scope_index, const Block& block, const SetKind& kind, const char* parameter) {
   const std::string name = block.name_of(parameter);
-  const std::string where = model.input.where(block);
-  if (name.empty()) {
-    model.findings.add(fmt::format("{} without {}", block.title, parameter), where, "give the set a name");
-    return;
-  }
+  const std::string where = model.where(block);
+  if (name.empty())
+    return model.fault(fmt::format("{} without {}", block.title, parameter), where, "give the set a name");
   int source = scope_index;
   if (const std::string instance = block.name_of("INSTANCE"); !instance.empty()) {
     const Scope* named = find_scope(model, instance);
-    if (named == nullptr) {
-      model.findings.add(fmt::format("{} '{}': there is no instance '{}'", block.title, name, instance), where,
+    if (named == nullptr)
+      return model.fault(fmt::format("{} '{}': there is no instance '{}'", block.title, name, instance), where,
                          "define it with *INSTANCE, NAME=...");
-      return;
-    }
     source = static_cast<int>(named - model.scopes.data());
   }
   std::vector<int>& members = (model.scopes[scope_index].*kind.sets)[name];
@@ -137,7 +116,7 @@ void read_set(Model& model, int scope_index, const Block& block, const SetKind& 
       const Scope& scope = model.scopes[source];
       if (const std::optional<int> row = find_in(scope.*kind.ids, field)) {
         members.push_back(*row);
-      } else if (const auto found = find_members(model, source, field, kind, model.input.where(line))) {
+      } else if (const auto found = find_members(model, source, field, kind, model.where(line))) {
         members.insert(members.end(), found->begin(), found->end());
       }
     }
@@ -188,6 +167,18 @@ ElementSet rows_of(const Model& model, const std::vector<int>& members) {
 
 }  // namespace
 
+void unify(std::vector<int>& members) {
+  std::sort(members.begin(), members.end());
+  members.erase(std::unique(members.begin(), members.end()), members.end());
+}
+
+void add_nodes_of(const Model& model, const std::vector<int>& elements, std::vector<int>& members) {
+  for (const int row : elements) {
+    const RawElement& element = model.elements[row];
+    members.insert(members.end(), model.nodes_of(element), model.nodes_of(element) + element.type->nodes);
+  }
+}
+
 std::optional<int> find_node(const Model& model, int scope, std::string_view text) {
   const auto& ids = model.scopes[scope].nodes;
   if (const std::optional<int> node = find_in(ids, text)) return node;
@@ -208,7 +199,7 @@ const Surface* find_surface(Model& model, int scope, const std::string& name, co
   const Place place = place_of(model, scope, name);
   const auto found = place.scope->surfaces.find(lower(place.rest));
   if (found != place.scope->surfaces.end()) return &found->second;
-  model.findings.add(fmt::format("surface '{}' does not exist", name), where, "define it with *SURFACE, NAME=...");
+  model.fault(fmt::format("surface '{}' does not exist", name), where, "define it with *SURFACE, NAME=...");
   return nullptr;
 }
 
@@ -218,8 +209,7 @@ const Orientation* find_orientation(Model& model, int scope, const std::string& 
     const auto found = known.find(lower(name));
     if (found != known.end()) return &found->second;
   }
-  model.findings.add(fmt::format("orientation '{}' does not exist", name), where,
-                     "define it with *ORIENTATION, NAME=...");
+  model.fault(fmt::format("orientation '{}' does not exist", name), where, "define it with *ORIENTATION, NAME=...");
   return nullptr;
 }
 

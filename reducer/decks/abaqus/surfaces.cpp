@@ -17,7 +17,7 @@ constexpr int kFreeFaces = -1;
 
 /// Columns of the mesh of the nodes of one face; a shell is its own face.
 std::vector<int> nodes_of_face(const Model& model, const RawElement& element, int face) {
-  const int* nodes = model.connectivity.data() + element.first;
+  const int* nodes = model.nodes_of(element);
   if (element.type->kind != ElementKind::solid) return {nodes, nodes + element.count};
   std::vector<int> result;
   for (const int local : face_nodes(element.type->shape, face)) result.push_back(nodes[local]);
@@ -69,8 +69,8 @@ bool add_faces(Model& model, const std::vector<int>& elements, int face, const L
                                    : element.type->kind == ElementKind::solid &&
                                          (face < 0 || !face_nodes(element.type->shape, face).empty());
     if (!has_face) {
-      model.findings.add(fmt::format("*SURFACE: {} has no such face", model.element_text(element)),
-                         model.input.where(line), "name faces of shells SPOS or SNEG, of solids S1 to S6");
+      model.fault(fmt::format("*SURFACE: {} has no such face", model.element_text(element)), line,
+                  "name faces of shells SPOS or SNEG, of solids S1 to S6");
       return false;
     }
     if (face >= 0) surface.faces.push_back({row, face});
@@ -97,8 +97,8 @@ std::optional<Eigen::Matrix3d> read_axes(Model& model, const Block& block) {
   const Eigen::Vector3d a(p[0], p[1], p[2]), b(p[3], p[4], p[5]), c(p[6], p[7], p[8]);
   const std::optional<Eigen::Matrix3d> axes = axes_from_points(a - c, b - c);
   if (!axes)
-    model.findings.add(fmt::format("{}: its points lie on one line", block.title), model.input.where(block),
-                       "give a point on the local x axis and one in the local x-y plane");
+    model.fault(fmt::format("{}: its points lie on one line", block.title), block,
+                "give a point on the local x axis and one in the local x-y plane");
   return axes;
 }
 
@@ -107,8 +107,8 @@ bool read_second_line(Model& model, const Block& block, Orientation& orientation
   std::array<double, 2> values{1.0, 0.0};
   if (!read_numbers(model, block, block.data[1], values)) return false;
   if (values[0] != 1.0 && values[0] != 2.0 && values[0] != 3.0) {
-    model.findings.add(fmt::format("*ORIENTATION: there is no axis {}", values[0]), model.input.where(block.data[1]),
-                       "write 1, 2 or 3 and an angle in degrees");
+    model.fault(fmt::format("*ORIENTATION: there is no axis {}", values[0]), block.data[1],
+                "write 1, 2 or 3 and an angle in degrees");
     return false;
   }
   const int axis = static_cast<int>(values[0]) - 1;
@@ -122,18 +122,16 @@ bool read_second_line(Model& model, const Block& block, Orientation& orientation
 
 void read_surface(Model& model, int scope, const Block& block) {
   const std::string name = block.name_of("NAME");
-  const std::string type = block.find("TYPE") == nullptr ? "ELEMENT" : upper_without_blanks(*block.find("TYPE"));
-  if (name.empty() || (type != "ELEMENT" && type != "NODE")) {
-    model.findings.add(fmt::format("*SURFACE '{}', TYPE={} is not understood", name, type), model.input.where(block),
+  const std::string type = block.word_of("TYPE", "ELEMENT");
+  if (name.empty() || (type != "ELEMENT" && type != "NODE"))
+    return model.fault(fmt::format("*SURFACE '{}', TYPE={} is not understood", name, type), block,
                        "write *SURFACE, NAME=..., TYPE=ELEMENT or NODE");
-    return;
-  }
   Surface surface;
   surface.is_nodal = type == "NODE";
   for (const Line& line : block.data) {
     const std::vector<std::string_view> fields = split(line.text);
     if (fields.empty() || fields[0].empty()) continue;
-    const std::string where = model.input.where(line);
+    const std::string where = model.where(line);
     if (surface.is_nodal) {
       if (const auto nodes = find_nodes(model, scope, fields[0], where))
         surface.nodes.insert(surface.nodes.end(), nodes->begin(), nodes->end());
@@ -141,8 +139,8 @@ void read_surface(Model& model, int scope, const Block& block) {
     }
     const std::optional<int> face = face_number(fields.size() > 1 ? fields[1] : std::string_view());
     if (!face) {
-      model.findings.add(fmt::format("*SURFACE '{}': face '{}' is not understood", name, fields[1]), where,
-                         "name faces of shells SPOS or SNEG, of solids S1 to S6");
+      model.fault(fmt::format("*SURFACE '{}': face '{}' is not understood", name, fields[1]), where,
+                  "name faces of shells SPOS or SNEG, of solids S1 to S6");
       continue;
     }
     if (const auto elements = find_elements(model, scope, fields[0], where))
@@ -153,12 +151,10 @@ void read_surface(Model& model, int scope, const Block& block) {
 
 void read_orientation(Model& model, int scope, const Block& block) {
   const std::string name = block.name_of("NAME");
-  const std::string system =
-      block.find("SYSTEM") == nullptr ? "RECTANGULAR" : upper_without_blanks(*block.find("SYSTEM"));
-  const std::string definition =
-      block.find("DEFINITION") == nullptr ? "COORDINATES" : upper_without_blanks(*block.find("DEFINITION"));
+  const std::string system = block.word_of("SYSTEM", "RECTANGULAR");
+  const std::string definition = block.word_of("DEFINITION", "COORDINATES");
   Orientation orientation;
-  orientation.where = model.input.where(block);
+  orientation.where = model.where(block);
   Scope& owner = model.scopes[scope];
   orientation.is_rectangular = system == "RECTANGULAR" && definition == "COORDINATES";
   if (orientation.is_rectangular) {
@@ -180,11 +176,9 @@ void set_cylindrical_axes(Model& model, int scope, const std::vector<int>& nodes
   const Placement& placement = model.scopes[scope].placement;
   const Eigen::Vector3d start = placement.R * Eigen::Vector3d(p[0], p[1], p[2]) + placement.t;
   const Eigen::Vector3d along = placement.R * Eigen::Vector3d(p[3] - p[0], p[4] - p[1], p[5] - p[2]);
-  if (!(along.norm() > 0.0)) {
-    model.findings.add(fmt::format("{}: the two points of its axis coincide", block.title), model.input.where(block),
+  if (!(along.norm() > 0.0))
+    return model.fault(fmt::format("{}: the two points of its axis coincide", block.title), block,
                        "give two points on the axis");
-    return;
-  }
   const Eigen::Vector3d z = along.normalized();
   for (const int node : nodes) {
     const Eigen::Vector3d arm = model.positions[node] - start, away = arm - z * z.dot(arm);
@@ -203,18 +197,16 @@ void set_cylindrical_axes(Model& model, int scope, const std::vector<int>& nodes
 bool has_directions(Model& model, int node, const std::string& where) {
   const auto found = model.undirected.find(node);
   if (found == model.undirected.end()) return true;
-  model.findings.add(fmt::format("node {}: {}", model.node_ids[node], found->second), where,
-                     "use rectangular axes, TYPE=R, for this node");
+  model.fault(fmt::format("node {}: {}", model.node_ids[node], found->second), where,
+              "use rectangular axes, TYPE=R, for this node");
   return false;
 }
 
 void read_transform(Model& model, int scope, const Block& block) {
-  const std::string type = block.find("TYPE") == nullptr ? "R" : upper_without_blanks(*block.find("TYPE"));
-  const std::string where = model.input.where(block);
-  if (type != "R" && type != "C" && type != "S") {
-    model.findings.add(fmt::format("*TRANSFORM, TYPE={} is not understood", type), where, "write R, C or S");
-    return;
-  }
+  const std::string type = block.word_of("TYPE", "R");
+  const std::string where = model.where(block);
+  if (type != "R" && type != "C" && type != "S")
+    return model.fault(fmt::format("*TRANSFORM, TYPE={} is not understood", type), where, "write R, C or S");
   const auto nodes = find_nodes(model, scope, block.name_of("NSET"), where);
   if (nodes && type == "C") set_cylindrical_axes(model, scope, *nodes, block);
   if (nodes && type == "S")

@@ -8,7 +8,7 @@ namespace tisserand::reducer::abaqus {
 void read_surface(Model& model, int scope, const Block& block);
 void read_orientation(Model& model, int scope, const Block& block);
 void read_transform(Model& model, int scope, const Block& block);
-/// Whether components of the node have directions; if not, a finding at `where`.
+/// Whether components of the node have directions; if not, a fault at `where`.
 bool has_directions(Model& model, int node, const std::string& where);
 
 /// Nodes of a surface with the area that each stands for (face_weights); nodal surfaces: 1 each. Sorted by node.

@@ -1,8 +1,6 @@
 // Spiders from couplings, rigid bodies and MPCs.
 #include "reducer/decks/abaqus/ties.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "reducer/decks/abaqus/sets.hpp"
@@ -11,17 +9,16 @@
 namespace tisserand::reducer::abaqus {
 namespace {
 
-/// Directions of the components of a coupling; nothing, with a finding, if its orientation is not usable.
+/// Directions of the components of a coupling; nothing, with a fault, if its orientation is not usable.
 std::optional<Eigen::Matrix3d> coupling_axes(Model& model, int scope, const Block& block) {
   const std::string* name = block.find("ORIENTATION");
   if (name == nullptr) return Eigen::Matrix3d::Identity();
-  const std::string where = model.input.where(block);
+  const std::string where = model.where(block);
   const Orientation* orientation = find_orientation(model, scope, *name, where);
-  if (orientation != nullptr && orientation->is_rectangular) return orientation->axes;
-  if (orientation != nullptr)
-    model.findings.add(fmt::format("orientation '{}' is not rectangular with DEFINITION=COORDINATES", *name),
-                       orientation->where, "give rectangular axes");
-  return std::nullopt;
+  if (orientation == nullptr) return std::nullopt;
+  if (orientation->is_rectangular) return orientation->axes;
+  return model.refuse(fmt::format("orientation '{}' is not rectangular with DEFINITION=COORDINATES", *name),
+                      orientation->where, "give rectangular axes");
 }
 
 /// Union of the ranges of all data lines; all six without data lines.
@@ -35,13 +32,12 @@ std::optional<Components> components_of(Model& model, const Block& block, std::s
   return result;
 }
 
-/// Takes the nodes but the reference; a finding if none is left.
+/// Takes the nodes but the reference; a fault if none is left.
 void add_spider(Model& model, const Block& block, Spider spider, const std::vector<int>& nodes) {
   for (const int node : nodes)
     if (node != spider.reference) spider.nodes.push_back(node);
   if (spider.nodes.empty())
-    model.findings.add(fmt::format("{} '{}' grabs no node", block.title, spider.name), model.input.where(block),
-                       "check its surface or its set");
+    model.fault(fmt::format("{} '{}' grabs no node", block.title, spider.name), block, "check its surface or its set");
   else
     model.deck.mesh.spiders.push_back(std::move(spider));
 }
@@ -57,11 +53,9 @@ void remove_distant(const Model& model, const Block& block, int reference, std::
 void make_distributing(Model& model, const Block& block, const Block& kind, Spider spider,
                        const std::map<int, double>& weights) {
   const std::string* method = kind.find("WEIGHTINGMETHOD");
-  if (method != nullptr && upper_without_blanks(*method) != "UNIFORM") {
-    model.findings.add(fmt::format("*DISTRIBUTING, WEIGHTING METHOD={} is not understood", *method),
-                       model.input.where(kind), "use UNIFORM: weights by area");
-    return;
-  }
+  if (method != nullptr && upper_without_blanks(*method) != "UNIFORM")
+    return model.fault(fmt::format("*DISTRIBUTING, WEIGHTING METHOD={} is not understood", *method), kind,
+                       "use UNIFORM: weights by area");
   const std::optional<Components> components = components_of(model, kind, 0);
   if (!components) return;
   spider.kind = SpiderKind::averaging;
@@ -81,12 +75,10 @@ void make_distributing(Model& model, const Block& block, const Block& kind, Spid
 void read_coupling(Model& model, int scope, std::size_t index) {
   const std::vector<const Block*>& blocks = model.scopes[scope].blocks;
   const Block& block = *blocks[index];
-  const std::string where = model.input.where(block);
+  const std::string where = model.where(block);
   const Block* kind = index + 1 < blocks.size() ? blocks[index + 1] : nullptr;
-  if (kind == nullptr || (kind->keyword != "KINEMATIC" && kind->keyword != "DISTRIBUTING")) {
-    model.findings.add("*COUPLING without *KINEMATIC or *DISTRIBUTING", where, "write one of them after it");
-    return;
-  }
+  if (kind == nullptr || (kind->keyword != "KINEMATIC" && kind->keyword != "DISTRIBUTING"))
+    return model.fault("*COUPLING without *KINEMATIC or *DISTRIBUTING", where, "write one of them after it");
   const std::optional<int> reference = find_one_node(model, scope, block.name_of("REFNODE"), where);
   const Surface* surface = find_surface(model, scope, block.name_of("SURFACE"), where);
   const std::optional<Eigen::Matrix3d> axes = coupling_axes(model, scope, block);
@@ -111,13 +103,13 @@ void read_coupling(Model& model, int scope, std::size_t index) {
 
 /// The older form: every data line has nodes of its own and their components.
 void read_kinematic_coupling(Model& model, int scope, const Block& block) {
-  const std::optional<int> reference = find_one_node(model, scope, block.name_of("REFNODE"), model.input.where(block));
+  const std::optional<int> reference = find_one_node(model, scope, block.name_of("REFNODE"), model.where(block));
   const std::optional<Eigen::Matrix3d> axes = coupling_axes(model, scope, block);
   if (!reference || !axes) return;
   for (const Line& line : block.data) {
     const std::vector<std::string_view> fields = split(line.text);
     if (fields.empty()) continue;
-    const auto nodes = find_nodes(model, scope, fields[0], model.input.where(line));
+    const auto nodes = find_nodes(model, scope, fields[0], model.where(line));
     const std::optional<Components> components = read_components(model, line, 1);
     if (!nodes || !components) continue;
     Spider spider;
@@ -132,26 +124,19 @@ void read_kinematic_coupling(Model& model, int scope, const Block& block) {
 /// Nodes of the elements of a set; those of solids follow with translations, which is all they have.
 std::vector<int> nodes_of_elements(const Model& model, const std::vector<int>& elements) {
   std::vector<int> nodes;
-  for (const int row : elements) {
-    const RawElement& element = model.elements[row];
-    for (int k = 0; k < element.type->nodes; ++k)
-      nodes.push_back(model.connectivity[element.first + static_cast<std::size_t>(k)]);
-  }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  add_nodes_of(model, elements, nodes);
+  unify(nodes);
   return nodes;
 }
 
 void read_rigid_body(Model& model, int scope, const Block& block) {
-  const std::string where = model.input.where(block);
+  const std::string where = model.where(block);
   const std::optional<int> reference = find_one_node(model, scope, block.name_of("REFNODE"), where);
   if (!reference) return;
   if (const std::string* position = block.find("POSITION");
-      position != nullptr && upper_without_blanks(*position) != "INPUT") {
-    model.findings.add(fmt::format("*RIGID BODY, POSITION={} is not understood", *position), where,
+      position != nullptr && upper_without_blanks(*position) != "INPUT")
+    return model.fault(fmt::format("*RIGID BODY, POSITION={} is not understood", *position), where,
                        "place the reference node with *NODE");
-    return;
-  }
   if (block.find("ROTNODE") != nullptr)
     model.deck.mesh.warnings.push_back(
         fmt::format("{}: ROT NODE is not used: the reference node carries the rotations", where));
@@ -177,7 +162,7 @@ void read_rigid_body(Model& model, int scope, const Block& block) {
       add(nodes_of_elements(model, *elements), all_components, name);
   }
   if (!has_nodes && model.deck.mesh.spiders.size() == before)
-    model.findings.add("*RIGID BODY grabs no node", where, "give ELSET, TIE NSET or PIN NSET");
+    model.fault("*RIGID BODY grabs no node", where, "give ELSET, TIE NSET or PIN NSET");
 }
 
 struct MpcKind {
@@ -196,13 +181,11 @@ void read_mpc_pair(Model& model, const Block& block, const Line& line, const Mpc
                    const std::array<int, 2>& pair) {
   const double distance = (model.positions[pair[0]] - model.positions[pair[1]]).norm();
   const double size = model.positions[pair[1]].norm() + distance;
-  if (kind.must_coincide && distance > 1e-6 * size) {
-    model.findings.add(fmt::format("*MPC: {} and {} are {:.6g} apart, so that equal motions hold the part against "
+  if (kind.must_coincide && distance > 1e-6 * size)
+    return model.fault(fmt::format("*MPC: {} and {} are {:.6g} apart, so that equal motions hold the part against "
                                    "turning",
                                    model.node_text(pair[0]), model.node_text(pair[1]), distance),
-                       model.input.where(line), "use BEAM, or let the nodes coincide");
-    return;
-  }
+                       line, "use BEAM, or let the nodes coincide");
   Spider spider;
   spider.reference = pair[1];
   spider.node_components = kind.components;
@@ -214,19 +197,19 @@ void read_mpc_pair(Model& model, const Block& block, const Line& line, const Mpc
 void read_mpc(Model& model, int scope, const Block& block) {
   for (const Line& line : block.data) {
     const std::vector<std::string_view> fields = split(line.text);
-    const std::string where = model.input.where(line);
+    const std::string where = model.where(line);
     const std::optional<MpcKind> kind = fields.empty() ? std::nullopt : mpc_kind(fields[0]);
     if (!kind || fields.size() != 3) {
-      model.findings.add(fmt::format("*MPC: '{}' is not understood", line.text.substr(0, 60)), where,
-                         "write BEAM, TIE or PIN and two nodes or sets");
+      model.fault(fmt::format("*MPC: '{}' is not understood", line.text.substr(0, 60)), where,
+                  "write BEAM, TIE or PIN and two nodes or sets");
       continue;
     }
     const auto dependent = find_nodes(model, scope, fields[1], where);
     const auto reference = find_nodes(model, scope, fields[2], where);
     if (!dependent || !reference) continue;
     if (reference->size() != 1 && reference->size() != dependent->size()) {
-      model.findings.add(fmt::format("*MPC: {} nodes follow {}", dependent->size(), reference->size()), where,
-                         "give one reference node, or as many as dependent ones");
+      model.fault(fmt::format("*MPC: {} nodes follow {}", dependent->size(), reference->size()), where,
+                  "give one reference node, or as many as dependent ones");
       continue;
     }
     for (std::size_t i = 0; i < dependent->size(); ++i)
@@ -242,11 +225,9 @@ std::optional<Components> read_components(Model& model, const Line& line, std::s
   if (blank(field) && blank(field + 1)) return all_components;
   const std::optional<long> first = blank(field) ? std::nullopt : to_integer(fields[field]);
   const std::optional<long> last = blank(field + 1) ? first : to_integer(fields[field + 1]);
-  if (!first || !last || *first < 1 || *last > 6 || *first > *last) {
-    model.findings.add(fmt::format("'{}' names no degrees of freedom", line.text.substr(0, 60)),
-                       model.input.where(line), "write the first and the last one, from 1 to 6");
-    return std::nullopt;
-  }
+  if (!first || !last || *first < 1 || *last > 6 || *first > *last)
+    return model.refuse(fmt::format("'{}' names no degrees of freedom", line.text.substr(0, 60)), line,
+                        "write the first and the last one, from 1 to 6");
   Components result = 0;
   for (long k = *first; k <= *last; ++k) result = static_cast<Components>(result | (1 << (k - 1)));
   return result;
@@ -256,9 +237,8 @@ std::optional<int> find_one_node(Model& model, int scope, std::string_view text,
   const auto nodes = find_nodes(model, scope, text, where);
   if (!nodes) return std::nullopt;
   if (nodes->size() == 1) return nodes->front();
-  model.findings.add(fmt::format("set '{}' has {} nodes where one is meant", text, nodes->size()), where,
-                     "name a single node");
-  return std::nullopt;
+  return model.refuse(fmt::format("set '{}' has {} nodes where one is meant", text, nodes->size()), where,
+                      "name a single node");
 }
 
 void read_ties(Model& model, int scope) {

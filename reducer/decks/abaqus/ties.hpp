@@ -12,10 +12,10 @@ void read_ties(Model& model, int scope);
 void read_equation(Model& model, int scope, const Block& block);
 
 /// first, last (1-6) of a data line from `field` on: a missing last is the first, a missing first all six. Nothing,
-/// with a finding, for anything else.
+/// with a fault, for anything else.
 std::optional<Components> read_components(Model& model, const Line& line, std::size_t field);
 
-/// One node by number or by a set of one node. Nothing, with a finding, otherwise.
+/// One node by number or by a set of one node. Nothing, with a fault, otherwise.
 std::optional<int> find_one_node(Model& model, int scope, std::string_view text, const std::string& where);
 
 }  // namespace tisserand::reducer::abaqus

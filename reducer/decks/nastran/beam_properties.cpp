@@ -23,10 +23,8 @@ struct BeamSections {
 std::optional<formats::Material> beam_material(NastranModel& model, CardFields& f) {
   const NastranMaterial* m = material(model, f, 1, "MID");
   if (m == nullptr) return std::nullopt;
-  if (m->kind != NastranMaterial::Kind::isotropic || !(m->G > 0.0)) {
-    f.fault(fmt::format("{} gives no E and G", m->label), "beams need a MAT1 with two of E, G and NU");
-    return std::nullopt;
-  }
+  if (m->kind != NastranMaterial::Kind::isotropic || !(m->G > 0.0))
+    return f.refuse(fmt::format("{} gives no E and G", m->label), "beams need a MAT1 with two of E, G and NU");
   return formats::Material{m->label, m->E, 0.5 * m->E / m->G - 1.0, m->density, m->where};
 }
 
@@ -76,8 +74,7 @@ std::optional<formats::Section> shaped(CardFields& f, const std::string& type, i
   try {
     return pbarl_section(type, sizes, f.where());
   } catch (const Error& error) {
-    f.fault(error.message(), error.remedy());
-    return std::nullopt;
+    return f.refuse(error.message(), error.remedy());
   }
 }
 
@@ -191,11 +188,6 @@ BeamSections read_pbeam(NastranModel& model, CardFields& f) {
   return b;
 }
 
-int add_property(NastranModel& model, const BeamProperty& property) {
-  model.deck.mesh.beam_properties.push_back(property);
-  return static_cast<int>(model.deck.mesh.beam_properties.size()) - 1;
-}
-
 }  // namespace
 
 int read_beam_property(NastranModel& model, CardFields& f) {
@@ -224,7 +216,7 @@ int read_beam_property(NastranModel& model, CardFields& f) {
   property.data.added_mass.first *= model.mass_scale;
   property.data.added_mass.second *= model.mass_scale;
   property.data.added_mass.inertia *= model.mass_scale;
-  return add_property(model, property);
+  return add_row(model.deck.mesh.beam_properties, property);
 }
 
 int add_rod_property(NastranModel& model, CardFields& f, int material_index, const RodConstants& rod) {
@@ -247,7 +239,7 @@ int add_rod_property(NastranModel& model, CardFields& f, int material_index, con
   property.data.theory = formats::BeamTheory::euler_bernoulli;
   property.data.mass_matrix = model.mass_matrix;
   property.data.rotary_inertia = RotaryInertia::without;
-  return add_property(model, property);
+  return add_row(model.deck.mesh.beam_properties, property);
 }
 
 }  // namespace tisserand::reducer

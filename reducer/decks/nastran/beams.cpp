@@ -1,5 +1,4 @@
 // CBAR, CBEAM, CROD, CTUBE and CONROD of a Nastran deck become beams of the mesh.
-#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -60,10 +59,7 @@ Eigen::Vector3d offset(NastranModel& model, CardFields& f, int index, int node, 
 
 std::optional<Eigen::Matrix3d> axes_or_fault(CardFields& f, const Eigen::Vector3d& axis, const Eigen::Vector3d& v) {
   if (!f.ok()) return std::nullopt;
-  if (!(axis.norm() > 0.0)) {
-    f.fault("the ends of the axis coincide", "correct the grid points or the offsets");
-    return std::nullopt;
-  }
+  if (!(axis.norm() > 0.0)) return f.refuse("the ends of the axis coincide", "correct the grid points or the offsets");
   const std::optional<Eigen::Matrix3d> axes = v.norm() > 0.0 ? beam_axes(axis, v) : std::nullopt;
   if (!axes)
     f.fault(fmt::format("orientation ({:g}, {:g}, {:g}) is zero or parallel to the axis", v.x(), v.y(), v.z()),
@@ -101,8 +97,7 @@ void add_beam(NastranModel& model, CardFields& f, const BeamDefaults& defaults) 
     model.remarks.add("warping coordinates SA, SB are left out", f.label());
   beam.property = beam_property(model, f, pid);
   if (beam.property < 0) return;
-  model.of_property[pid].beams.push_back(static_cast<int>(model.deck.mesh.beams.size()));
-  model.deck.mesh.beams.push_back(beam);
+  model.of_property[pid].beams.push_back(add_row(model.deck.mesh.beams, beam));
 }
 
 BeamDefaults read_defaults(NastranModel& model, const char* name) {
@@ -187,8 +182,8 @@ void add_rods(NastranModel& model) {
       beam.property = row->second;
       model.remarks.add("torsion of rods is left out where nothing else turns an end", fmt::format("{}", beam.id));
     }
-    if (rod.pid > 0) model.of_property[rod.pid].beams.push_back(static_cast<int>(mesh.beams.size()));
-    mesh.beams.push_back(beam);
+    const int row = add_row(mesh.beams, beam);
+    if (rod.pid > 0) model.of_property[rod.pid].beams.push_back(row);
   }
 }
 

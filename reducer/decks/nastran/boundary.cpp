@@ -29,13 +29,8 @@ Components of_block(const Eigen::Matrix<double, 6, 6>& block) {
 }
 
 void attach_spider(std::vector<Components>& attached, const Spider& spider) {
-  if (spider.kind == SpiderKind::rigid) {
-    attach(attached, spider.reference, all_components);
-    for (const int node : spider.nodes) attach(attached, node, spider.node_components);
-  } else {
-    attach(attached, spider.reference, spider.reference_components);
-    for (const int node : spider.nodes) attach(attached, node, spider.node_components);
-  }
+  attach(attached, spider.reference, spider.kind == SpiderKind::rigid ? all_components : spider.reference_components);
+  for (const int node : spider.nodes) attach(attached, node, spider.node_components);
 }
 
 /// Boundary components of every node that a card names, in the order of the deck.
@@ -98,13 +93,9 @@ std::map<int, std::vector<Eigen::Vector3d>> shell_normals(const NastranModel& mo
   const std::vector<Components> turned = attachments(others);
   std::map<int, std::vector<Eigen::Vector3d>> normals;
   for (const ShellElement& shell : mesh.shells)
-    for (int i = 0; i < shell.corners(); ++i) {
-      const int node = shell.nodes[i];
+    for (const int node : nodes_of(shell)) {
       if (!wanted.contains(node) || (turned[node] & rotations_only) != 0) continue;
-      const auto x = [&](std::size_t k) { return model.position(shell.nodes[k]); };
-      const Eigen::Vector3d n =
-          shell.corners() == 3 ? (x(1) - x(0)).cross(x(2) - x(0)) : (x(2) - x(0)).cross(x(3) - x(1));
-      normals[node].push_back(n.normalized());
+      normals[node].push_back(normal_of(mesh, shell).normalized());
     }
   return normals;
 }
@@ -169,9 +160,9 @@ std::vector<Components> attachments(const Mesh& mesh) {
     for (const int node : {beam.first, beam.second}) attach(attached, node, turns ? all_components : translations_only);
   }
   for (const ShellElement& shell : mesh.shells)
-    for (int i = 0; i < shell.corners(); ++i) attach(attached, shell.nodes[i], all_components);
+    for (const int node : nodes_of(shell)) attach(attached, node, all_components);
   for (const SolidElement& solid : mesh.solids)
-    for (int i = 0; i < node_count(solid.shape); ++i) attach(attached, solid.nodes[i], translations_only);
+    for (const int node : nodes_of(solid)) attach(attached, node, translations_only);
   for (const Spring& spring : mesh.springs) {
     attach(attached, spring.first, of_block(spring.stiffness.topLeftCorner<6, 6>()));
     attach(attached, spring.second, of_block(spring.stiffness.bottomRightCorner<6, 6>()));
@@ -197,7 +188,7 @@ void add_boundary(NastranModel& model) {
   for (const HeldNode& entry : boundary.nodes()) {
     const long id = model.grid_id[entry.node];
     Components c = entry.components;
-    CardFields f(model.cards, model.cards.cards[entry.card], model.faults);
+    CardFields f = model.card(entry.card);
     if (c != translations_only && c != rotations_only && c != all_components) {
       f.fault(fmt::format("GRID {}: components {} alone cannot be boundary", id, digits(c)), "give 123, 456 or 123456");
       continue;
@@ -240,7 +231,7 @@ void judge_supports(NastranModel& model) {
     if (++support.number <= 10) support.nodes.push_back(fmt::format("{} ({})", id, digits(held.components)));
   }
   for (const auto& [card, support] : supports) {
-    CardFields f(model.cards, model.cards.cards[card], model.faults);
+    CardFields f = model.card(card);
     f.fault(
         fmt::format("holds GRID {} to ground, but a superelement floats", listed(support.nodes, ", ", support.number)),
         "put the support into the scene");

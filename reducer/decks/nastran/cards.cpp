@@ -40,7 +40,7 @@ struct Line {
 
 class CardReader {
  public:
-  CardReader(NastranCards& cards, NastranFaults& faults) : cards_(cards), faults_(faults) {}
+  CardReader(NastranCards& cards, DeckFaults& faults) : cards_(cards), faults_(faults) {}
 
   void read_file(const std::string& path, const std::string& from);
 
@@ -61,7 +61,7 @@ class CardReader {
   std::string here() const { return fmt::format("{}:{}", cards_.files[file_], line_); }
 
   NastranCards& cards_;
-  NastranFaults& faults_;
+  DeckFaults& faults_;
   std::vector<fs::path> open_;  ///< files that are being read, outermost first
   std::uintmax_t bytes_ = 0;
   std::uint32_t file_ = 0;
@@ -404,7 +404,7 @@ std::string NastranCards::where(const NastranCard& card) const {
   return fmt::format("{}:{}", files[card.file], card.line);
 }
 
-NastranCards read_nastran_cards(const std::string& path, NastranFaults& faults) {
+NastranCards read_nastran_cards(const std::string& path, DeckFaults& faults) {
   NastranCards cards;
   CardReader(cards, faults).read_file(path, "");
   return cards;

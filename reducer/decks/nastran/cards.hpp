@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reducer/decks/nastran/faults.hpp"
+#include "reducer/decks/faults.hpp"
 
 namespace tisserand::reducer {
 
@@ -44,7 +44,7 @@ struct NastranCards {
 /// ENDDATA ends it.
 /// Faults of single lines go to `faults`; a file that cannot be read, INCLUDE in a circle (or deeper than 20 levels,
 /// more than 2000 files) and more than 4 GiB of text throw Error.
-NastranCards read_nastran_cards(const std::string& path, NastranFaults& faults);
+NastranCards read_nastran_cards(const std::string& path, DeckFaults& faults);
 
 /// `text` without blanks at both ends.
 std::string_view trimmed(std::string_view text);

@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 namespace tisserand::reducer {
 
 Eigen::Vector3d frame_point(const NastranFrame& frame, const Eigen::Vector3d& x) {

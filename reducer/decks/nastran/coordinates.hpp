@@ -1,10 +1,8 @@
 // Coordinate systems of a Nastran deck: from the chain of CORD cards to origins and axes in the part frame.
 #pragma once
 
-#include <array>
 #include <map>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>

@@ -1,7 +1,6 @@
 // Second step of a Nastran deck: from the fields of a card to numbers, with faults that name card, field and value.
 #include "reducer/decks/nastran/fields.hpp"
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>

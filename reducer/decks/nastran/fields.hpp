@@ -1,7 +1,6 @@
 // Second step of a Nastran deck: from the fields of a card to numbers, with faults that name card, field and value.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,7 +27,7 @@ std::optional<Components> parse_components(std::string_view text);
 /// A card whose fields are asked for one by one; a fault is told once and clears ok(). Positions as in NastranCards.
 class CardFields {
  public:
-  CardFields(const NastranCards& cards, const NastranCard& card, NastranFaults& faults)
+  CardFields(const NastranCards& cards, const NastranCard& card, DeckFaults& faults)
       : cards_(&cards), card_(&card), faults_(&faults) {}
 
   bool blank(int index) const { return text(index).empty(); }
@@ -57,8 +56,13 @@ class CardFields {
   std::string where() const { return cards_->where(*card_); }
   const NastranCard& card() const { return *card_; }
   bool ok() const { return ok_; }
-  void refuse() { ok_ = false; }  ///< for a fault that the caller tells itself
+  void mark_faulty() { ok_ = false; }  ///< for a fault that the caller tells itself
   void fault(const std::string& what, const std::string& remedy);
+  /// The same in functions that then have nothing to return.
+  std::nullopt_t refuse(const std::string& what, const std::string& remedy) {
+    fault(what, remedy);
+    return std::nullopt;
+  }
 
  private:
   void field_fault(int index, std::string_view name, std::string_view what, std::string_view remedy);
@@ -66,7 +70,7 @@ class CardFields {
 
   const NastranCards* cards_;
   const NastranCard* card_;
-  NastranFaults* faults_;
+  DeckFaults* faults_;
   bool ok_ = true;
 };
 

@@ -11,22 +11,14 @@ namespace {
 
 std::vector<int> nodes_of(const Mesh& mesh, const ElementSet& set) {
   std::vector<int> nodes;
-  for (const int row : set.beams) {
-    const BeamElement& beam = mesh.beams[row];
-    nodes.insert(nodes.end(), {beam.first, beam.second});
-  }
-  for (const int row : set.shells) {
-    const ShellElement& shell = mesh.shells[row];
-    nodes.insert(nodes.end(), shell.nodes.begin(), shell.nodes.begin() + shell.corners());
-  }
-  for (const int row : set.solids) {
-    const SolidElement& solid = mesh.solids[row];
-    nodes.insert(nodes.end(), solid.nodes.begin(), solid.nodes.begin() + node_count(solid.shape));
-  }
-  for (const int row : set.springs) {
-    const Spring& spring = mesh.springs[row];
-    nodes.insert(nodes.end(), {spring.first, spring.second});
-  }
+  const auto add = [&nodes](const auto& elements, const std::vector<int>& rows) {
+    for (const int row : rows)
+      for (const int node : nodes_of(elements[row])) nodes.push_back(node);
+  };
+  add(mesh.beams, set.beams);
+  add(mesh.shells, set.shells);
+  add(mesh.solids, set.solids);
+  add(mesh.springs, set.springs);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;

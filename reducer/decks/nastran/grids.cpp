@@ -132,7 +132,7 @@ void Placement::read_grids() {
   const GridDefaults defaults = read_defaults();
   model_.for_each("GRID", [&](CardFields& fields) { read_grid(fields, defaults); });
   for (const int row : model_.grid_rows.build(model_.grid_id)) {
-    CardFields fields(model_.cards, model_.cards.cards[model_.grid_card[row]], model_.faults);
+    CardFields fields = model_.card(model_.grid_card[row]);
     fields.fault("this grid point is given twice", "remove one of the cards");
   }
 }
@@ -146,11 +146,9 @@ std::optional<Eigen::Vector3d> Placement::corner(FrameCard& card, std::size_t i,
     if (node < 0) return std::nullopt;
     frame = grids_[node].position_frame;
     x = grids_[node].x;
-  } else if (frame < 0) {
-    card.fields.fault(fmt::format("RID names coordinate system {}, which is missing", card.reference),
-                      "add its CORD card");
-    return std::nullopt;
-  }
+  } else if (frame < 0)
+    return card.fields.refuse(fmt::format("RID names coordinate system {}, which is missing", card.reference),
+                              "add its CORD card");
   if (!resolve(frame, card.fields, depth + 1)) return std::nullopt;
   return frame_point(model_.frames.frames[frame], x);
 }
@@ -205,7 +203,7 @@ void Placement::place() {
     const NastranFrame& frame = model_.frames.frames[grids_[i].position_frame];
     const Eigen::Vector3d position = frame_point(frame, grids_[i].x);
     if (!(position.cwiseAbs().maxCoeff() < farthest)) {
-      CardFields fields(model_.cards, model_.cards.cards[model_.grid_card[i]], model_.faults);
+      CardFields fields = model_.card(model_.grid_card[i]);
       fields.fault(fmt::format("a coordinate exceeds {:g}", farthest), "correct the coordinates");
     }
     mesh.position.col(i) = position;

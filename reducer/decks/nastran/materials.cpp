@@ -60,7 +60,7 @@ void read_mat9(CardFields& f, NastranMaterial& m) {
 }
 
 std::optional<NastranMaterial> read_material(NastranModel& model, std::size_t row) {
-  CardFields f(model.cards, model.cards.cards[row], model.faults);
+  CardFields f = model.card(row);
   NastranMaterial m;
   m.label = f.label();
   m.where = f.where();

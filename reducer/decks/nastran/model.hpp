@@ -13,6 +13,7 @@
 #include "reducer/decks/nastran/ids.hpp"
 #include "reducer/decks/nastran/materials.hpp"
 #include "reducer/decks/nastran/properties.hpp"
+#include "reducer/decks/nastran/remarks.hpp"
 
 namespace tisserand::reducer {
 
@@ -32,7 +33,7 @@ struct HeldNode {
 
 struct NastranModel {
   NastranCards cards;
-  NastranFaults faults;
+  DeckFaults faults;
   NastranRemarks remarks;                                ///< become warnings of the mesh
   std::map<std::string, std::vector<std::size_t>> rows;  ///< cards by name in capitals, in the order of the deck
   NastranFrames frames;
@@ -57,12 +58,13 @@ struct NastranModel {
     const auto found = rows.find(name);
     if (found == rows.end()) return;
     for (const std::size_t row : found->second) {
-      CardFields fields(cards, cards.cards[row], faults);
+      CardFields fields = card(row);
       action(fields);
     }
   }
 
-  /// Row of NastranCards::cards.
+  /// The card in that row of NastranCards::cards, and the row of a card.
+  CardFields card(std::size_t row) { return {cards, cards.cards[row], faults}; }
   std::size_t row(const CardFields& fields) const {
     return static_cast<std::size_t>(&fields.card() - cards.cards.data());
   }

@@ -1,7 +1,6 @@
 // Property cards of a Nastran deck: from their fields to the rows of properties that elements of the mesh name.
 #include "reducer/decks/nastran/properties.hpp"
 
-#include <initializer_list>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -12,13 +11,31 @@
 namespace tisserand::reducer {
 namespace {
 
-void index_cards(NastranModel& model, std::initializer_list<const char*> names, NastranProperties::Cards& cards) {
-  for (const char* name : names)
+template <class Read>
+void index_cards(NastranModel& model, PropertyCards<Read>& cards) {
+  for (const std::string& name : cards.names)
     model.for_each(name, [&](CardFields& f) {
       const long id = f.id(0, "PID");
-      if (id > 0 && !cards.emplace(id, model.row(f)).second)
+      if (id > 0 && !cards.card.emplace(id, model.row(f)).second)
         f.fault(fmt::format("property {} is given twice", id), "remove one of the cards");
     });
+}
+
+/// What read(card) gives for the property, kept; the default with a fault of the element if the card is missing.
+template <class Read, class Reader>
+const Read& read_once(NastranModel& model, CardFields& element, PropertyCards<Read>& cards,
+                      const std::pair<long, double>& key, const Reader& read) {
+  static const Read none{};
+  const auto known = cards.read.find(key);
+  if (known != cards.read.end()) return known->second;
+  if (!element.ok()) return none;
+  const auto found = cards.card.find(key.first);
+  if (found != cards.card.end()) {
+    CardFields card = model.card(found->second);
+    return cards.read[key] = read(card);
+  }
+  element.fault(fmt::format("PID names property {}, which is missing", key.first), "add a " + cards.kinds);
+  return none;
 }
 
 /// Two springs per card: PID, K, GE, S.
@@ -56,20 +73,14 @@ int read_rod(NastranModel& model, CardFields& f) {
 std::optional<Eigen::Matrix3d> solid_axes(NastranModel& model, CardFields& f) {
   const long id = f.integer(2, "CORDM", 0);
   if (id == 0 || !f.ok()) return Eigen::Matrix3d::Identity();
-  if (id < 0) {
-    f.fault("CORDM -1: material axes that follow each element are not understood", "name a CORD2R system");
-    return std::nullopt;
-  }
+  if (id < 0)
+    return f.refuse("CORDM -1: material axes that follow each element are not understood", "name a CORD2R system");
   const int row = model.frames.find(id);
-  if (row < 0) {
-    f.fault(fmt::format("CORDM names coordinate system {}, which is missing", id), "add its CORD card");
-    return std::nullopt;
-  }
+  if (row < 0)
+    return f.refuse(fmt::format("CORDM names coordinate system {}, which is missing", id), "add its CORD card");
   const NastranFrame& frame = model.frames.frames[row];
-  if (frame.kind != FrameKind::rectangular) {
-    f.fault(fmt::format("CORDM {}: a solid with MAT9 needs a rectangular system", id), "name a CORD2R system");
-    return std::nullopt;
-  }
+  if (frame.kind != FrameKind::rectangular)
+    return f.refuse(fmt::format("CORDM {}: a solid with MAT9 needs a rectangular system", id), "name a CORD2R system");
   return frame.axes;
 }
 
@@ -96,8 +107,7 @@ int read_solid(NastranModel& model, CardFields& f) {
     f.fault(fmt::format("{} is no material of solids", m->label), "use MAT1 or MAT9");
   }
   if (!f.ok()) return -1;
-  model.deck.mesh.solid_properties.push_back(property);
-  return static_cast<int>(model.deck.mesh.solid_properties.size()) - 1;
+  return add_row(model.deck.mesh.solid_properties, property);
 }
 
 /// Lines of "K", "B", "GE", "RCV", "M", each with six values.
@@ -116,75 +126,39 @@ std::optional<BushProperty> read_bush(CardFields& f) {
 
 }  // namespace
 
-std::optional<CardFields> property_card(NastranModel& model, CardFields& element, const NastranProperties::Cards& cards,
-                                        long id, std::string_view kinds) {
-  if (!element.ok()) return std::nullopt;
-  const auto found = cards.find(id);
-  if (found != cards.end()) return CardFields(model.cards, model.cards.cards[found->second], model.faults);
-  element.fault(fmt::format("PID names property {}, which is missing", id), fmt::format("add a {}", kinds));
-  return std::nullopt;
-}
-
 void index_properties(NastranModel& model) {
   NastranProperties& p = model.properties;
-  index_cards(model, {"PBAR", "PBARL", "PBEAM", "PBEAML"}, p.beam);
-  index_cards(model, {"PROD", "PTUBE"}, p.rod);
-  index_cards(model, {"PSHELL", "PCOMP"}, p.shell);
-  index_cards(model, {"PSOLID"}, p.solid);
-  index_cards(model, {"PBUSH"}, p.bush);
+  index_cards(model, p.beam);
+  index_cards(model, p.rod);
+  index_cards(model, p.shell);
+  index_cards(model, p.solid);
+  index_cards(model, p.bush);
   read_pelas(model);
 }
 
 int beam_property(NastranModel& model, CardFields& element, long id) {
-  const auto known = model.properties.beam_row.find(id);
-  if (known != model.properties.beam_row.end()) return known->second.row;
-  std::optional<CardFields> card =
-      property_card(model, element, model.properties.beam, id, "PBAR, PBARL, PBEAM or PBEAML");
-  if (!card) return -1;
-  const int row = read_beam_property(model, *card);
-  model.properties.beam_row[id] = {row, 0.0};
-  return row;
+  const auto read = [&](CardFields& card) { return PropertyRow{read_beam_property(model, card)}; };
+  return read_once(model, element, model.properties.beam, {id, 0.0}, read).row;
 }
 
 int rod_property(NastranModel& model, CardFields& element, long id) {
-  const auto known = model.properties.rod_row.find(id);
-  if (known != model.properties.rod_row.end()) return known->second.row;
-  std::optional<CardFields> card = property_card(model, element, model.properties.rod, id, "PROD or PTUBE");
-  if (!card) return -1;
-  const int row = read_rod(model, *card);
-  model.properties.rod_row[id] = {row, 0.0};
-  return row;
+  const auto read = [&](CardFields& card) { return PropertyRow{read_rod(model, card)}; };
+  return read_once(model, element, model.properties.rod, {id, 0.0}, read).row;
 }
 
 PropertyRow shell_property(NastranModel& model, CardFields& element, long id, double thickness) {
-  const auto known = model.properties.shell_row.find({id, thickness});
-  if (known != model.properties.shell_row.end()) return known->second;
-  std::optional<CardFields> card = property_card(model, element, model.properties.shell, id, "PSHELL or PCOMP");
-  if (!card) return {};
-  const PropertyRow row = read_shell_property(model, *card, thickness);
-  model.properties.shell_row[{id, thickness}] = row;
-  return row;
+  const auto read = [&](CardFields& card) { return read_shell_property(model, card, thickness); };
+  return read_once(model, element, model.properties.shell, {id, thickness}, read);
 }
 
 int solid_property(NastranModel& model, CardFields& element, long id) {
-  const auto known = model.properties.solid_row.find(id);
-  if (known != model.properties.solid_row.end()) return known->second.row;
-  std::optional<CardFields> card = property_card(model, element, model.properties.solid, id, "PSOLID");
-  if (!card) return -1;
-  const int row = read_solid(model, *card);
-  model.properties.solid_row[id] = {row, 0.0};
-  return row;
+  const auto read = [&](CardFields& card) { return PropertyRow{read_solid(model, card)}; };
+  return read_once(model, element, model.properties.solid, {id, 0.0}, read).row;
 }
 
 const BushProperty* bush_property(NastranModel& model, CardFields& element, long id) {
-  const auto [read, fresh] = model.properties.bush_read.try_emplace(id);
-  if (fresh) {
-    std::optional<CardFields> card = property_card(model, element, model.properties.bush, id, "PBUSH");
-    if (card) read->second = read_bush(*card);
-    if (!card) model.properties.bush_read.erase(read);
-    if (!card) return nullptr;
-  }
-  return read->second ? &*read->second : nullptr;
+  const auto& read = read_once(model, element, model.properties.bush, {id, 0.0}, read_bush);
+  return read ? &*read : nullptr;
 }
 
 }  // namespace tisserand::reducer

@@ -4,8 +4,8 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -30,14 +30,23 @@ struct BushProperty {
   Eigen::Matrix<double, 6, 1> stiffness = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
+/// Property cards of one kind, and what was read of them.
+template <class Read>
+struct PropertyCards {
+  std::vector<std::string> names;
+  std::string kinds;                                  ///< the names in words
+  std::map<long, std::size_t> card = {};              ///< id -> row of NastranCards::cards
+  std::map<std::pair<long, double>, Read> read = {};  ///< by id and thickness of the element (0: of the card)
+};
+
 /// Properties are read when the first element asks for them; what no element uses is not judged.
 struct NastranProperties {
-  using Cards = std::map<long, std::size_t>;  ///< id -> row of NastranCards::cards
-  Cards beam, rod, shell, solid, bush;
-  std::map<long, PropertyRow> beam_row, rod_row, solid_row;
-  std::map<std::pair<long, double>, PropertyRow> shell_row;  ///< by id and thickness of the element (0: of the card)
+  PropertyCards<PropertyRow> beam{{"PBAR", "PBARL", "PBEAM", "PBEAML"}, "PBAR, PBARL, PBEAM or PBEAML"};
+  PropertyCards<PropertyRow> rod{{"PROD", "PTUBE"}, "PROD or PTUBE"};
+  PropertyCards<PropertyRow> shell{{"PSHELL", "PCOMP"}, "PSHELL or PCOMP"};
+  PropertyCards<PropertyRow> solid{{"PSOLID"}, "PSOLID"};
+  PropertyCards<std::optional<BushProperty>> bush{{"PBUSH"}, "PBUSH"};
   std::map<long, ElasticProperty> elastic;
-  std::map<long, std::optional<BushProperty>> bush_read;
 };
 
 /// Finds the property cards and reads PELAS; faults for ids that stand twice.
@@ -61,9 +70,5 @@ int add_rod_property(NastranModel& model, CardFields& card, int material_index, 
 /// Used by the above; in files of their own.
 int read_beam_property(NastranModel& model, CardFields& card);
 PropertyRow read_shell_property(NastranModel& model, CardFields& card, double thickness);
-
-/// The card of the property, with a fault of the element if it is missing.
-std::optional<CardFields> property_card(NastranModel& model, CardFields& element, const NastranProperties::Cards& cards,
-                                        long id, std::string_view kinds);
 
 }  // namespace tisserand::reducer

@@ -1,5 +1,4 @@
 // PSHELL and PCOMP of a Nastran deck become sections of shells.
-#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
@@ -85,10 +84,8 @@ std::optional<Stack> read_plies(NastranModel& model, CardFields& f) {
   const std::string_view kind = f.text(7);
   if (same_word(kind, "SYM")) {
     stack.plies.insert(stack.plies.end(), stack.plies.rbegin(), stack.plies.rend());
-  } else if (!kind.empty()) {
-    f.fault(fmt::format("LAM '{}' is not understood", kind), "leave it blank or use SYM");
-    return std::nullopt;
-  }
+  } else if (!kind.empty())
+    return f.refuse(fmt::format("LAM '{}' is not understood", kind), "leave it blank or use SYM");
   for (const Ply& ply : stack.plies) stack.thickness += ply.thickness;
   return stack;
 }
@@ -104,8 +101,7 @@ std::optional<ShellSection> pcomp_section(NastranModel& model, CardFields& f, do
   try {
     check_plies(stack->plies, f.where());
   } catch (const Error& error) {
-    f.fault(error.message(), error.remedy());
-    return std::nullopt;
+    return f.refuse(error.message(), error.remedy());
   }
   ShellSection section = laminate(stack->plies, -0.5 * stack->thickness);
   section.mass += nsm * model.mass_scale;
@@ -126,8 +122,7 @@ PropertyRow read_shell_property(NastranModel& model, CardFields& f, double thick
   property.section = *section;
   property.mass_matrix = model.mass_matrix;
   property.name = f.label();
-  result.row = static_cast<int>(model.deck.mesh.shell_properties.size());
-  model.deck.mesh.shell_properties.push_back(property);
+  result.row = add_row(model.deck.mesh.shell_properties, property);
   return result;
 }
 

@@ -9,21 +9,15 @@
 namespace tisserand::reducer {
 namespace {
 
-Eigen::Vector3d normal_of(const NastranModel& model, const ShellElement& shell) {
-  const auto x = [&](std::size_t i) { return model.position(shell.nodes[i]); };
-  if (shell.corners() == 3) return (x(1) - x(0)).cross(x(2) - x(0));
-  return (x(2) - x(0)).cross(x(3) - x(1));
-}
-
 /// THETA (real) turns from the side G1-G2; MCID (integer) projects the first axis of a coordinate system at the middle.
 void read_material_axis(NastranModel& model, CardFields& f, int index, ShellElement& shell) {
   if (f.blank(index) || !f.ok()) return;
-  const Eigen::Vector3d n = normal_of(model, shell).normalized();
+  const Eigen::Vector3d n = normal_of(model.deck.mesh, shell).normalized();
   if (const std::optional<long> id = parse_integer(f.text(index)); id) {
     const int row = model.frame(f, index, "MCID");
     if (row < 0) return;
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (int i = 0; i < shell.corners(); ++i) middle += model.position(shell.nodes[i]) / shell.corners();
+    for (const int node : nodes_of(shell)) middle += model.position(node) / shell.corners();
     shell.material_x = frame_axes_at(model.frames.frames[row], middle).col(0);
     if (!(shell.material_x.cross(n).norm() > 1e-6))
       f.fault(fmt::format("the x axis of coordinate system {} is normal to the element", *id), "choose another MCID");
@@ -38,8 +32,8 @@ void read_material_axis(NastranModel& model, CardFields& f, int index, ShellElem
 
 /// T of the PSHELL, 0 without one.
 double property_thickness(NastranModel& model, long pid) {
-  const auto card = model.properties.shell.find(pid);
-  if (card == model.properties.shell.end()) return 0.0;
+  const auto card = model.properties.shell.card.find(pid);
+  if (card == model.properties.shell.card.end()) return 0.0;
   return parse_real(model.cards.field(model.cards.cards[card->second], 2)).value_or(0.0);
 }
 
@@ -82,8 +76,7 @@ void add_shell(NastranModel& model, CardFields& f, int corners) {
   if (property.row < 0) return;
   shell.property = property.row;
   shell.offset += property.offset;
-  model.of_property[pid].shells.push_back(static_cast<int>(model.deck.mesh.shells.size()));
-  model.deck.mesh.shells.push_back(shell);
+  model.of_property[pid].shells.push_back(add_row(model.deck.mesh.shells, shell));
 }
 
 }  // namespace

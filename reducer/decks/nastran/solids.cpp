@@ -1,6 +1,5 @@
 // CTETRA, CHEXA and CPENTA of a Nastran deck become solids of the mesh.
 #include <array>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -43,8 +42,7 @@ void add_solid(NastranModel& model, CardFields& f, const SolidCard& card) {
   if (!f.ok()) return;
   solid.property = solid_property(model, f, pid);
   if (solid.property < 0) return;
-  model.of_property[pid].solids.push_back(static_cast<int>(model.deck.mesh.solids.size()));
-  model.deck.mesh.solids.push_back(solid);
+  model.of_property[pid].solids.push_back(add_row(model.deck.mesh.solids, solid));
 }
 
 }  // namespace

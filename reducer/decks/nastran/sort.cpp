@@ -1,6 +1,5 @@
 // Cards of a Nastran deck by name: what builds the mesh, what does not belong to a superelement, what is not
 // understood.
-#include <algorithm>
 #include <map>
 #include <set>
 #include <string>

@@ -53,8 +53,8 @@ void add_elastic(NastranModel& model, CardFields& f, double stiffness, long pid,
   if (rigid_motion_defect(spring.stiffness, apart ? between : Eigen::Vector3d::Zero()) > 1e-9)
     return f.fault("this spring resists rigid motion of the part, like a support",
                    "use CBUSH, or grid points that coincide or lie on the line of the spring");
-  if (pid > 0) model.of_property[pid].springs.push_back(static_cast<int>(model.deck.mesh.springs.size()));
-  model.deck.mesh.springs.push_back(spring);
+  const int row = add_row(model.deck.mesh.springs, spring);
+  if (pid > 0) model.of_property[pid].springs.push_back(row);
 }
 
 /// Columns: axes of the bushing in part axes; without CID and v only K1 and K4 mean anything.
@@ -66,10 +66,7 @@ std::optional<Eigen::Matrix3d> bush_axes(NastranModel& model, CardFields& f, con
     if (row < 0) return std::nullopt;
     return frame_axes_at(model.frames.frames[row], a);
   }
-  if (!(axis.norm() > 0.0)) {
-    f.fault("the grid points coincide and CID is blank", "give CID");
-    return std::nullopt;
-  }
+  if (!(axis.norm() > 0.0)) return f.refuse("the grid points coincide and CID is blank", "give CID");
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
   if (parse_integer(f.text(4)).value_or(0) > 0 && f.blank(5) && f.blank(6)) {
     const int node = model.node(f, 4, "GO");
@@ -81,10 +78,8 @@ std::optional<Eigen::Matrix3d> bush_axes(NastranModel& model, CardFields& f, con
   std::optional<Eigen::Matrix3d> axes = v.norm() > 0.0 ? beam_axes(axis, v) : std::nullopt;
   if (axes) return axes;
   const auto& k = bush.stiffness;
-  if (k(1) != 0.0 || k(2) != 0.0 || k(4) != 0.0 || k(5) != 0.0 || v.norm() > 0.0) {
-    f.fault("the orientation is missing or parallel to the axis", "give X1, X2, X3, GO or CID");
-    return std::nullopt;
-  }
+  if (k(1) != 0.0 || k(2) != 0.0 || k(4) != 0.0 || k(5) != 0.0 || v.norm() > 0.0)
+    return f.refuse("the orientation is missing or parallel to the axis", "give X1, X2, X3, GO or CID");
   Eigen::Index least = 0;
   axis.cwiseAbs().minCoeff(&least);
   return beam_axes(axis, Eigen::Vector3d::Unit(least));
@@ -117,8 +112,7 @@ void add_bush(NastranModel& model, CardFields& f) {
   const BushingPlace place{point - model.position(spring.first), point - model.position(spring.second), *axes};
   spring.stiffness = bushing(bush->stiffness.asDiagonal(), place);
   spring.name = f.label();
-  model.of_property[pid].springs.push_back(static_cast<int>(model.deck.mesh.springs.size()));
-  model.deck.mesh.springs.push_back(spring);
+  model.of_property[pid].springs.push_back(add_row(model.deck.mesh.springs, spring));
 }
 
 /// I11, I21, I22, I31, I32, I33 about the centre of mass; products of inertia enter the matrix with a minus sign.

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <Eigen/Geometry>
 
 #include "common/math/rotation.hpp"
 #include "reducer/elements/beam/ends.hpp"

@@ -1,8 +1,6 @@
 // The plane in which a shell element works: from the nodes of a mesh to axes, projected corners and heights of warping.
 #pragma once
 
-#include <array>
-
 #include <Eigen/Core>
 
 #include "reducer/mesh/mesh.hpp"

@@ -1,5 +1,4 @@
 // Where the mass of a shell is, and how it moves with the nodes.
-#include <vector>
 
 #include <Eigen/Cholesky>
 

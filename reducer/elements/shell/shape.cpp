@@ -1,6 +1,5 @@
 // Faults of shape of shell elements, told with their measures before any matrix is made.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 

@@ -110,9 +110,8 @@ TriangleSides triangle_sides(const Corners& corner, const ShellSection& section)
   const Eigen::Matrix3d D = section.D - section.B * section.A.inverse() * section.B;
   TriangleSides sides;
   for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    sides.side[k] = plate_side(corner.col((i + 1) % 3) - corner.col(i), D, section.As);
-    sides.bulge[k] = side_bulge(sides.side[k], i, (i + 1) % 3);
+    sides.side[i] = plate_side(corner.col((i + 1) % 3) - corner.col(i), D, section.As);
+    sides.bulge[i] = side_bulge(sides.side[i], i, (i + 1) % 3);
   }
   return sides;
 }
@@ -143,10 +142,9 @@ PlateRows curvature(const Eigen::Matrix<double, 2, 3>& slope, const TriangleSide
                     const Eigen::Vector3d& lambda) {
   PlateRows rows = curvature_rows<3>(slope);
   for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
     const int j = (i + 1) % 3;
     const Eigen::Vector2d g = 4.0 * (lambda[i] * slope.col(j) + lambda[j] * slope.col(i));
-    rows.noalias() += side_curvature(sides.side[k], g) * sides.bulge[k];
+    rows.noalias() += side_curvature(sides.side[i], g) * sides.bulge[i];
   }
   return rows;
 }

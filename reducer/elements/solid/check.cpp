@@ -176,20 +176,7 @@ void check(const Mesh& mesh, const SolidElement& solid, ShapeFindings& findings)
 }  // namespace
 
 void check_shape(const Mesh& mesh, const SolidElement& solid, ShapeFindings& findings) {
-  switch (solid.shape) {
-    case SolidShape::tetrahedron4:
-      return check<SolidShape::tetrahedron4>(mesh, solid, findings);
-    case SolidShape::tetrahedron10:
-      return check<SolidShape::tetrahedron10>(mesh, solid, findings);
-    case SolidShape::hexahedron8:
-      return check<SolidShape::hexahedron8>(mesh, solid, findings);
-    case SolidShape::hexahedron20:
-      return check<SolidShape::hexahedron20>(mesh, solid, findings);
-    case SolidShape::prism6:
-      return check<SolidShape::prism6>(mesh, solid, findings);
-    case SolidShape::prism15:
-      return check<SolidShape::prism15>(mesh, solid, findings);
-  }
+  with_shape(solid.shape, [&]<SolidShape shape>() { check<shape>(mesh, solid, findings); });
 }
 
 }  // namespace tisserand::reducer

@@ -45,7 +45,7 @@ void add_point(const Mesh& mesh, const FacePressure& face, const NaturalPoint& a
     along_s += N[i].slope[1] * mesh.position.col(face.nodes[i]);
   }
   const Eigen::Vector3d force = -face.pressure * weight * along_r.cross(along_s);
-  for (int i = 0; i < face.count; ++i) load.col(i) += N[static_cast<std::size_t>(i)].value * force;
+  for (int i = 0; i < face.count; ++i) load.col(i) += N[i].value * force;
 }
 
 }  // namespace

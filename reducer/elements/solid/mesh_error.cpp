@@ -269,25 +269,6 @@ double solid_angle(const Mesh& mesh, const SolidElement& solid, int corner) {
   return 2.0 * std::atan2(std::abs(a.dot(b.cross(c))), 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
 }
 
-/// work(shape as a constant).
-auto with_shape(SolidShape shape, const auto& work) {
-  switch (shape) {
-    case SolidShape::tetrahedron4:
-      return work.template operator()<SolidShape::tetrahedron4>();
-    case SolidShape::tetrahedron10:
-      return work.template operator()<SolidShape::tetrahedron10>();
-    case SolidShape::hexahedron8:
-      return work.template operator()<SolidShape::hexahedron8>();
-    case SolidShape::hexahedron20:
-      return work.template operator()<SolidShape::hexahedron20>();
-    case SolidShape::prism6:
-      return work.template operator()<SolidShape::prism6>();
-    case SolidShape::prism15:
-      return work.template operator()<SolidShape::prism15>();
-  }
-  TISSERAND_ENSURE(false, "solid shape {}", static_cast<int>(shape));
-}
-
 }  // namespace
 
 void sample_stresses(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u, StressSamples& out) {

@@ -51,20 +51,7 @@ void green(const Mesh& mesh, const SolidElement& solid, SecondOrderRows& out) {
 }  // namespace
 
 void second_order(const Mesh& mesh, const SolidElement& solid, SecondOrderRows& out) {
-  switch (solid.shape) {
-    case SolidShape::tetrahedron4:
-      return green<SolidShape::tetrahedron4>(mesh, solid, out);
-    case SolidShape::tetrahedron10:
-      return green<SolidShape::tetrahedron10>(mesh, solid, out);
-    case SolidShape::hexahedron8:
-      return green<SolidShape::hexahedron8>(mesh, solid, out);
-    case SolidShape::hexahedron20:
-      return green<SolidShape::hexahedron20>(mesh, solid, out);
-    case SolidShape::prism6:
-      return green<SolidShape::prism6>(mesh, solid, out);
-    case SolidShape::prism15:
-      return green<SolidShape::prism15>(mesh, solid, out);
-  }
+  with_shape(solid.shape, [&]<SolidShape shape>() { green<shape>(mesh, solid, out); });
 }
 
 }  // namespace tisserand::reducer

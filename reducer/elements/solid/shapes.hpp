@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 
+#include "common/error.hpp"
 #include "reducer/mesh/mesh.hpp"
 
 namespace tisserand::reducer {
@@ -162,5 +163,24 @@ struct SolidBasis<SolidShape::prism15> {
     return N;
   }
 };
+
+/// work(shape as a constant).
+auto with_shape(SolidShape shape, const auto& work) {
+  switch (shape) {
+    case SolidShape::tetrahedron4:
+      return work.template operator()<SolidShape::tetrahedron4>();
+    case SolidShape::tetrahedron10:
+      return work.template operator()<SolidShape::tetrahedron10>();
+    case SolidShape::hexahedron8:
+      return work.template operator()<SolidShape::hexahedron8>();
+    case SolidShape::hexahedron20:
+      return work.template operator()<SolidShape::hexahedron20>();
+    case SolidShape::prism6:
+      return work.template operator()<SolidShape::prism6>();
+    case SolidShape::prism15:
+      return work.template operator()<SolidShape::prism15>();
+  }
+  TISSERAND_ENSURE(false, "solid shape {}", static_cast<int>(shape));
+}
 
 }  // namespace tisserand::reducer

@@ -9,7 +9,6 @@
 // ([TBW76]; [SR90] section 4 shows that this is the enhanced strain of the Hu-Washizu principle).
 #include <Eigen/Core>
 
-#include "common/error.hpp"
 #include "reducer/elements/element_matrices.hpp"
 #include "reducer/elements/solid/gradients.hpp"
 
@@ -51,8 +50,7 @@ void mass(const NodePositions<static_cast<int>(SolidBasis<shape>::nodes.size())>
   const Eigen::Map<const Eigen::Matrix<double, nodes, points>> N(table.value[0].data());
   Eigen::Matrix<double, points, 1> dm;
   for (int q = 0; q < points; ++q) {
-    const std::size_t point = static_cast<std::size_t>(q);
-    dm[q] = property.material.density * table.weight[point] * jacobian<nodes>(x, table.gradient[point]).determinant();
+    dm[q] = property.material.density * table.weight[q] * jacobian<nodes>(x, table.gradient[q]).determinant();
   }
   M.setZero(3 * nodes, 3 * nodes);
   Eigen::Matrix<double, nodes, nodes> m;
@@ -81,38 +79,11 @@ void matrices(const Mesh& mesh, const SolidElement& solid, ElementMatrices& out)
 }  // namespace
 
 int node_count(SolidShape shape) {
-  switch (shape) {
-    case SolidShape::tetrahedron4:
-      return 4;
-    case SolidShape::tetrahedron10:
-      return 10;
-    case SolidShape::hexahedron8:
-      return 8;
-    case SolidShape::hexahedron20:
-      return 20;
-    case SolidShape::prism6:
-      return 6;
-    case SolidShape::prism15:
-      return 15;
-  }
-  TISSERAND_ENSURE(false, "solid shape {}", static_cast<int>(shape));
+  return with_shape(shape, []<SolidShape s>() { return static_cast<int>(SolidBasis<s>::nodes.size()); });
 }
 
 void element_matrices(const Mesh& mesh, const SolidElement& solid, ElementMatrices& out) {
-  switch (solid.shape) {
-    case SolidShape::tetrahedron4:
-      return matrices<SolidShape::tetrahedron4>(mesh, solid, out);
-    case SolidShape::tetrahedron10:
-      return matrices<SolidShape::tetrahedron10>(mesh, solid, out);
-    case SolidShape::hexahedron8:
-      return matrices<SolidShape::hexahedron8>(mesh, solid, out);
-    case SolidShape::hexahedron20:
-      return matrices<SolidShape::hexahedron20>(mesh, solid, out);
-    case SolidShape::prism6:
-      return matrices<SolidShape::prism6>(mesh, solid, out);
-    case SolidShape::prism15:
-      return matrices<SolidShape::prism15>(mesh, solid, out);
-  }
+  with_shape(solid.shape, [&]<SolidShape shape>() { matrices<shape>(mesh, solid, out); });
 }
 
 }  // namespace tisserand::reducer

@@ -1,6 +1,5 @@
 // Stresses of solid elements at their nodes: from the quadrature points of the stiffness by a smooth polynomial.
 #include <Eigen/LU>
-#include <Eigen/QR>
 
 #include "reducer/elements/element_stress.hpp"
 #include "reducer/elements/solid/gradients.hpp"
@@ -23,8 +22,7 @@ template <SolidShape shape>
 Eigen::MatrixXd polynomials(const auto& points) {
   const auto count = static_cast<Eigen::Index>(points.size());
   Eigen::MatrixXd rows(count, polynomial<shape>(points[0]).size());
-  for (Eigen::Index i = 0; i < count; ++i)
-    rows.row(i) = polynomial<shape>(points[static_cast<std::size_t>(i)]).transpose();
+  for (Eigen::Index i = 0; i < count; ++i) rows.row(i) = polynomial<shape>(points[i]).transpose();
   return rows;
 }
 
@@ -82,21 +80,7 @@ Eigen::MatrixXd stress_at_nodes(const Mesh& mesh, const SolidElement& solid) {
 }  // namespace
 
 Eigen::MatrixXd solid_stress(const Mesh& mesh, const SolidElement& solid) {
-  switch (solid.shape) {
-    case SolidShape::tetrahedron4:
-      return stress_at_nodes<SolidShape::tetrahedron4>(mesh, solid);
-    case SolidShape::tetrahedron10:
-      return stress_at_nodes<SolidShape::tetrahedron10>(mesh, solid);
-    case SolidShape::hexahedron8:
-      return stress_at_nodes<SolidShape::hexahedron8>(mesh, solid);
-    case SolidShape::hexahedron20:
-      return stress_at_nodes<SolidShape::hexahedron20>(mesh, solid);
-    case SolidShape::prism6:
-      return stress_at_nodes<SolidShape::prism6>(mesh, solid);
-    case SolidShape::prism15:
-      return stress_at_nodes<SolidShape::prism15>(mesh, solid);
-  }
-  TISSERAND_ENSURE(false, "solid shape {}", static_cast<int>(solid.shape));
+  return with_shape(solid.shape, [&]<SolidShape shape>() { return stress_at_nodes<shape>(mesh, solid); });
 }
 
 }  // namespace tisserand::reducer

@@ -14,7 +14,7 @@ using namespace reducer;
 
 std::vector<std::string> fields_of(const std::string& text) {
   const DeckFolder folder({{"main.bdf", text}});
-  NastranFaults faults;
+  DeckFaults faults;
   const NastranCards cards = read_nastran_cards(folder.main(), faults);
   faults.raise();
   std::vector<std::string> fields{std::string(cards.cards.at(0).name)};

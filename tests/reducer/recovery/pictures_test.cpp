@@ -3,7 +3,7 @@
 
 #include "formats/vtk/vtu.hpp"
 #include "reducer/elements/checks.hpp"
-#include "reducer/recovery/fields.hpp"
+#include "reducer/fields/fields.hpp"
 #include "reducer/view/part_page.hpp"
 #include "tests/support/meshes/solid_mesh.hpp"
 #include "tests/support/view/page_reader.hpp"

@@ -7,7 +7,7 @@
 #include "formats/modal_body/modal_body.hpp"
 #include "formats/part/part.hpp"
 #include "formats/recovery/recovery.hpp"
-#include "reducer/recovery/shapes.hpp"
+#include "reducer/fields/shapes.hpp"
 #include "reducer/second_order/displacement.hpp"
 
 namespace tisserand::reducer {
@@ -22,12 +22,13 @@ struct MotionSource {
 struct RecoverySource {
   const Mesh& mesh;
   const Coordinates& coordinates;
-  MotionSource motion;     ///< of each coordinate of the file
-  MotionSource loads;      ///< static answers to the inertia loads of head.loads; no columns where there are none
-  MotionSource second_order;  ///< shapes of second order of head.second_order; no columns where there are none
-  MotionSource load_forces, mode_forces;  ///< on the nodes, as motions are; without `motions` where there are none
-  formats::Recovery head;  ///< names, units, identity, coordinates: what is not of the mesh
-  bool is_modal = false;   ///< of the modal body, not of the superelement
+  MotionSource motion;        ///< of each coordinate of the file
+  MotionSource loads = {};    ///< static answers to the inertia loads of head.loads; no columns where there are none
+  MotionSource second_order = {};  ///< shapes of second order of head.second_order; no columns where there are none
+  MotionSource load_forces = {};   ///< on the nodes, as motions are; without `motions` where there are none
+  MotionSource mode_forces = {};   ///< likewise
+  formats::Recovery head;                 ///< names, units, identity, coordinates: what is not of the mesh
+  bool is_modal = false;                  ///< of the modal body, not of the superelement
 };
 
 /// Hears of it (phase "recovery").

@@ -1,5 +1,5 @@
 // Faces that are met once, and their triangles.
-#include "reducer/recovery/surface.hpp"
+#include "reducer/fields/surface.hpp"
 
 #include <algorithm>
 #include <array>

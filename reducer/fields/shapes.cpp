@@ -1,5 +1,5 @@
 // Rows of T [1 0; Ψ Φ].
-#include "reducer/recovery/shapes.hpp"
+#include "reducer/fields/shapes.hpp"
 
 namespace tisserand::reducer {
 namespace {

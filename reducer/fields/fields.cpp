@@ -1,5 +1,5 @@
 // Displacements and stresses of the mesh for every coordinate, block by block.
-#include "reducer/recovery/fields.hpp"
+#include "reducer/fields/fields.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -39,41 +39,34 @@ void displacements(const MotionSource& shapes, const formats::Recovery& tables, 
   });
 }
 
-/// Of elements whose matrix `stress_of` takes six coordinates per node; `nodes_of` appends their nodes.
-void element_field(const MotionSource& shapes, const formats::Recovery& tables, RecoveryField field,
-                   const auto& nodes_of, const auto& stress_of, const FieldSink& sink) {
+/// Of elements whose matrix `stress_of` takes six coordinates per node.
+void element_field(const auto& elements, const MotionSource& shapes, const formats::Recovery& tables,
+                   RecoveryField field, const auto& stress_of, const FieldSink& sink) {
   const int width = formats::width(field);
   for_blocks(shapes, tables, field, 24, [&](int first, int count) {
     std::vector<int> nodes, begin{0};
     for (int e = first; e < first + count; ++e) {
-      nodes_of(e, nodes);
+      for (const int node : nodes_of(elements[e])) nodes.push_back(node);
       begin.push_back(static_cast<int>(nodes.size()));
     }
     const MatrixXd motion = shapes.motions(nodes);
     MatrixXd rows(static_cast<Index>(width) * count, motion.cols());
     for (int e = 0; e < count; ++e)
       rows.middleRows(static_cast<Index>(width) * e, width).noalias() =
-          stress_of(first + e) * motion.middleRows(6 * begin[e], 6 * (begin[e + 1] - begin[e]));
+          stress_of(elements[first + e]) * motion.middleRows(6 * begin[e], 6 * (begin[e + 1] - begin[e]));
     sink(field, rows);
   });
 }
 
 void beam_forces(const Mesh& mesh, const MotionSource& shapes, const formats::Recovery& tables, const FieldSink& sink) {
-  const auto nodes_of = [&mesh](int e, std::vector<int>& nodes) {
-    nodes.insert(nodes.end(), {mesh.beams[e].first, mesh.beams[e].second});
-  };
-  const auto stress_of = [&mesh](int e) { return beam_section_forces(mesh, mesh.beams[e]); };
-  element_field(shapes, tables, RecoveryField::beam_force, nodes_of, stress_of, sink);
+  const auto stress_of = [&mesh](const BeamElement& beam) { return beam_section_forces(mesh, beam); };
+  element_field(mesh.beams, shapes, tables, RecoveryField::beam_force, stress_of, sink);
 }
 
 void shell_stresses(const Mesh& mesh, const MotionSource& shapes, const formats::Recovery& tables,
                     const FieldSink& sink) {
-  const auto nodes_of = [&mesh](int e, std::vector<int>& nodes) {
-    const ShellElement& shell = mesh.shells[e];
-    nodes.insert(nodes.end(), shell.nodes.begin(), shell.nodes.begin() + shell.corners());
-  };
-  const auto stress_of = [&mesh](int e) { return shell_stress(mesh, mesh.shells[e]); };
-  element_field(shapes, tables, RecoveryField::shell_stress, nodes_of, stress_of, sink);
+  const auto stress_of = [&mesh](const ShellElement& shell) { return shell_stress(mesh, shell); };
+  element_field(mesh.shells, shapes, tables, RecoveryField::shell_stress, stress_of, sink);
 }
 
 /// Which stress point each node of each solid counts for, and the solids around each point.
@@ -94,8 +87,8 @@ PointTable point_table(const Mesh& mesh, const formats::Recovery& tables) {
   table.around.assign(static_cast<std::size_t>(points) + 1, 0);
   for (int s = 0; s < static_cast<int>(mesh.solids.size()); ++s) {
     const SolidElement& solid = mesh.solids[s];
-    for (int k = 0; k < node_count(solid.shape); ++k) {
-      int point = of_node[solid.nodes[k]];
+    for (const int node : nodes_of(solid)) {
+      int point = of_node[node];
       while (tables.stress_group[point] != tables.elements.group[beside + s]) ++point;
       table.point.push_back(point);
       ++table.around[point + 1];
@@ -117,8 +110,7 @@ MatrixXd point_stresses(const Mesh& mesh, const MotionSource& shapes, const Poin
   solids.erase(std::unique(solids.begin(), solids.end()), solids.end());
   std::vector<int> nodes;
   for (const int s : solids)
-    nodes.insert(nodes.end(), mesh.solids[s].nodes.begin(),
-                 mesh.solids[s].nodes.begin() + node_count(mesh.solids[s].shape));
+    for (const int node : nodes_of(mesh.solids[s])) nodes.push_back(node);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   const MatrixXd motion = shapes.motions(nodes);

@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "formats/sections/profiles.hpp"
-#include "reducer/recovery/surface.hpp"
+#include "reducer/fields/surface.hpp"
 
 namespace tisserand::reducer {
 namespace {

@@ -1,17 +1,17 @@
 // Mesh and properties as the recovery file has them.
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <numeric>
 #include <utility>
 
-#include "common/error.hpp"
 #include "formats/superelement/mirror.hpp"
-#include "reducer/elements/shell/geometry.hpp"
 #include "reducer/algebra/petsc.hpp"
+#include "reducer/elements/shell/geometry.hpp"
 #include "reducer/elements/turning_mass.hpp"
+#include "reducer/fields/fields.hpp"
+#include "reducer/fields/surface.hpp"
 #include "reducer/loads/load_vectors.hpp"
-#include "reducer/recovery/fields.hpp"
-#include "reducer/recovery/surface.hpp"
 #include "reducer/second_order/inertia_loads.hpp"
 
 namespace tisserand::reducer {
@@ -21,21 +21,9 @@ using formats::ElementShape;
 using formats::Recovery;
 
 ElementShape shape_of(SolidShape shape) {
-  switch (shape) {
-    case SolidShape::tetrahedron4:
-      return ElementShape::tetrahedron4;
-    case SolidShape::tetrahedron10:
-      return ElementShape::tetrahedron10;
-    case SolidShape::hexahedron8:
-      return ElementShape::hexahedron8;
-    case SolidShape::hexahedron20:
-      return ElementShape::hexahedron20;
-    case SolidShape::prism6:
-      return ElementShape::prism6;
-    case SolidShape::prism15:
-      return ElementShape::prism15;
-  }
-  TISSERAND_ENSURE(false, "solid shape {}", static_cast<int>(shape));
+  constexpr std::array shapes{ElementShape::tetrahedron4, ElementShape::tetrahedron10, ElementShape::hexahedron8,
+                              ElementShape::hexahedron20, ElementShape::prism6,        ElementShape::prism15};
+  return shapes[static_cast<int>(shape)];
 }
 
 /// `part`: a Superelement or ModalBody.
@@ -46,8 +34,7 @@ Recovery head_of(const Part& part, const Image& image) {
   r.producer = part.producer;
   r.units = part.units;
   r.content_id = formats::content_id(part);
-  for (int k = 0; k < 7; ++k)
-    r.mirror_content_id[static_cast<std::size_t>(k)] = formats::content_id(image(formats::mirror_axes(k)));
+  for (int k = 0; k < 7; ++k) r.mirror_content_id[k] = formats::content_id(image(formats::mirror_axes(k)));
   return r;
 }
 
@@ -111,7 +98,7 @@ void add_solids(const Mesh& mesh, int first_group, ElementTable& table, Recovery
   std::vector<std::pair<int, int>> points;
   for (const SolidElement& solid : mesh.solids) {
     table.add(shape_of(solid.shape), solid.nodes.data(), first_group + solid.property, solid.id);
-    for (int k = 0; k < node_count(solid.shape); ++k) points.emplace_back(solid.nodes[k], first_group + solid.property);
+    for (const int node : nodes_of(solid)) points.emplace_back(node, first_group + solid.property);
   }
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -184,16 +171,15 @@ struct CoordinateForces {
   std::vector<int> row_of;  ///< of each q; −1: it bears none
 };
 
-/// The same as forces on the nodes: on coordinates that ties leave independent, which do the same work. Nothing where an
-/// auxiliary coordinate, which no node has, bears one.
+/// The same as forces on the nodes: on coordinates that ties leave independent, which do the same work. Nothing where
+/// an auxiliary coordinate, which no node has, bears one.
 MotionSource nodal_forces_of(const System& system, CoordinateForces forces) {
   constexpr double round_off = 1e-12;
   const Coordinates& numbers = system.coordinates;
   const double largest = forces.rows.size() > 0 ? forces.rows.cwiseAbs().maxCoeff() : 0.0;
   for (int q = 0; q < system.size(); ++q)
-    if (const int row = forces.row_of[static_cast<std::size_t>(q)];
-        row >= 0 && system.T.source[static_cast<std::size_t>(q)] >= numbers.count() &&
-        forces.rows.row(row).cwiseAbs().sum() > round_off * largest)
+    if (const int row = forces.row_of[q]; row >= 0 && system.T.source[q] >= numbers.count() &&
+                                          forces.rows.row(row).cwiseAbs().sum() > round_off * largest)
       return {};
   const Eigen::Index columns = forces.rows.cols();
   const auto shared = std::make_shared<const CoordinateForces>(std::move(forces));
@@ -201,7 +187,7 @@ MotionSource nodal_forces_of(const System& system, CoordinateForces forces) {
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(nodes.size()), shared->rows.cols());
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (int x = numbers.first[nodes[i]]; x < numbers.first[nodes[i] + 1]; ++x) {
-        const int q = system.T.row[x], row = q < 0 ? -1 : shared->row_of[static_cast<std::size_t>(q)];
+        const int q = system.T.row[x], row = q < 0 ? -1 : shared->row_of[q];
         if (row >= 0) out.row(6 * static_cast<Eigen::Index>(i) + numbers.component[x]) = shared->rows.row(row);
       }
     return out;
@@ -219,7 +205,7 @@ CoordinateForces mode_forces(const InternalProblem& problem, const InternalModes
                                         internal.lambda.head(m - vectors).asDiagonal();
   if (vectors > 0) forces.rows.rightCols(vectors) = multiply(problem.blocks.S_II, internal.Phi.rightCols(vectors));
   for (std::size_t i = 0; i < problem.partition.internal.size(); ++i)
-    forces.row_of[static_cast<std::size_t>(problem.partition.internal[i])] = static_cast<int>(i);
+    forces.row_of[problem.partition.internal[i]] = static_cast<int>(i);
   return forces;
 }
 
@@ -261,7 +247,8 @@ void add_loads(const InternalProblem& problem, const InternalModes& internal, co
   loads.share.bottomRows(m) = answers.share;
   loads.stiffness = Eigen::VectorXd::Zero(n);
   loads.stiffness.tail(m) = internal.lambda;
-  loads.stiffness.segment(n - m, internal.loose()).setConstant(m > internal.loose() ? internal.lambda[internal.loose()] : 1.0);
+  loads.stiffness.segment(n - m, internal.loose())
+      .setConstant(m > internal.loose() ? internal.lambda[internal.loose()] : 1.0);
   loads.left_out = internal.first_dropped.value_or(m > 0 && m < internal.available ? internal.lambda.maxCoeff() : 0.0);
   source.head.loads = std::move(loads);
   add_forces(problem, internal, std::move(answers.force), superelement, source);
@@ -280,15 +267,11 @@ RecoverySource recovery_source(const InternalProblem& problem, const BoundaryMod
   });
   head.dof_node = superelement.dof_node;
   head.dof_component = superelement.dof_component;
-  RecoverySource source{problem.mesh,
-                        system.coordinates,
-                        {[shapes](const auto& nodes) { return shapes->motions(nodes); }, shapes->coordinates()},
-                        {},
-                        {},
-                        {},
-                        {},
-                        std::move(head),
-                        false};
+  RecoverySource source{
+      .mesh = problem.mesh,
+      .coordinates = system.coordinates,
+      .motion = {[shapes](const auto& nodes) { return shapes->motions(nodes); }, shapes->coordinates()},
+      .head = std::move(head)};
   if (internal.boundary_mass.size() == 0) add_loads(problem, internal, superelement, source);
   if (second_order) {
     source.head.second_order = std::move(second_order->forms);
@@ -308,15 +291,12 @@ RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eig
     head.dof_component.push_back(k);
   }
   head.loads = std::move(loads);
-  return {mesh,
-          system.coordinates,
-          motions_of(std::make_shared<const Eigen::MatrixXd>(expand(system.T, q)), system.coordinates),
-          motions_of(std::make_shared<const Eigen::MatrixXd>(std::move(answers)), system.coordinates),
-          {},
-          {},
-          {},
-          std::move(head),
-          true};
+  return {.mesh = mesh,
+          .coordinates = system.coordinates,
+          .motion = motions_of(std::make_shared<const Eigen::MatrixXd>(expand(system.T, q)), system.coordinates),
+          .loads = motions_of(std::make_shared<const Eigen::MatrixXd>(std::move(answers)), system.coordinates),
+          .head = std::move(head),
+          .is_modal = true};
 }
 
 Recovery recovery_tables(const RecoverySource& source) {

@@ -1,0 +1,30 @@
+// The faults of a deck on their way to one Error.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/error.hpp"
+
+namespace tisserand::reducer {
+
+/// Collects errors; beyond 50 they are only counted.
+class DeckFaults {
+ public:
+  /// `more` says, with a number, how many were only counted.
+  explicit DeckFaults(std::string more = "and {} more errors of this deck") : more_text_(std::move(more)) {}
+  void add(std::string what, std::string where, std::string remedy);
+  bool empty() const { return errors_.empty(); }
+
+  /// Throws all of them as one Error, if there are any.
+  void raise() const;
+
+ private:
+  std::string more_text_;
+  std::vector<Error> errors_;
+  std::size_t more_ = 0;
+};
+
+}  // namespace tisserand::reducer
