@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <Eigen/QR>
+
 namespace tisserand::reducer {
 namespace {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "common/units.hpp"
 #include "formats/recovery/recovery.hpp"

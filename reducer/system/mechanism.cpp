@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 
 #include "common/error.hpp"
 #include "common/text.hpp"

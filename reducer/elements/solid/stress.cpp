@@ -1,5 +1,6 @@
 // Stresses of solid elements at their nodes: from the quadrature points of the stiffness by a smooth polynomial.
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include "reducer/elements/element_stress.hpp"
 #include "reducer/elements/solid/gradients.hpp"
