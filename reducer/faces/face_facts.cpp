@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -15,7 +16,7 @@ using Positions = std::vector<Vector3d>;
 
 constexpr double exact_tolerance = 1e-6, mesh_tolerance = 1e-4, rounding = 1e-6;  // of sizes; of coordinates
 constexpr double exact_angle = 1e-3, guess_angle = 0.5;                           // rad
-constexpr double most_turn = 52.0 * EIGEN_PI / 180.0;                             // of one cell
+constexpr double most_turn = 52.0 * std::numbers::pi / 180.0;                     // of one cell
 constexpr std::size_t least_normals = 3;
 
 Vector3d middle_of(const Cell& cell, const Positions& x) {

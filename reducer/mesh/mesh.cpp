@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -53,7 +54,7 @@ NearestPair nearest_pair(const Mesh& mesh, const std::vector<int>& piece, int ch
   std::vector<int> order(mesh.nodes());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return mesh.position(0, a) < mesh.position(0, b); });
-  NearestPair best{0, 0, INFINITY};
+  NearestPair best{0, 0, std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < order.size(); ++i)
     for (std::size_t j = i + 1; j < order.size(); ++j) {
       const int a = order[i], b = order[j];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -103,11 +104,12 @@ LumpedModes held_modes(const Mesh& mesh, const System& system, const formats::Mo
                 "hold one node, or 3 + 2 + 1 translations at three nodes, or for a rod four components and two");
   const Blocks blocks = split(system.matrices, p);
   const Factor S_II(blocks.S_II);
-  require_stiffness(null_space(blocks.S_II, S_II), S_II, mesh, system, p,
-                    {"the modal body", "on its reference",
-                     "give the elements there stiffness in that direction, or split the part at the hinge: a modal body "
-                     "has no mechanism"},
-                    body.where);
+  require_stiffness(
+      null_space(blocks.S_II, S_II), S_II, mesh, system, p,
+      {"the modal body", "on its reference",
+       "give the elements there stiffness in that direction, or split the part at the hinge: a modal body "
+       "has no mechanism"},
+      body.where);
   const int available = finite_mode_count(blocks.M_II);
   if (body.modes > available) fail_for_modes(body.modes, available, body.where);
   const Spectrum spectrum = lowest_pairs({blocks.S_II, blocks.M_II, S_II, 0.0}, body.modes, available,
@@ -243,7 +245,13 @@ ModalBodyCertificate describe(const formats::ModalBody& body, const std::string&
 /// What the modes leave out, at all nodes that the part names.
 LumpedAnswers answers_of(const Mesh& mesh, const Mesh& lumped, const System& system, const LumpedModes& modes,
                          const std::vector<LumpedNode>& nodes, const formats::ModalBody& body) {
-  AnsweredBody asked{system, held_partition(lumped, system).boundary, modes.lambda, modes.q, {}, {}, mesh.position,
+  AnsweredBody asked{system,
+                     held_partition(lumped, system).boundary,
+                     modes.lambda,
+                     modes.q,
+                     {},
+                     {},
+                     mesh.position,
                      body.frame_position};
   for (const LumpedNode& node : nodes) asked.masses.push_back({node.mass, node.arm});
   for (const MeshBoundary& boundary : mesh.boundary) asked.nodes.push_back({boundary.name, boundary.node});
@@ -276,9 +284,8 @@ FoundBody find_body(const Mesh& mesh, const formats::Part& part, double lowest, 
   const formats::ModalBodyRequest& request = *part.modal_body;
   const Mesh lumped = lumped_mesh(mesh);
   const System system = build_system(lumped, part.file);
-  const LumpedModes modes =
-      mesh.held.empty() ? free_modes(lumped, system, request, part.modes, lowest)
-                        : held_modes(lumped, system, request, part.modes);
+  const LumpedModes modes = mesh.held.empty() ? free_modes(lumped, system, request, part.modes, lowest)
+                                              : held_modes(lumped, system, request, part.modes);
   std::vector<LumpedNode> nodes = lumped_nodes(mesh, lumped, system, request);
   formats::ModalBody body;
   body.name = part.name;
@@ -299,8 +306,8 @@ FoundBody find_body(const Mesh& mesh, const formats::Part& part, double lowest, 
   LumpedAnswers answers = answers_of(mesh, lumped, system, modes, all, body);
   set_residual(answers, body);
   if (recover) {
-    formats::RecoveryLoads loads{body.frame_position,      std::move(answers.forces),       std::move(answers.share),
-                                 body.omega2, body.omega2.maxCoeff(), {}};
+    formats::RecoveryLoads loads{body.frame_position, std::move(answers.forces), std::move(answers.share),
+                                 body.omega2,         body.omega2.maxCoeff(),    {}};
     recover(recovery_source(mesh, system, modes.q, body, std::move(loads), std::move(answers.x)));
   }
   return {std::move(body), modes.solver};
@@ -319,7 +326,8 @@ std::optional<formats::ModalBody> modal_body_if_asked(const Mesh& mesh, const fo
                                                       ModelCertificate& model) {
   if (!part.modal_body) return std::nullopt;
   begin("modal body");
-  const double lowest = file.free_frequency.empty() ? 0.0 : std::pow(2.0 * EIGEN_PI * file.free_frequency[0], 2);
+  const double lowest =
+      file.free_frequency.empty() ? 0.0 : std::pow(2.0 * std::numbers::pi * file.free_frequency[0], 2);
   FoundBody found = find_body(mesh, part, lowest, part.recovery ? recover : nullptr);
   model.modal_body = describe(found.body, found.solver);
   return std::move(found.body);

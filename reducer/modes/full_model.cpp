@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -50,8 +51,8 @@ std::optional<FreeModes> full_free_modes(const System& system, const FreeSearch&
   const SystemMatrices matrices = to_petsc(system.matrices);
   const int rigid_motions = sought.rigid_motions, most = rigid_motions + sought.count;
   const bool is_dense = choose_solver(system.size(), most, asked) == EigenSolver::lapack;
-  const int available =
-      !is_dense && most + sought_beyond <= sought.finite ? static_cast<int>(system.size()) : finite_mode_count(matrices.mass);
+  const int available = !is_dense && most + sought_beyond <= sought.finite ? static_cast<int>(system.size())
+                                                                           : finite_mode_count(matrices.mass);
   const int wanted = std::min(available, most);
   if (wanted <= rigid_motions) return FreeModes{};
   // As far below the rigid motions as the first mode above: a solution errs by ε λ_max/(λ − shift), 7e-8 for bricks
@@ -77,7 +78,7 @@ ModeComparison compare_free_modes(const System& system, const FreeSearch& sought
     if (!pairs) return result;
     const Eigen::Index kept = std::min<Eigen::Index>(sought.count, pairs->value.size());
     for (Eigen::Index k = 0; k < kept; ++k)
-      result.frequency.push_back(std::sqrt(std::max(0.0, pairs->value[k])) / (2.0 * EIGEN_PI));
+      result.frequency.push_back(std::sqrt(std::max(0.0, pairs->value[k])) / (2.0 * std::numbers::pi));
     const Eigen::MatrixXd Mu = multiply(symmetric_rows(system.matrices, system.matrices.M), u);
     result.assurance = (pairs->vector.leftCols(kept).transpose() * Mu).cwiseAbs2();
     return result;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -101,7 +102,7 @@ double decisive_number(const InternalProblem& problem, const Gauge& gauge, const
   return moved[largest];
 }
 
-double eigenvalue_of(double frequency) { return std::pow(2.0 * EIGEN_PI * frequency, 2); }
+double eigenvalue_of(double frequency) { return std::pow(2.0 * std::numbers::pi * frequency, 2); }
 
 Pencil pencil_of(const InternalProblem& problem) {
   return {problem.blocks.S_II, problem.blocks.M_II, problem.S_II, 0.0, problem.share, problem.begin};
@@ -141,7 +142,7 @@ Count count_of(formats::Verification verify) {
 
 void fail_low_cutoff(const formats::ModeSelection& selection, const char* kind, double lowest) {
   throw Error(fmt::format("cutoff {:g} is below the first {} mode, {:.4g}: no mode would be kept", *selection.cutoff,
-                          kind, std::sqrt(std::max(0.0, lowest)) / (2.0 * EIGEN_PI)),
+                          kind, std::sqrt(std::max(0.0, lowest)) / (2.0 * std::numbers::pi)),
               selection.where, "raise it, or write `modes: 0` in its place if none is wanted");
 }
 

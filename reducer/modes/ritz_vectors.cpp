@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -64,11 +65,12 @@ FreeModes chosen_free_modes(const InternalProblem& problem, const formats::ModeS
   if (selection.cutoff) {
     const SystemMatrices all = to_petsc(problem.system.matrices);
     constexpr int rigid = 6;
-    count = std::max(0, count_below(all.stiffness, all.mass, std::pow(2.0 * EIGEN_PI * *selection.cutoff, 2)) - rigid);
+    count = std::max(
+        0, count_below(all.stiffness, all.mass, std::pow(2.0 * std::numbers::pi * *selection.cutoff, 2)) - rigid);
   }
   if (count == 0 && !selection.cutoff) return {{VectorXd(), MatrixXd(problem.system.size(), 0)}, {}, {}};
-  std::optional<FreeModes> pairs =
-      full_free_modes(problem.system, {.scale = lambda_1, .count = std::max(1, count)}, selection, verify, problem.share);
+  std::optional<FreeModes> pairs = full_free_modes(problem.system, {.scale = lambda_1, .count = std::max(1, count)},
+                                                   selection, verify, problem.share);
   if (!pairs) fail_without_mass(problem);
   if (count == 0 && pairs->value.size() > 0) fail_low_cutoff(selection, "free", pairs->value[0]);
   if (pairs->value.size() < count)

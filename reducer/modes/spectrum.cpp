@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -152,7 +153,8 @@ SolverReport report_of(const Spectrum& s) {
       "{} modes keep a residual above {:.0e}, from {:.6g} on: their frequencies are within {:.1e}, relatively, of "
       "those "
       "of the mesh.",
-      s.unsharp.size(), usual_residual, std::sqrt(std::max(0.0, s.unsharp.front().lambda)) / (2.0 * EIGEN_PI), error));
+      s.unsharp.size(), usual_residual, std::sqrt(std::max(0.0, s.unsharp.front().lambda)) / (2.0 * std::numbers::pi),
+      error));
   return report;
 }
 

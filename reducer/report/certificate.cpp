@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
@@ -99,7 +100,7 @@ void find_effective_masses(const formats::Superelement& element, FileCertificate
 
 }  // namespace
 
-double frequency(double lambda) { return std::sqrt(std::max(lambda, 0.0)) / (2.0 * EIGEN_PI); }
+double frequency(double lambda) { return std::sqrt(std::max(lambda, 0.0)) / (2.0 * std::numbers::pi); }
 
 FileCertificate certify(const formats::Superelement& element, const formats::SuperelementReport& report) {
   FileCertificate c;

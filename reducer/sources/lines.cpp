@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -27,7 +28,7 @@ Curve circle_arc(const Eigen::Vector3d& from, const Eigen::Vector3d& through, co
   curve.e2 = n.normalized().cross(curve.e1);
   const Eigen::Vector3d end = to - curve.center;
   curve.angle = std::atan2(end.dot(curve.e2), end.dot(curve.e1));
-  if (curve.angle <= 0.0) curve.angle += 2.0 * EIGEN_PI;
+  if (curve.angle <= 0.0) curve.angle += 2.0 * std::numbers::pi;
   return curve;
 }
 
@@ -62,7 +63,7 @@ int element_count(const Curve& curve, const formats::BeamLine& line) {
   const int least = static_cast<int>(curve.angle / 2.0) + 1;
   if (count < least)
     throw Error(fmt::format("beam '{}': {} elements for an arc of {:.0f} degrees", line.name, count,
-                            curve.angle * 180.0 / EIGEN_PI),
+                            curve.angle * 180.0 / std::numbers::pi),
                 line.where, fmt::format("use at least {} elements", least));
   return count;
 }

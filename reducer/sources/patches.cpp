@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -84,7 +85,9 @@ Circle circle_of(const Vector3d& center, const Vector3d& axis, const std::option
 /// A square core whose corners lie at 0, 90, 180, 270 degrees on 0.6 of the radius, and rings around it.
 Grids full_disc(const Circle& circle, double radius, int around, int rings) {
   const int side = around / 4;
-  const auto corner = [circle, radius](int k) -> Vector3d { return circle.at(0.6 * radius, 0.5 * EIGEN_PI * k); };
+  const auto corner = [circle, radius](int k) -> Vector3d {
+    return circle.at(0.6 * radius, 0.5 * std::numbers::pi * k);
+  };
   Grids result;
   result.grids.push_back({side, side, [corner, side](int i, int j) -> Vector3d {
                             const double s = static_cast<double>(i) / side, t = static_cast<double>(j) / side;
@@ -96,7 +99,7 @@ Grids full_disc(const Circle& circle, double radius, int around, int rings) {
                             const double s = static_cast<double>(j % side) / side;
                             const Vector3d inner = (1 - s) * corner(k) + s * corner(k + 1);
                             const double t = static_cast<double>(i) / rings;
-                            return (1 - t) * inner + t * circle.at(radius, 2.0 * EIGEN_PI * j / around);
+                            return (1 - t) * inner + t * circle.at(radius, 2.0 * std::numbers::pi * j / around);
                           }});
   result.edges.push_back({"rim", 1, false, rings});
   return result;
@@ -105,14 +108,16 @@ Grids full_disc(const Circle& circle, double radius, int around, int rings) {
 Grids grids_of(const formats::Disc& disc, const formats::ShellPatch& patch) {
   const Circle circle = circle_of(disc.center, disc.normal, disc.start);
   const bool counted = !patch.elements.empty(), full = disc.inner_radius == 0.0;
-  int around = counted ? patch.elements[0] : std::max(8, count_from(2.0 * EIGEN_PI * disc.radius, patch.size, patch));
+  int around =
+      counted ? patch.elements[0] : std::max(8, count_from(2.0 * std::numbers::pi * disc.radius, patch.size, patch));
   if (!counted && full) around = 4 * ((around + 3) / 4);
   const double width = full ? 0.4 * disc.radius : disc.radius - disc.inner_radius;
   const int rings = counted ? patch.elements[1] : count_from(width, patch.size, patch);
   if (full) return full_disc(circle, disc.radius, around, rings);
   const double inner = disc.inner_radius, outer = disc.radius;
   const Grid grid{rings, around, [=](int i, int j) -> Vector3d {
-                    return circle.at(inner + (outer - inner) * i / rings, 2.0 * EIGEN_PI * (j % around) / around);
+                    return circle.at(inner + (outer - inner) * i / rings,
+                                     2.0 * std::numbers::pi * (j % around) / around);
                   }};
   return {{grid}, {{"rim", 0, false, rings}, {"hole", 0, false, 0}}};
 }
@@ -120,7 +125,7 @@ Grids grids_of(const formats::Disc& disc, const formats::ShellPatch& patch) {
 Grids grids_of(const formats::Cylinder& cylinder, const formats::ShellPatch& patch) {
   const Vector3d axis = cylinder.to - cylinder.from;
   const Circle circle = circle_of(cylinder.from, axis, cylinder.start);
-  const bool counted = !patch.elements.empty(), closed = cylinder.angle > 2.0 * EIGEN_PI * (1.0 - 1e-12);
+  const bool counted = !patch.elements.empty(), closed = cylinder.angle > 2.0 * std::numbers::pi * (1.0 - 1e-12);
   const double arc = cylinder.angle * std::max(cylinder.radius, cylinder.end_radius);
   const int n = counted ? patch.elements[0] : std::max(closed ? 8 : 1, count_from(arc, patch.size, patch));
   const double slant = std::hypot(axis.norm(), cylinder.end_radius - cylinder.radius);

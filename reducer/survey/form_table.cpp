@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -34,7 +35,7 @@ std::string radius_text(const SurfaceForm& form) {
     case FormKind::torus:
       return fmt::format("{:.6g}, {:.6g}", form.radius, form.minor_radius);
     case FormKind::cone:
-      return fmt::format("{:.6g} deg", form.half_angle * 180.0 / EIGEN_PI);
+      return fmt::format("{:.6g} deg", form.half_angle * 180.0 / std::numbers::pi);
     case FormKind::plane:
     case FormKind::curved:
       break;

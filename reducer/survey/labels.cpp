@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace tisserand::reducer {
 namespace {
@@ -46,7 +47,7 @@ bool LabelPlacer::write_beside(const std::string& text, const SeenPlace& seen) {
   Vector2d best = Vector2d::Zero();
   for (const double radius : {24.0, 34.0, 48.0, 64.0, 84.0, 110.0, 140.0, 180.0})
     for (int k = 0; k < directions_tried; ++k) {
-      const double angle = 2.0 * EIGEN_PI * k / directions_tried;
+      const double angle = 2.0 * std::numbers::pi * k / directions_tried;
       const Vector2d at = seen.place + Vector2d((radius + 0.5 * size.x()) * std::cos(angle), radius * std::sin(angle));
       if (!is_free(at, size)) continue;
       const double cost = radius + (projection_.covers(at) ? off_background : 0.0);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -37,7 +38,7 @@ struct Piece {
   formats::Surface surface;
   std::vector<formats::SkinCarrier> carriers;
   int all_vertices = 0;
-  MatrixXd shapes;  ///< 3 V x n per unit of each coordinate; empty without modes
+  MatrixXd shapes;              ///< 3 V x n per unit of each coordinate; empty without modes
   std::vector<int> elements{};  ///< of each triangle; empty: not known
 };
 
@@ -197,8 +198,8 @@ void add_piece(const Piece& piece, const Eigen::VectorXd& largest, PageBlocks& b
             {"mass", nullptr}};
   if (!piece.colour.empty()) body["colour"] = piece.colour;
   if (count > 0) body["amplitudes"] = blocks.add_floats(PageRows::Zero(1, count), {1, count});
-  json["shapes"].push_back(formats::shape_json(
-      {piece.surface, "recovery", false, piece.all_vertices, 0.0, piece.elements}, few, blocks));
+  json["shapes"].push_back(
+      formats::shape_json({piece.surface, "recovery", false, piece.all_vertices, 0.0, piece.elements}, few, blocks));
   for (std::size_t k = 0; count > 0 && k < json["modes"].size(); ++k) {
     Json amplitudes = Json::array();
     for (Index j = 0; j < count; ++j) amplitudes.push_back(few.amplitudes(static_cast<Index>(k), j));
@@ -301,7 +302,7 @@ std::vector<double> frequencies_beside(const formats::RecoveryReader& recovery) 
     const formats::ModalBody body = formats::read_modal_body(stem + ".h5").body;
     if (formats::content_id(body) != id) return {};
     std::vector<double> frequency;
-    for (const double value : body.omega2) frequency.push_back(std::sqrt(value) / (2.0 * EIGEN_PI));
+    for (const double value : body.omega2) frequency.push_back(std::sqrt(value) / (2.0 * std::numbers::pi));
     return frequency;
   }
   if (!std::filesystem::is_regular_file(stem + ".superelement.h5")) return {};
@@ -312,7 +313,7 @@ std::vector<double> frequencies_beside(const formats::RecoveryReader& recovery) 
     if (element.dof_node[k] < 0) {
       const auto i = static_cast<Index>(k);
       const double ratio = element.stiffness(i, i) / element.mass(i, i);  // the canonical form has mass 1
-      frequency[k] = ratio > 0.0 ? std::sqrt(ratio) / (2.0 * EIGEN_PI) : 0.0;
+      frequency[k] = ratio > 0.0 ? std::sqrt(ratio) / (2.0 * std::numbers::pi) : 0.0;
     }
   return frequency;
 }

@@ -1,6 +1,7 @@
 // What is wrong with the shape of a solid element, before its matrices are asked for.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <Eigen/LU>
@@ -39,9 +40,9 @@ double jacobian_at(const Positions<shape>& x, const NaturalPoint& point) {
 struct Jacobians {
   double volume = 0.0;
   double mean = 0.0;
-  double least = INFINITY;
-  double most = -INFINITY;
-  double least_at_node = INFINITY;
+  double least = std::numeric_limits<double>::infinity();
+  double most = -std::numeric_limits<double>::infinity();
+  double least_at_node = std::numeric_limits<double>::infinity();
   std::size_t worst_node = 0;
 };
 
@@ -75,7 +76,7 @@ Jacobians jacobians(const Positions<shape>& x) {
 
 struct EdgeLengths {
   double longest = 0.0;
-  double shortest = INFINITY;
+  double shortest = std::numeric_limits<double>::infinity();
   std::size_t shortest_edge = 0;
 };
 
@@ -96,7 +97,7 @@ EdgeLengths edge_lengths(const Positions<shape>& x) {
 /// Prisms whose triangles are wide against the height between them.
 template <SolidShape shape>
 double flatness(const Positions<shape>& x) {
-  double wide = 0.0, height = INFINITY;
+  double wide = 0.0, height = std::numeric_limits<double>::infinity();
   for (const auto& [a, b] : SolidBasis<shape>::edges) {
     const double length = (x.col(a) - x.col(b)).norm();
     if (b == a + 3)

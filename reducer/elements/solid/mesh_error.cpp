@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -223,7 +224,8 @@ Eigen::VectorXd imbalance_of(const Mesh& mesh, const SolidElement& solid, const 
     const Eigen::Matrix3d J = jacobian<nodes>(x, table.gradient[q]), inverse = J.inverse();
     const Eigen::Matrix<double, nodes, 3> slope = GradientMap<nodes>(table.gradient[q][0].data()) * inverse;
     const double h = 2.0 / inverse.colwise().norm().maxCoeff();
-    const double weight = table.weight[q] * J.determinant() * h * h / (EIGEN_PI * EIGEN_PI * material.C(3, 3));
+    const double weight =
+        table.weight[q] * J.determinant() * h * h / (std::numbers::pi * std::numbers::pi * material.C(3, 3));
     const Eigen::Map<const Eigen::Matrix<double, nodes, 1>> N(table.value[q].data());
     for (Eigen::Index m = 0; m < u.cols(); ++m) {
       const Eigen::Map<const Eigen::Matrix<double, 3, nodes>> displacement(u.col(m).data());
@@ -287,8 +289,7 @@ Eigen::VectorXd imbalance(const Mesh& mesh, const SolidElement& solid, const Eig
 }
 
 Eigen::VectorXd stress_energy(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& stress, int modes) {
-  const double volume =
-      with_shape(solid.shape, [&]<SolidShape shape>() { return volume_of<shape>(mesh, solid); });
+  const double volume = with_shape(solid.shape, [&]<SolidShape shape>() { return volume_of<shape>(mesh, solid); });
   const Eigen::Matrix<double, 6, 6> F = mesh.solid_properties[solid.property].material.C.inverse();
   const Eigen::VectorXd energy = stress.cwiseProduct(F * stress).colwise().sum().transpose();
   return volume * energy.reshaped(modes, stress.cols() / modes).rowwise().mean();
