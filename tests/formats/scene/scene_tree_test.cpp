@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/math/rotation.hpp"
+#include "formats/scene/fields.hpp"
 #include "formats/scene/scene.hpp"
 #include "tests/formats/yaml/text_input.hpp"
 
@@ -116,6 +117,20 @@ TEST(SceneParameters, GrowthIsBounded) {
 }
 
 // ---- include --------------------------------------------------------------------------------------------------------
+
+// A scene whose files are named in another folder is written with their way from its own: places of bodies are not
+// ways.
+TEST(Include, TextOfASceneNamesFilesFromItsOwnFolder) {
+  const Files files({{"scene.yaml", "scene: test\ninclude: [parts/bodies.yaml]\n" + tail},
+                     {"parts/bodies.yaml",
+                      "bodies:\n  frame: {type: rigid, from: frame.superelement.h5}\n"
+                      "  arm: {type: superelement, file: ../arm.superelement.h5}\n"
+                      "  cable: {type: rigid, mass: 1, inertia: [1, 1, 1], shape: {type: cylinder, from: [0, 0, 0], "
+                      "to: [1, 0, 0], radius: 0.1}}\n"}});
+  const std::string text = scene_text(files.folder.path() + "/scene.yaml", {}, scene_key_sets());
+  EXPECT_THAT(text, HasSubstr("from: parts/frame.superelement.h5"));
+  EXPECT_THAT(text, HasSubstr("file: arm.superelement.h5"));
+}
 
 TEST(SceneInclude, JoinsEntriesAndFillsInSettings) {
   const Files files({{"scene.yaml", "scene: whole\ninclude: [parts/arm.yaml, base.yaml]\nintegrator: {step: 0.5}\n"},
