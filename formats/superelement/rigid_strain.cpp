@@ -67,7 +67,7 @@ int usual_digits(const Eigen::MatrixXd& matrix) {
 /// Whether every entry is a number of single precision, up to the relative error `decimal` of its text.
 bool has_single_precision(const Eigen::MatrixXd& matrix, double decimal) {
   return std::ranges::all_of(matrix.reshaped(), [&](double value) {
-    return std::abs(value) < std::numeric_limits<float>::max() &&
+    return std::abs(value) < static_cast<double>(std::numeric_limits<float>::max()) &&
            std::abs(value - static_cast<double>(static_cast<float>(value))) <= decimal * std::abs(value);
   });
 }

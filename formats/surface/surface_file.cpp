@@ -131,7 +131,7 @@ TriangleSurface read_binary_stl(const std::string& bytes, const std::string& pat
   for (std::size_t i = 0; i < count; ++i) {
     const char* at = bytes.data() + stl_head + i * stl_triangle + 12;  // after the normal
     std::array<Eigen::Vector3d, 3> corners;
-    for (int k = 0; k < 9; ++k) corners[k / 3][k % 3] = std::bit_cast<float>(little_endian(at + 4 * k));
+    for (int k = 0; k < 9; ++k) corners[k / 3][k % 3] = static_cast<double>(std::bit_cast<float>(little_endian(at + 4 * k)));
     for (const Eigen::Vector3d& corner : corners)
       if (!corner.allFinite())
         throw Error(fmt::format("triangle {} has a corner that is no finite number", i + 1), path, again);

@@ -28,7 +28,7 @@ Json triple(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json numbers(const auto& row) {
   Json list = Json::array();
-  for (const double x : row) list.push_back(x);
+  for (const auto x : row) list.push_back(static_cast<double>(x));
   return list;
 }
 
