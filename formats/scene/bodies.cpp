@@ -238,7 +238,7 @@ KeySet modal_fields() {
   return {"body_modal",
           {{"type", "'modal'", "", "required"},
            plain<&ModalBodySpec::file>("file", "text", "modal body file, relative to the scene file", "required"),
-           {"mirror", "mirror", "as of superelements", "no"},
+           {"mirror", "mirror", "mirrors the body; same values as for a superelement", "no"},
            plain<&ModalBodySpec::modes>("modes", "number_of", "use only the lowest modes, 0 or more", "all"),
            plain<&ModalBodySpec::cutoff>("cutoff", "positive",
                                          "instead: modes below this frequency [1/time of the scene]", "all"),

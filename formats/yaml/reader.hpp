@@ -31,7 +31,7 @@ class YamlReader {
 
   const YamlNode& root() const { return document_.root; }
   const KeySet& keys(std::string_view noun) const;
-  /// Of the first file: names of files that stand in it count from there.
+  /// The folder of the first file. The file names in that file are relative to it.
   std::filesystem::path folder() const;
   std::string where(const YamlPlace& place) const { return document_.where(place); }
 

@@ -36,11 +36,11 @@ bool alike_across(const Matrix3d& matrix, const Vector3d& axis) {
   return most - least <= alike * most;
 }
 
-/// Of a beam whose sections are the same in all directions across it, ∫ ρJ Ω₁ ds changes by the axial moments at its
-/// ends alone, however it is bent (balance of moment of momentum of its sections: bending moments are parallel to
-/// curvatures). Superelements keep that sum with the moment of momentum of their bending shapes in it, which is far
-/// larger, so that a bent one spins about its axis for no reason, and all the more the thinner it is. Measured is
-/// s = (Σ J Ω₁ − Σ J Ω₁(start) − ∫ Σ e·m dt)/Σ J over pieces welded in a row which nothing holds against that turn,
+/// Take a beam that bends equally in all directions, as with round and square sections. Then ∫ ρJ Ω₁ ds changes by the
+/// axial moments at its ends alone, however it is bent (balance of moment of momentum of its sections: bending moments
+/// are parallel to curvatures). Superelements keep that sum with the moment of momentum of their bending shapes in it,
+/// which is far larger. So a bent one spins about its axis for no reason, and all the more the thinner it is. Measured
+/// is s = (Σ J Ω₁ − Σ J Ω₁(start) − ∫ Σ e·m dt)/Σ J over pieces welded in a row which nothing holds against that turn,
 /// with the moments m at their nodes; seen, the largest |s| beside the largest spin |Ω₀|.
 class AxialSpin : public Doubt {
  public:
@@ -118,7 +118,7 @@ class AxialSpin : public Doubt {
     Eigen::Vector3d axis;
     double inertia = 0.0;  ///< J about the axis
   };
-  /// Of a beam, in the place of its name in welded_beams().
+  /// What was seen of one beam. Beams have the order of welded_beams().
   struct Seen {
     bool free = false;
     double inertia = 0.0;   ///< Σ J

@@ -125,7 +125,7 @@ class InertiaChoice : public Doubt {
     double shift = 0.0;
     int beam = 0;
   };
-  /// Of a beam, in the place of its name in welded_beams().
+  /// What was seen of one beam. Beams have the order of welded_beams().
   struct Seen {
     double now = 0.0;         ///< ½ Σ yᵀSy
     double strain = 0.0;      ///< the largest

@@ -58,7 +58,7 @@ class MultiplierSwing : public Doubt {
     std::string worst = text(worst_);
     return worst.empty() ? std::vector<std::string>{} : std::vector<std::string>{std::move(worst)};
   }
-  /// Of the latest stretch.
+  /// Tells of the latest stretch of swinging steps.
   std::string explanation(Puzzle puzzle, const Model&) const override {
     return puzzle == Puzzle::failure ? text(latest_) : "";
   }

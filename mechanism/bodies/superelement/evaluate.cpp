@@ -29,7 +29,7 @@ SuperelementWork make_work(const SuperelementBody& body) {
   const Eigen::Index nb = body.boundary_size, m = body.modes;
   SuperelementWork work;
   work.internal.set_diagonal(Eigen::VectorXd::Ones(m));
-  if (body.damping.is_full()) work.internal.resize(m);
+  if (body.damping.is_full() && !body.second_order.any()) work.internal.resize(m);
   for (Eigen::MatrixXd* matrix : {&work.Q, &work.N, &work.A_BB, &work.Np, &work.G1, &work.G2}) matrix->setZero(nb, nb);
   for (Eigen::Matrix<double, Eigen::Dynamic, 3>* matrix : {&work.J, &work.F, &work.V1}) matrix->setZero(nb, 3);
   for (Eigen::VectorXd* vector : {&work.r_B_condensed, &work.column, &work.turned}) vector->setZero(nb);

@@ -55,7 +55,8 @@ struct SuperelementWork {
   Eigen::MatrixXd A_BB;           ///< nb x nb, y_I eliminated: result of tangent()
   Eigen::VectorXd r_B_condensed;  ///< r_B − A_BI A_II⁻¹ r_I: result of condense()
 
-  /// Of the step tangent, by the letters of tangent.cpp: nb x nb, and nb x 3.
+  /// Scratch of the step tangent, nb x nb and nb x 3. The names are those of its formula (condensed_tangent in
+  /// tangent.cpp).
   Eigen::MatrixXd Np, G1, G2;
   Eigen::Matrix<double, Eigen::Dynamic, 3> J, F, V1;
   CenterWork center;                ///< of inertia option M

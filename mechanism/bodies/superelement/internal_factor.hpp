@@ -11,7 +11,7 @@ namespace tisserand::mechanism {
 class InternalFactor {
  public:
   InternalFactor();
-  /// So that factors of matrices need no memory later.
+  /// Takes the memory that factors of matrices need later.
   void resize(Eigen::Index modes);
 
   void set_diagonal(const Eigen::VectorXd& A);
@@ -23,7 +23,7 @@ class InternalFactor {
   void solve_in_place(Eigen::VectorXd& x) const;
   void solve_in_place(Eigen::MatrixXd& X) const;
 
-  /// Of a diagonal.
+  /// 1/A of a diagonal matrix A.
   const Eigen::VectorXd& reciprocals() const { return reciprocals_; }
 
   /// Lower triangle of S −= Bᵀ A⁻¹ B of a symmetric matrix A; B (modes x columns) is lost.

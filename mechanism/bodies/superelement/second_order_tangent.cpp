@@ -30,13 +30,19 @@ void times_Z_in(const SuperelementBody& body, const SuperelementTangent& frozen,
     if (node.has_rotation())
       turn -= X.middleCols<n>(6 + node.rotation_row).lazyProduct(local.Tinv.bottomRightCorner<n, n>().transpose());
   }
+  auto& rest = total;  // of the columns of x₀, which the weights share out
+  rest = X.leftCols<D>() - total;
   const Eigen::Matrix<double, D, D> R0T = frozen.R0.topLeftCorner<D, D>().transpose();
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     const LocalNode<double>& local = frozen.node[i];
     if (node.has_translation()) {
       const int row = node.translation_row;
-      out.middleCols<D>(row) = (X.middleCols<D>(6 + row) + node.alpha * (X.leftCols<D>() - total)).lazyProduct(R0T);
+      for (int c = 0; c < D; ++c) {  // column by column: a product with a sum would take memory for the sum
+        auto column = out.col(row + c);
+        column = R0T(0, c) * (X.col(6 + row) + node.alpha * rest.col(0));
+        for (int k = 1; k < D; ++k) column += R0T(k, c) * (X.col(6 + row + k) + node.alpha * rest.col(k));
+      }
       if (body.frame == FrameAlgorithm::polar)
         out.middleCols<D>(row) += turn.lazyProduct(local.U_x.bottomLeftCorner<n, D>());
     }

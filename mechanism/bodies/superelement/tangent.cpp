@@ -51,7 +51,7 @@ void update_constants(const SuperelementBody& body, const TangentCoefficients& c
   }
   work.N = body.M_BB - c.mass * work.Q;
   update_full_stiffness(body, c, work);
-  if (!body.damping.is_full() || body.modes == 0) return;
+  if (!body.damping.is_full() || body.second_order.any() || body.modes == 0) return;
   work.A_II = c.damping * body.damping.II;
   work.A_II.diagonal() += work.internal_column;
   work.internal.factor_symmetric(work.A_II);
@@ -62,7 +62,7 @@ void freeze(const SuperelementBody& body, const LocalMotion<double>& motion, con
             SuperelementTangent& frozen) {
   frozen.dense_coupling = false;
   frozen.coefficients = work.coefficients;
-  frozen.internal = work.internal;
+  if (!body.second_order.any()) frozen.internal = work.internal;  // else factored with what changes
   frozen.R0 = motion.R0;
   frozen.Omega0 = motion.Omega0;
   frozen.node = motion.node;
