@@ -74,7 +74,7 @@ std::vector<RigidNodeSpec> read_nodes(const MapReader& map) {
   return nodes;
 }
 
-/// What bodies have in common, as far as this kind has it; `body`: where absent keys leave it.
+/// Reads the keys that bodies share, of those that this kind has. `body` keeps its values where keys are absent.
 template <class Body>
 Body read_body(const MapReader& map, const SceneDefinitions& definitions, Body body = {}) {
   body = read_entry<Body>(map, std::move(body));

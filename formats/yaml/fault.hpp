@@ -35,7 +35,7 @@ struct Faults {
   }
 };
 
-/// A thing that is checked: how messages call it, the `where` of its entry, and what precedes its keys there.
+/// A thing that is checked. Messages call it by `name`; `where` is the place of its entry; `prefix` precedes its keys.
 struct Subject {
   std::string name;  ///< "spring 'k1'"; empty: the file
   std::string where;
@@ -48,7 +48,7 @@ struct Subject {
   void not_negative(const std::string& key, std::optional<double> value) const;
   void between(const std::string& key, double value, double low, double high) const;
   void at_least(const std::string& key, std::optional<int> value, int low) const;
-  /// The same of a number, vector or matrix that may have any finite value. Whether it has.
+  /// Adds a finding if the number, vector or matrix is not finite. Returns whether it is finite.
   template <class Value>
   bool finite(const std::string& key, const Value& value) const {
     bool is_finite = false;
@@ -59,7 +59,7 @@ struct Subject {
     if (!is_finite) add(key, key + " must be finite");
     return is_finite;
   }
-  /// A map inside it: "body 'arm': damping", whose keys are "damping.ratio".
+  /// Subject of a map inside this one. Its name is "body 'arm': damping", and its keys are "damping.ratio".
   Subject inside(const std::string& group) const { return {name + ": " + group, where, faults, prefix + group + "."}; }
 };
 

@@ -20,7 +20,7 @@ Subject subject_of(const std::string& noun, const Entry& entry, Faults& faults) 
 
 /// A finding if the name of the subject is not a name or is in `seen`; adds it there.
 void check_name(const Subject& subject, const std::string& name, std::vector<std::string>& seen);
-/// The same of an entry, as its subject. `noun` is "beam".
+/// Checks the name of an entry and returns its subject. `noun` is, for example, "beam".
 template <class Entry>
 Subject check_name(const std::string& noun, const Entry& entry, std::vector<std::string>& seen, Faults& faults) {
   Subject subject = subject_of(noun, entry, faults);

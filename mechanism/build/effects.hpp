@@ -25,7 +25,7 @@ std::vector<EffectUse> effects_of(const formats::Scene& scene, const BodyFiles& 
 /// "flexibility of 'rod'".
 std::string effect_name(const EffectUse& use);
 
-/// Those that the run may choose.
+/// The effects that the run may choose.
 std::vector<EffectUse> automatic_effects(const formats::Scene& scene, const BodyFiles& files);
 
 /// The scene with these switched as they say, and nothing automatic.

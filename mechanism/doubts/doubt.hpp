@@ -14,7 +14,7 @@
 
 namespace tisserand::mechanism {
 
-/// An accepted state, evaluated.
+/// An accepted state and its evaluation.
 struct Instant {
   const Model& model;
   const State& state;
@@ -25,7 +25,8 @@ struct Instant {
 /// known.
 using StressedBodies = std::function<std::vector<bool>()>;
 
-/// What others ask doubts for: why a run fails, also where its equations are regular, and where energy went.
+/// Questions that others ask the doubts: why a run fails, why it fails although its equations are regular, and where
+/// energy went.
 enum class Puzzle { failure, regular_failure, energy };
 
 class Doubt {
@@ -36,9 +37,9 @@ class Doubt {
   /// The state is the end of a step from `before`.
   virtual void after_step(const State& /*before*/, const Instant& end) { observe(end); }
 
-  /// The worst of each kind, mostly with the number of others. `stressed`: asked only where it matters.
+  /// Sentences on the worst of each kind, mostly with the number of others. `stressed` is called only where it matters.
   virtual std::vector<std::string> doubts(const Model& model, const StressedBodies& stressed) const = 0;
-  /// What has been seen that solves it; empty: nothing.
+  /// Sentence on what was seen that answers the question; empty if nothing was.
   virtual std::string explanation(Puzzle, const Model&) const { return {}; }
 };
 

@@ -16,7 +16,7 @@ class Doubts {
 
   /// After a step from `before` to `end`.
   void after_step(const State& before, const Instant& end);
-  /// At a state that no step of generalised alpha ends at: statics, rows of bdf.
+  /// Observes a state that is not the end of a step of generalised alpha, as in statics and in rows of bdf.
   void at_state(const Instant& at);
   void at_row(const Instant& at, const formats::ResultsRow& row);
   double energy_moved() const { return energy_.moved(); }

@@ -124,8 +124,76 @@ class LinearRange : public Doubt {
 
   /// One per quantity: its largest excess, and the number of others. `stressed`: asked only where it matters.
   std::vector<std::string> doubts(const Model& model, const StressedBodies& stressed) const override {
+    Findings found;
+    std::map<std::pair<int, std::vector<bool>>, double> frequencies;
+    const std::vector<std::vector<bool>> held = held_coordinates(model);
+    const std::vector<int> beams = welded_beams(model);
+    std::vector<bool> in_loop;
+    if (stressed &&
+        std::ranges::any_of(seen_, [&](const Seen& seen) { return displaced_share(seen) > most_displaced_stressed; }))
+      in_loop = stressed();
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+      const Limits& limits = limits_[model.superelements[i].body];
+      if (!limits.linear && !limits.bare) continue;
+      const int pieces = static_cast<int>(std::ranges::count(beams, beams[i]));
+      found.judge(
+          {model.superelements[i].name, limits.span, limits.axial.size() > 0 ? limits.buckling : 0.0, pieces,
+           limits.bare, superelement_remedy, !in_loop.empty() && in_loop[i] ? most_displaced_stressed : most_displaced},
+          seen_[i], [&](double spin) {
+            const auto [known, fresh] = frequencies.try_emplace({model.superelements[i].body, held[i]}, 0.0);
+            if (fresh) known->second = first_mode(body_of(model, i), held[i], spin).omega;
+            return known->second;
+          });
+    }
+    for (std::size_t i = 0; i < modal_.size(); ++i)
+      found.judge({model.modal_bodies[i].name, modal_[i].span(), modal_[i].buckling(), 1, false, modal_remedy},
+                  modal_seen_[i], [&](double spin) { return modal_[i].first_frequency(model, spin); });
+    return found.told();
+  }
+
+ private:
+  /// Constants of a body. Axial force N = axial · y_B = along · S̄ y_B and Euler's load of a body whose nodes lie on a
+  /// line, the ends with rotations.
+  struct Limits {
+    bool linear = false;
+    bool bare = false;      ///< stiffens by its companion file, has two nodes and no internal modes
+    double span = 0.0;      ///< largest distance of its nodes
+    Eigen::VectorXd axial;  ///< empty: not known from S and M alone
+    Eigen::VectorXd along;  ///< N of forces on nodes, boundary
+    double buckling = 0.0;  ///< π² EI/span², between pins
+    double lag = 0.0;       ///< half the period of the first bending vibration between pins
+    int loose = 0;          ///< internal coordinates without stiffness: mechanisms inside the part
+    double inertia = 0.0;   ///< largest about x, y or z through the centre of mass
+  };
+  struct Extreme {
+    double value = 0.0;
+    double time = 0.0;
+  };
+  struct Seen {
+    double force = 0.0;  ///< axial, its mean over `lag`; tension is positive
+    Extreme deflection, axial, spin;
+    Extreme displaced;    ///< moment of the elastic forces on the nodes in their displaced places, in the frame
+    Extreme loose;        ///< turn of a mechanism inside [rad], if it moves all of the inertia
+    double moment = 0.0;  ///< largest moment on one node, or a tenth of the span times the force on it
+  };
+  /// A body as its limits are judged.
+  struct Judged {
+    std::string name;
+    double span = 0.0, buckling = 0.0;  ///< 0: not known
+    int pieces = 1;                     ///< welded in a row
+    bool bare = false;
+    std::string remedy;
+    double most_displaced = 0.0;
+  };
+  static double displaced_share(const Seen& seen) {
+    return seen.moment > 0.0 ? seen.displaced.value / seen.moment : 0.0;
+  }
+  /// Excesses by quantity.
+  struct Findings {
     std::vector<Excess> bent, pressed, displaced, spun, coarse, swung;
-    const auto judge = [&](const Judged& body, const Seen& seen, auto first_frequency) {
+
+    /// first_frequency(spin) is that of the body in a frame that turns with the spin.
+    void judge(const Judged& body, const Seen& seen, auto first_frequency) {
       const auto& [force, deflection, axial, spin, moved, loose, moment] = seen;
       if (loose.value > most_inner_turn)
         swung.push_back(
@@ -174,73 +242,15 @@ class LinearRange : public Doubt {
             {ratio, fmt::format("'{}' spins at {:.2g} of its first frequency ({:.3g} of {:.3g} rad per time, "
                                 "at t = {:.6g}), beyond {:g}, with a linear strain: {}",
                                 body.name, ratio, spin.value, frequency, spin.time, most_spin, body.remedy)});
-    };
-    std::map<std::pair<int, std::vector<bool>>, double> frequencies;
-    const std::vector<std::vector<bool>> held = held_coordinates(model);
-    const std::vector<int> beams = welded_beams(model);
-    std::vector<bool> in_loop;
-    if (stressed &&
-        std::ranges::any_of(seen_, [&](const Seen& seen) { return displaced_share(seen) > most_displaced_stressed; }))
-      in_loop = stressed();
-    for (std::size_t i = 0; i < seen_.size(); ++i) {
-      const Limits& limits = limits_[model.superelements[i].body];
-      if (!limits.linear && !limits.bare) continue;
-      const int pieces = static_cast<int>(std::ranges::count(beams, beams[i]));
-      judge(
-          {model.superelements[i].name, limits.span, limits.axial.size() > 0 ? limits.buckling : 0.0, pieces,
-           limits.bare, superelement_remedy, !in_loop.empty() && in_loop[i] ? most_displaced_stressed : most_displaced},
-          seen_[i], [&](double spin) {
-            const auto [known, fresh] = frequencies.try_emplace({model.superelements[i].body, held[i]}, 0.0);
-            if (fresh) known->second = first_mode(body_of(model, i), held[i], spin).omega;
-            return known->second;
-          });
     }
-    for (std::size_t i = 0; i < modal_.size(); ++i)
-      judge({model.modal_bodies[i].name, modal_[i].span(), modal_[i].buckling(), 1, false, modal_remedy},
-            modal_seen_[i], [&](double spin) { return modal_[i].first_frequency(model, spin); });
-    std::vector<std::string> doubts;
-    for (const auto* kind : {&bent, &pressed, &displaced, &spun, &coarse, &swung})
-      for (std::string& text : worst_of(*kind, "more bodies")) doubts.push_back(std::move(text));
-    return doubts;
-  }
 
- private:
-  /// Constants of a body. Axial force N = axial · y_B = along · S̄ y_B and Euler's load of a body whose nodes lie on a
-  /// line, the ends with rotations.
-  struct Limits {
-    bool linear = false;
-    bool bare = false;      ///< stiffens by its companion file, has two nodes and no internal modes
-    double span = 0.0;      ///< largest distance of its nodes
-    Eigen::VectorXd axial;  ///< empty: not known from S and M alone
-    Eigen::VectorXd along;  ///< N of forces on nodes, boundary
-    double buckling = 0.0;  ///< π² EI/span², between pins
-    double lag = 0.0;       ///< half the period of the first bending vibration between pins
-    int loose = 0;          ///< internal coordinates without stiffness: mechanisms inside the part
-    double inertia = 0.0;   ///< largest about x, y or z through the centre of mass
+    std::vector<std::string> told() const {
+      std::vector<std::string> doubts;
+      for (const auto* kind : {&bent, &pressed, &displaced, &spun, &coarse, &swung})
+        for (std::string& text : worst_of(*kind, "more bodies")) doubts.push_back(std::move(text));
+      return doubts;
+    }
   };
-  struct Extreme {
-    double value = 0.0;
-    double time = 0.0;
-  };
-  struct Seen {
-    double force = 0.0;  ///< axial, its mean over `lag`; tension is positive
-    Extreme deflection, axial, spin;
-    Extreme displaced;    ///< moment of the elastic forces on the nodes in their displaced places, in the frame
-    Extreme loose;        ///< turn of a mechanism inside [rad], if it moves all of the inertia
-    double moment = 0.0;  ///< largest moment on one node, or a tenth of the span times the force on it
-  };
-  /// A body as its limits are judged.
-  struct Judged {
-    std::string name;
-    double span = 0.0, buckling = 0.0;  ///< 0: not known
-    int pieces = 1;                     ///< welded in a row
-    bool bare = false;
-    std::string remedy;
-    double most_displaced = 0.0;
-  };
-  double displaced_share(const Seen& seen) const {
-    return seen.moment > 0.0 ? seen.displaced.value / seen.moment : 0.0;
-  }
   static Limits limits_of(const SuperelementBody& body) {
     Limits limits;
     limits.linear = !body.second_order.stiffening;

@@ -123,8 +123,9 @@ CarrierVector<D> velocity_of(const NodeMotion& node) {
   return v;
 }
 
-/// Of vectors, rotations and maps between them with three components, what the space has of translations and of turns;
-/// `turns_by_vectors` of a map from the ones to the others. For every scalar; in three dimensions all there is.
+/// The components of a vector, or the block of a 3 x 3 matrix, that exist in this space: of translations and of turns.
+/// turns_by_vectors() is the block of a matrix that maps translations to turns. For every scalar; in three dimensions
+/// each of them is the whole.
 template <int D, class Matrix>
 decltype(auto) vector_part(Matrix&& m) {
   if constexpr (D == 3)

@@ -12,7 +12,7 @@
 
 namespace tisserand::mechanism {
 
-/// What a user chooses.
+/// Choices of the user.
 struct LedgerSettings {
   std::string results = {};  ///< of the same scene, whose stored instants begin windows; empty: a run of its own
   WindowChoice windows = {};

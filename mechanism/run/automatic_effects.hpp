@@ -67,7 +67,7 @@ class AutomaticEffects {
     double demand = 0.0, time = 0.0;   ///< of the run that began again with it: D and when (demand.hpp)
     double start_force = 0.0;          ///< largest elastic force where the run starts, if it is off
   };
-  /// What stands beside a run.
+  /// The second model that is evaluated beside a run, and what it has shown.
   struct Watch {
     Watch(const Model& running, const Model& whole, const std::vector<EffectUse>& uses, const formats::Scene& scene);
     Evaluation now;      ///< of the running model

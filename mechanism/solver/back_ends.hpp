@@ -16,12 +16,13 @@ class BackEnd {
   BackEnd& operator=(const BackEnd&) = delete;
   virtual ~BackEnd() = default;
 
+  /// Factors the matrix with these values.
   virtual FactorReport factor(const double* values) = 0;
   /// b <- A⁻¹ b.
   virtual void solve(double* b) = 0;
   /// b <- A⁻ᵀ b.
   virtual void solve_transposed(double* b) = 0;
-  /// As in FactorReport; looked at rarely. 1 of back ends that do not tell.
+  /// Reciprocal growth of the pivots as in FactorReport; called rarely. Back ends that do not know it return 1.
   virtual double reciprocal_growth() { return 1.0; }
   /// Forgets pivots and factors.
   virtual void forget() {}

@@ -83,7 +83,7 @@ class FallingTolerance {
     change_ = change;
     fall_ = fall;
   }
-  /// What was observed has come from something else than the tolerance.
+  /// Forgets the last change: something else than the tolerance has caused it.
   void forget() { change_ = 0.0; }
 
   double change() const { return change_; }
@@ -93,7 +93,7 @@ class FallingTolerance {
                                                : tolerance / rates_.second_part;
     return std::max(least_tolerance, std::clamp(aimed, least_part * tolerance, most_part * tolerance));
   }
-  /// Of a run with the tolerance `next` after one that has taken `seconds`.
+  /// Time of a run with the tolerance `next`, if one with `tolerance` took `seconds`.
   double foretold(double seconds, double tolerance, double next) const {
     return seconds * std::pow(tolerance / next, rates_.work);
   }
@@ -191,7 +191,7 @@ class Search {
     Series history;
     long steps = 0;
   };
-  /// What is known of modes.
+  /// What the search knows of the number of modes.
   struct Choice {
     Modes left;               ///< empty: all
     Series half;              ///< history at the first tolerance with half of them; empty: all of them from the start

@@ -23,7 +23,7 @@ struct StudyRow {
   std::vector<double> errors;  ///< of the quantities; empty unless completed
   std::vector<std::optional<double>> orders;  ///< of the quantities: observed_orders() along its line
 
-  /// Of these quantities.
+  /// Largest error of these quantities.
   double worst_error(const std::vector<int>& quantities) const;
 
   bool is_measured() const { return has_run && !is_reference && outcome == CellOutcome::completed; }

@@ -39,7 +39,7 @@ void displacements(const MotionSource& shapes, const formats::Recovery& tables, 
   });
 }
 
-/// Of elements whose matrix `stress_of` takes six coordinates per node.
+/// Computes a field of elements whose matrix `stress_of` takes six coordinates per node.
 void element_field(const auto& elements, const MotionSource& shapes, const formats::Recovery& tables,
                    RecoveryField field, const auto& stress_of, const FieldSink& sink) {
   const int width = formats::width(field);

@@ -61,8 +61,8 @@ std::vector<double> numbers_or_unknown(const json& list) {
   return values;
 }
 
-/// Of the fields of a certificate: one list of them, which both ways go through. `later`: files of former versions lack
-/// it. `unknown`: numbers some of which may be NaN.
+/// The list of the fields of a certificate, for writing and for reading. `later`: files of former versions lack the
+/// field. `unknown`: some of its numbers may be NaN.
 template <class C, class Type>
 concept Is = std::same_as<std::remove_const_t<C>, Type>;
 

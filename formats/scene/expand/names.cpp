@@ -34,7 +34,7 @@ constexpr Collection assembly_collections[] = {{"bodies", "body", true, &Assembl
                                                {"loads", "load", true, nullptr},
                                                {"initial", "", true, nullptr}};  // whose keys are references
 
-/// What refers to what; functions: the names in expressions.
+/// A key of a collection whose value names entries of another one. Functions are named in expressions.
 struct Reference {
   std::string_view collection, key;
   Names to;

@@ -11,7 +11,7 @@ void read_materials(Model& model);
 
 /// Nothing, with a fault, if it does not exist or is not elastic.
 const AbaqusMaterial* find_material(Model& model, const std::string& name, const std::string& where);
-/// That of the block's parameter MATERIAL.
+/// Finds the material that the block's parameter MATERIAL names.
 const AbaqusMaterial* find_material(Model& model, const Block& block);
 
 /// Layer of this material, thickness and angle left 0. Orthotropic materials in plane stress: σ33 = 0.

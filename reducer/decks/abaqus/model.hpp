@@ -148,7 +148,7 @@ struct Model {
     fault(std::move(what), place, std::move(remedy));
     return std::nullopt;
   }
-  /// That error, to be thrown.
+  /// The same as an error to be thrown.
   template <class Place>
   Error error(std::string what, const Place& place, std::string remedy) const {
     return {std::move(what), where(place), std::move(remedy)};

@@ -58,7 +58,7 @@ class CardFields {
   bool ok() const { return ok_; }
   void mark_faulty() { ok_ = false; }  ///< for a fault that the caller tells itself
   void fault(const std::string& what, const std::string& remedy);
-  /// The same in functions that then have nothing to return.
+  /// Adds the fault and returns nothing, for functions that end with it.
   std::nullopt_t refuse(const std::string& what, const std::string& remedy) {
     fault(what, remedy);
     return std::nullopt;
