@@ -49,8 +49,9 @@ void check_numbers(const Study& study, Faults& faults) {
   positive("reference", "agree", study.reference.agree);
   for (const StudyQuantity& quantity : study.quantities)
     if (quantity.scale) positive(quantity.where, "scale", *quantity.scale);
-  for (const auto& [key, value] : {std::pair{"run_budget", study.run_budget}, {"whole_budget", study.whole_budget}})
-    if (value < 0.0) faults.add(study.file, key, fmt::format("{} is {} s", key, value), "give seconds, or 0 for none");
+  if (study.run_budget < 0.0)
+    faults.add(study.file, "run_budget", fmt::format("run_budget is {} s", study.run_budget),
+               "give seconds, or 0 for none");
 }
 
 void check_axes(const Study& study, const StudySeries& series, Faults& faults) {

@@ -88,8 +88,7 @@ struct Study {
   double within = 0.05;     ///< relative half width to which the median of the times must be known
   int repeats = 9;          ///< most runs of one setting
   double run_budget = 0.0;  ///< [s] by the clock; 0: none
-  double whole_budget = 0.0;
-  YamlDocument document;  ///< for places of messages
+  YamlDocument document;    ///< for places of messages
 };
 
 /// Values of the axes of one run, by name.

@@ -51,9 +51,28 @@ bool has_key(const KeySet& set, std::string_view key) {
   return std::ranges::find(set.fields, key, &Field::key) != set.fields.end();
 }
 
+/// A key of an earlier version, and what to do without it.
+struct FormerKey {
+  std::string_view noun, key, remedy;
+};
+constexpr FormerKey former_keys[] = {
+    {"integrator", "stabilisation", "leave it out: bdf projects onto the constraints"},
+    {"integrator", "baumgarte", "leave it out: bdf projects onto the constraints"},
+    {"error_control", "absolute", "leave it out, and give `tolerance` relative to the extent of the scene"},
+    {"output", "ledger", "leave it out, and call `mechanism ledger`"},
+    {"study", "whole_budget", "leave it out: after an interruption the next call goes on"},
+    {"part", "verify", "leave it out: modes are counted where that costs little, and always with `cutoff`"},
+};
+
 std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
   const auto close = nearest(word, known);
   return close ? fmt::format("did you mean '{}'?", *close) : fmt::format("known are {}", join(known, ", "));
+}
+
+std::string remedy_of_unknown(const std::string& key, const KeySet& set) {
+  for (const FormerKey& former : former_keys)
+    if (former.noun == set.noun && former.key == key) return std::string(former.remedy);
+  return suggestion(key, key_words(set));
 }
 
 }  // namespace
@@ -221,8 +240,7 @@ MapReader::MapReader(Context context, const YamlNode& node, std::string_view nou
       return;
     }
     if (!has_key(keys_, child.key))
-      context_.fail(child.key_place, fmt::format("unknown key '{}'", child.key),
-                    suggestion(child.key, key_words(keys_)));
+      context_.fail(child.key_place, fmt::format("unknown key '{}'", child.key), remedy_of_unknown(child.key, keys_));
     else if (!is_new)
       context_.fail(child.key_place,
                     fmt::format("key '{}' is given twice (first in line {})", child.key, first->second.line),

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
     if (row.has_run && row.outcome == CellOutcome::failed)
       throw Error(fmt::format("no run completed; '{}': {}", row.cell->label, row.message), study.file,
                   "correct what fails, then choose another folder with -o or remove this one");
-  throw Error("no run completed inside the budget", study.file, "raise 'run_budget' or 'whole_budget'");
+  throw Error("no run completed inside the budget", study.file, "raise 'run_budget'");
 }
 
 /// The scene of a setting as a file beside the scene that it comes from.

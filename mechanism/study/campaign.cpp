@@ -258,16 +258,12 @@ void run_cells(Campaign& campaign, const std::vector<Cell>& cells, const Referen
     if (!is_known(campaign.study, campaign.journal.runs(cell.key))) left.push_back(&cell);
   make_parts(campaign, left);
   const double begin = campaign.control.clock();
-  const auto is_over = [&] {
-    const double budget = campaign.study.whole_budget;
-    return is_interrupted(campaign) || (budget > 0.0 && campaign.control.clock() - begin > budget);
-  };
   Progress progress("study", 0.0);
   double used = 0.0;  // seconds of the processor
   std::mutex writing;
   std::atomic<std::size_t> next{0};
   on_threads(timed ? 1 : core_count(), [&](int) {
-    for (std::size_t k = next++; k < cells.size() && !is_over(); k = next++) {
+    for (std::size_t k = next++; k < cells.size() && !is_interrupted(campaign); k = next++) {
       for (;;) {
         {
           const std::lock_guard lock(writing);
@@ -275,12 +271,12 @@ void run_cells(Campaign& campaign, const std::vector<Cell>& cells, const Referen
           const double slowness = used > 0.0 ? (campaign.control.clock() - begin) / used : 1.0;
           progress.update(0.0, remaining_text(campaign, cells, k, slowness));
         }
-        if (is_over()) return;
+        if (is_interrupted(campaign)) return;
         run_cell(campaign, cells[k], reference, writing, used);
       }
     }
   });
-  if (!is_over()) progress.finish();
+  if (!is_interrupted(campaign)) progress.finish();
 }
 
 }  // namespace tisserand::mechanism
