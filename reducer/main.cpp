@@ -178,7 +178,6 @@ CLI::App* add_import(CLI::App& app, const std::string& asked, tisserand::reducer
   command->add_option("--matrices", request.matrices, "names of DMIG matrices (default: KAAX,MAAX)");
   command->add_option("--names", request.names, "names of nodes: 101=base,102=tip (default: n101, n102)");
   command->add_option("--modal", request.modal, "nodes that carry modes: 9001-9008,9100");
-  command->add_option("--name", request.name, "name of the superelement (default: that of the file)");
   return command;
 }
 
@@ -206,11 +205,10 @@ CLI::App* add_recover(CLI::App& app, const std::string& asked, tisserand::reduce
   command->add_option("--element", request.elements, "history of an element: its number, or group/number")
       ->allow_extra_args(false);
   command->add_option("--group", request.groups, "history of the largest stresses of a group")->allow_extra_args(false);
-  command->add_option("--points", request.points_file,
-                      "text file of more histories: lines `point ...`, `element ...`, `group ...`");
   command->add_flag("--envelope", request.envelope_only, "no series: the envelope and histories only");
-  command->add_option("--loads", request.loads,
-                      "nastran, calculix: load cases of the chosen instants for the part's own mesh, in balance")
+  command
+      ->add_option("--loads", request.loads,
+                   "nastran, calculix: load cases of the chosen instants for the part's own mesh, in balance")
       ->delimiter(',')
       ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, LoadFormat>>{
           {"nastran", LoadFormat::nastran}, {"calculix", LoadFormat::calculix}}));

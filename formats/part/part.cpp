@@ -23,9 +23,6 @@ constexpr Choice<ReductionMethod> method_words[] = {{"craig_bampton", ReductionM
                                                     {"rubin", ReductionMethod::rubin},
                                                     {"macneal", ReductionMethod::macneal}};
 
-constexpr Choice<Verification> verification_words[] = {{"inertia", Verification::inertia},
-                                                       {"none", Verification::none}};
-
 constexpr Choice<EigenSolverChoice> eigensolver_words[] = {{"auto", EigenSolverChoice::automatic},
                                                            {"block_lanczos", EigenSolverChoice::block_lanczos},
                                                            {"krylov_schur", EigenSolverChoice::krylov_schur},
@@ -145,10 +142,6 @@ std::vector<Field> part_fields() {
                                                    "`craig_bampton`: modes with the boundary held; `rubin` "
                                                    "(Craig-Chang), `macneal`: modes of the free part with "
                                                    "residual flexibility, see [method](#method)"),
-      choice<&ModeSelection::verify, verification_words>(
-          "verify",
-          "`inertia`: one more factorisation counts the internal modes below the cut, and none can be missing; `none`",
-          "`inertia` where that takes less than a tenth of the time, or where `cutoff` or `accuracy` asks how many"),
       choice<&ModeSelection::eigensolver, eigensolver_words>(
           "eigensolver",
           "the type of SLEPc's eigenvalue solver that finds modes: `block_lanczos`, our own, in blocks of columns; "

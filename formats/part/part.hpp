@@ -137,9 +137,6 @@ struct Accuracy {
   double up_to = 0.0;
 };
 
-/// Whether internal modes are counted by the inertia of one more factorisation.
-enum class Verification { if_cheap, inertia, none };
-
 /// Which type of SLEPc's eigenvalue solver finds modes; automatic: by the size of the problem.
 enum class EigenSolverChoice { automatic, block_lanczos, krylov_schur, lapack };
 
@@ -156,7 +153,6 @@ struct ModeSelection {
   std::optional<double> cutoff;
   std::string where;
   std::optional<Accuracy> accuracy = std::nullopt;
-  Verification verify = Verification::if_cheap;
   ReductionMethod method = ReductionMethod::craig_bampton;
   std::optional<int> moments = std::nullopt;  ///< moment vectors; absent: as `accuracy` takes, else none
   EigenSolverChoice eigensolver = EigenSolverChoice::automatic;

@@ -131,11 +131,12 @@ ReducedMatrices read_matrices(const ImportRequest& request) {
   return matrices;
 }
 
-/// The input without its folder and known endings.
-std::string stem(const std::string& input) {
-  for (const std::string ending : {".S.mtx", "_S.fmx", ".mtx", ".sti", ".pch", ".bdf", ".dat", ".nas", ".inp", ".txt"})
-    if (const std::string path = replaced(input, ending, ""); !path.empty()) return path;
-  return input;
+/// A file without its known endings.
+std::string stem(const std::string& file) {
+  for (const std::string ending :
+       {".S.mtx", "_S.fmx", ".mtx", ".sti", ".pch", ".bdf", ".dat", ".nas", ".inp", ".txt", ".superelement.h5", ".h5"})
+    if (const std::string path = replaced(file, ending, ""); !path.empty()) return path;
+  return file;
 }
 
 std::string import_text(const ImportCertificate& c) {
@@ -152,13 +153,12 @@ std::string import_text(const ImportCertificate& c) {
 }  // namespace
 
 void import_matrices(const ImportRequest& request) {
-  const std::string base = stem(request.input);
-  const std::string output = request.output.empty() ? base + ".superelement.h5" : request.output;
+  const std::string output = request.output.empty() ? stem(request.input) + ".superelement.h5" : request.output;
   require_output(output, {".superelement.h5", ".h5"}, {request.input, request.mass, request.rows, request.positions});
   ImportOptions options;
   options.units = units_of(request.units);
   options.node_names = names_of(request.names);
-  options.name = request.name.empty() ? base.substr(base.rfind('/') + 1) : request.name;
+  options.name = stem(output.substr(output.rfind('/') + 1));
   Imported imported = to_superelement(read_matrices(request), options);
   const FileCertificate file = certify(imported.element, imported.report);
   formats::write_superelement(output, imported.element);

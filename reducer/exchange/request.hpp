@@ -10,7 +10,6 @@ struct ImportRequest {
   std::string output;     ///< empty: beside the input
   std::string from;       ///< dmig, abaqus, calculix, matrixmarket, fmx; empty: by content
   std::string units;      ///< "mm,t,s" or "consistent"
-  std::string name;       ///< empty: from the name of the input
   std::string matrices;   ///< DMIG names: "KAAX,MAAX"
   std::string mass;       ///< file of the mass matrix
   std::string rows;       ///< table of rows

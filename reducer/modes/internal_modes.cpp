@@ -128,18 +128,6 @@ int wanted_modes(const InternalProblem& problem, const formats::ModeSelection& s
 
 }  // namespace
 
-Count count_of(formats::Verification verify) {
-  switch (verify) {
-    case formats::Verification::if_cheap:
-      return Count::if_cheap;
-    case formats::Verification::inertia:
-      return Count::always;
-    case formats::Verification::none:
-      return Count::never;
-  }
-  return Count::always;
-}
-
 void fail_low_cutoff(const formats::ModeSelection& selection, const char* kind, double lowest) {
   throw Error(fmt::format("cutoff {:g} is below the first {} mode, {:.4g}: no mode would be kept", *selection.cutoff,
                           kind, std::sqrt(std::max(0.0, lowest)) / (2.0 * std::numbers::pi)),
@@ -272,7 +260,7 @@ bool meets_accuracy(const InternalProblem& problem, const BoundaryModes& boundar
 /// the accuracy, else by one more, which is noted.
 bool none_missing(const Pencil& pencil, const formats::ModeSelection& selection, int below, Candidates& c) {
   std::optional<int>& counted = c.spectrum.counted;
-  if (counted || (c.kept != below && selection.verify == formats::Verification::none)) return true;
+  if (counted) return true;
   const Eigen::VectorXd& value = c.spectrum.pairs.value;
   const double limit = limit_of(selection);
   const bool all_below =
@@ -288,7 +276,7 @@ Candidates candidates_for(const InternalProblem& problem, const BoundaryModes& b
   constexpr int most = 1000;
   const int below = least;
   const auto n_I = static_cast<Eigen::Index>(problem.partition.n_I());
-  Count verify = count_of(selection.verify);
+  Count verify = Count::if_cheap;
   for (int sought = least + 4;; sought = 2 * sought) {
     sought = std::min(sought, available);
     problem.seek(sought);
@@ -329,7 +317,7 @@ void add_moment_vectors(const InternalProblem& problem, const BoundaryModes& bou
 Spectrum spectrum_for(const Pencil& pencil, const formats::ModeSelection& selection, Eigen::Index n_I, int sought,
                       int available) {
   const EigenSolver solver = choose_solver(n_I, sought, selection);
-  if (!selection.cutoff) return lowest_pairs(pencil, sought, available, solver, count_of(selection.verify));
+  if (!selection.cutoff) return lowest_pairs(pencil, sought, available, solver, Count::if_cheap);
   Spectrum spectrum = lowest_pairs(pencil, sought, available, solver, Count::never);
   if (spectrum.pairs.value[sought - 1] >= eigenvalue_of(*selection.cutoff))
     return lowest_pairs(pencil, sought, available, solver, Count::always);

@@ -52,9 +52,6 @@ struct InternalProblem {
 /// coordinates with mass.
 int finite_mode_count(const Matrix& M);
 
-/// Whether a search is followed by a count.
-Count count_of(formats::Verification verify);
-
 /// Throws the Error for a cut-off that keeps nothing; `lowest`: ω² of the first mode of that kind.
 [[noreturn]] void fail_low_cutoff(const formats::ModeSelection& selection, const char* kind, double lowest);
 

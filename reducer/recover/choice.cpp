@@ -1,7 +1,6 @@
 // From words of the command line to nodes, elements and groups.
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -14,38 +13,6 @@ namespace tisserand::reducer {
 namespace {
 
 using formats::Recovery;
-
-struct Words {
-  std::vector<std::string> points, elements, groups;
-};
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-/// Adds the lines "point tip", "element 12", "group flange"; # begins a comment at the start of a line.
-void add_lines(const std::string& path, Words& words) {
-  std::ifstream file(path);
-  if (!file) throw Error("cannot be read", path, "give a text file with lines `point ...`, `element ...`, `group ...`");
-  int number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    line = trimmed(line);
-    if (line.empty() || line[0] == '#') continue;
-    const std::size_t space = line.find_first_of(" \t");
-    const std::string kind = line.substr(0, space),
-                      rest = space == std::string::npos ? "" : trimmed(line.substr(space));
-    std::vector<std::string>* list = kind == "point"     ? &words.points
-                                     : kind == "element" ? &words.elements
-                                     : kind == "group"   ? &words.groups
-                                                         : nullptr;
-    if (list == nullptr || rest.empty())
-      throw Error(fmt::format("is '{}'", printable_line(line, 60)), fmt::format("{}:{}", path, number),
-                  "write `point tip`, `point 0.5,0,0`, `element 12`, `element skin/12` or `group skin`");
-    list->push_back(rest);
-  }
-}
 
 int find_group(const Recovery& r, const std::string& name, const std::string& where) {
   const auto found = std::find(r.group_name.begin(), r.group_name.end(), name);
@@ -85,12 +52,10 @@ int find_element(const Recovery& r, const std::string& word, const std::string& 
 }  // namespace
 
 ChosenHistories chosen_histories(const Recovery& r, const BodyMotion& still, const RecoverRequest& request) {
-  Words words{request.points, request.elements, request.groups};
-  if (!request.points_file.empty()) add_lines(request.points_file, words);
   std::vector<ChosenItem> nodes, elements, groups;
-  for (const std::string& word : words.points) nodes.push_back({word, find_node(r, word, request.recovery)});
-  for (const std::string& word : words.elements) elements.push_back({word, find_element(r, word, request.recovery)});
-  for (const std::string& word : words.groups) {
+  for (const std::string& word : request.points) nodes.push_back({word, find_node(r, word, request.recovery)});
+  for (const std::string& word : request.elements) elements.push_back({word, find_element(r, word, request.recovery)});
+  for (const std::string& word : request.groups) {
     const int group = find_group(r, word, request.recovery);
     const auto is_it = [group](const ChosenItem& item) { return item.index == group; };
     if (std::none_of(groups.begin(), groups.end(), is_it)) groups.push_back({word, group});

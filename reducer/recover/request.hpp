@@ -23,7 +23,6 @@ struct RecoverRequest {
   std::vector<std::string> points;    ///< labels of nodes, or "x,y,z" of the part frame
   std::vector<std::string> elements;  ///< "12", or "group/12"
   std::vector<std::string> groups;    ///< names of groups
-  std::string points_file;            ///< lines "point ...", "element ...", "group ..."; empty: none
   std::vector<LoadFormat> loads;      ///< load cases of the chosen instants for these programs
   RecoverFrame frame = RecoverFrame::world;
 };

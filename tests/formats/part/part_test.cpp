@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"modes: 4", "colour: red",
                 "part.yaml:11:1: unknown key 'colour'; known are part, units, mesh, materials, sections, points, "
                 "groups, plates, discs, cylinders, extrusions, shells, solids, beams, point_masses, "
-                "springs, spiders, boundary, modes, cutoff, accuracy, moments, method, verify, eigensolver, mechanism, "
+                "springs, spiders, boundary, modes, cutoff, accuracy, moments, method, eigensolver, mechanism, "
                 "recovery, second_order, double_curvature, modal_body, supports, load_cases"},
         BadText{"modes: 4", "modes: 4\nsecond_order: no\ndouble_curvature: 20",
                 "part.yaml:13:1: 'double_curvature' has no effect with second_order: no; remove one of them"},

@@ -57,7 +57,7 @@ TEST_F(Exchange, MatrixMarketAndFmxReturnTheSameContent) {
   export_matrices({path, "", "matrixmarket"});
   import_matrices(import_request("beam.S.mtx", "a.h5"));
   EXPECT_EQ(read("a.h5").content_id, beam.content_id);
-  EXPECT_EQ(read("a.h5").name, "beam");
+  EXPECT_EQ(read("a.h5").name, "a");
   EXPECT_TRUE(read("a.h5").units.named());
   export_matrices({path, files.file("other_S.fmx"), "fmx"});
   import_matrices(import_request("other_S.fmx", "b.h5"));
@@ -123,12 +123,13 @@ TEST_F(Exchange, CommandLine) {
   EXPECT_EQ(out.code, 0) << out.text;
   EXPECT_THAT(out.text, AllOf(HasSubstr("beam.fem"), HasSubstr("mean axes")));
   EXPECT_EQ(call(files, "export " + path + " --to matrixmarket").code, 0);
-  const Outcome back = call(files, "import " + files.file("beam.S.mtx") + " --units mm,t,s --name arm -o " +
-                                       files.file("arm.superelement.h5"));
+  const Outcome back =
+      call(files, "import " + files.file("beam.S.mtx") + " --units mm,t,s -o " + files.file("arm.superelement.h5"));
   EXPECT_EQ(back.code, 0) << back.text;
   EXPECT_THAT(back.text, AllOf(HasSubstr("imported (matrixmarket)"), HasSubstr("in canonical form"),
                                HasSubstr("arm.superelement.certificate.json")));
   EXPECT_EQ(read("arm.superelement.h5").units.mass.label, "t");
+  EXPECT_EQ(read("arm.superelement.h5").name, "arm");
   EXPECT_EQ(call(files, "show " + files.file("arm.superelement.h5")).code, 0);
   EXPECT_EQ(call(files, "import " + files.file("beam.S.mtx")).code, 2);  // without units
   EXPECT_EQ(call(files, "export " + path + " --to ansys").code, 1);

@@ -297,8 +297,8 @@ TEST(Histories, OfElementsAndGroupsAreThoseOfEveryInstant) {
   for (const reducer::Mesh& mesh : {beams(), shells(), solids()}) {
     Random body(mesh);
     const std::string element = first_element(body.data, 1), group = body.data.tables.group_name[0];
-    std::ofstream(body.folder.file("list.txt")) << "# chosen\n\nelement  " << element << "\r\ngroup " << group << "\n";
-    body.request.points_file = body.folder.file("list.txt");
+    body.request.elements = {element};
+    body.request.groups = {group};
     reducer::recover(body.request);
     const Table one = read_table(body.file("_elements.csv")), all = read_table(body.file("_groups.csv"));
     ASSERT_EQ(one.line.size(), static_cast<std::size_t>(instants));
@@ -352,10 +352,6 @@ TEST(Histories, WordsThatMeanNothingAreErrors) {
   EXPECT_THAT(with(&reducer::RecoverRequest::elements, "wing/1"),
               AllOf(HasSubstr("no group 'wing'"), HasSubstr("body")));
   EXPECT_THAT(with(&reducer::RecoverRequest::groups, "bdy"), AllOf(HasSubstr("no group 'bdy'"), HasSubstr("body")));
-  body.request.points_file = body.folder.file("list.txt");
-  EXPECT_THAT(error_of(body.request), AllOf(HasSubstr("list.txt"), HasSubstr("cannot be read")));
-  std::ofstream(body.request.points_file) << "point 0,0,0\nnode 12\n";
-  EXPECT_THAT(error_of(body.request), AllOf(HasSubstr("list.txt:2"), HasSubstr("'node 12'"), HasSubstr("point tip")));
   EXPECT_FALSE(std::ifstream(body.file("_envelope.csv")).good()) << "nothing is written after a fault";
 }
 
