@@ -41,9 +41,9 @@ void require_folder(const std::string& path) {
 }
 
 /// Endings of this project's files, where one stands for a kind.
-constexpr std::array<std::string_view, 9> own_endings{".superelement.h5", ".companion.h5",    ".recovery.h5",
-                                                      ".modal.h5",        ".checkpoint.h5",   ".results.h5",
-                                                      ".certificate.json", ".certificate.html", ".ledger.json"};
+constexpr std::array<std::string_view, 8> own_endings{".superelement.h5",  ".companion.h5",    ".recovery.h5",
+                                                      ".modal.h5",         ".checkpoint.h5",   ".results.h5",
+                                                      ".certificate.json", ".certificate.html"};
 
 std::string ending_of(const std::string& path) {
   for (const std::string_view own : own_endings)

@@ -25,8 +25,6 @@ std::string default_results(const std::string& scene) {
   return stem + ".results.h5";
 }
 
-std::string ledger_file(const std::string& results) { return stem_of_results(results) + ".ledger.json"; }
-
 std::string default_page(const std::vector<std::string>& results, const char* ending) {
   return (results.empty() ? "run" : stem_of_results(results.front())) + ending;
 }

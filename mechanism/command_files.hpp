@@ -13,9 +13,6 @@ namespace tisserand::mechanism {
 /// "dir/pendulum.scene.yaml" -> "dir/pendulum.results.h5": outputs lie beside what they are made of.
 std::string default_results(const std::string& scene);
 
-/// "dir/pendulum.results.h5" -> "dir/pendulum.ledger.json".
-std::string ledger_file(const std::string& results);
-
 /// "dir/pendulum.results.h5" -> "dir/pendulum.html".
 std::string default_page(const std::vector<std::string>& results, const char* ending);
 

@@ -115,23 +115,6 @@ mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunReq
   return end;
 }
 
-mechanism::RunControl ledger_control() {
-  mechanism::RunControl control;
-  control.interrupted = [] { return interrupt_requested.load(std::memory_order_relaxed); };
-  control.clock = processor_clock;
-  return control;
-}
-
-/// What `output: {ledger: yes}` asks for, after the report of the run.
-void tell_ledger(const mechanism::PlannedAnalysis& one, std::optional<mechanism::State> begin, bool restarted) {
-  Progress progress("ledger", 1.0);
-  const std::string told =
-      mechanism::ledger_beside(one, std::move(begin), restarted, mechanism::ledger_file(one.results), ledger_control(),
-                               [&](double done, const std::string& next) { progress.update(done, next); });
-  progress.finish();
-  say(told);
-}
-
 int run(const RunArguments& arguments) {
   const formats::Scene scene = read(arguments);
   std::optional<mechanism::RestartFile> restart;
@@ -151,8 +134,6 @@ int run(const RunArguments& arguments) {
   for (const mechanism::PlannedAnalysis& one : planned) {
     require_output(one.results, {".results.h5", ".h5"}, files_read);
     formats::require_unheld_results(one.results);
-    if (mechanism::wants_ledger(one))
-      require_output(mechanism::ledger_file(one.results), {".ledger.json"}, files_read);
   }
   listen_for_interrupts();
   const mechanism::BodyFiles files = mechanism::read_body_files(scene);
@@ -161,13 +142,11 @@ int run(const RunArguments& arguments) {
   for (const mechanism::PlannedAnalysis& one : planned) {
     std::optional<mechanism::State> begin;
     if (!one.from.empty()) begin = ends.at(one.from);
-    mechanism::RunEnd end =
-        run_one(arguments,
-                {one.scene, files, begin, one.results, arguments.restart, arguments.at, arguments.joining,
-                 arguments.changed},
-                one.name, told);
+    mechanism::RunEnd end = run_one(arguments,
+                                    {one.scene, files, std::move(begin), one.results, arguments.restart, arguments.at,
+                                     arguments.joining, arguments.changed},
+                                    one.name, told);
     if (const int code = exit_code(end.report); code != 0) return code;
-    if (mechanism::wants_ledger(one)) tell_ledger(one, std::move(begin), !arguments.restart.empty());
     ends.insert_or_assign(one.name, std::move(end.state));
   }
   return interrupt_requested ? exit_interrupted : 0;
@@ -196,9 +175,12 @@ struct LedgerArguments {
 int ledger(const LedgerArguments& arguments) {
   listen_for_interrupts();
   Progress progress("ledger", 1.0);
+  mechanism::RunControl control;
+  control.interrupted = [] { return interrupt_requested.load(std::memory_order_relaxed); };
+  control.clock = processor_clock;
   const formats::Scene scene = read(arguments.run);
   const mechanism::Ledger made =
-      mechanism::perform_ledger(scene, arguments.run.analysis, arguments.settings, ledger_control(),
+      mechanism::perform_ledger(scene, arguments.run.analysis, arguments.settings, control,
                                 [&](double done, const std::string& next) { progress.update(done, next); });
   if (!interrupt_requested) progress.finish();
   say(arguments.json ? mechanism::ledger_json(made)
@@ -254,8 +236,6 @@ void add_ledger(CLI::App& app, LedgerArguments& arguments, int& code) {
       ->allow_extra_args(false);
   command->add_option("--of", ledger.choice.owners, "only of this body, joint or spring; may be repeated")
       ->allow_extra_args(false);
-  command->add_option("--active", ledger.least_activity, "effects with a smaller share of activity are not tried")
-      ->check(CLI::Range(0.0, 1.0));
   command->add_flag("--json", arguments.json, "the same as JSON, with all figures");
   command->callback([&] { code = ::ledger(arguments); });
 }
@@ -264,8 +244,6 @@ void add_page_options(CLI::App& command, mechanism::ViewRequest& page) {
   command.add_option("--title", page.title, "title; default: names of the scenes");
   command.add_option("--instants", page.instants, "the most instants of a run, evenly chosen")
       ->check(CLI::Range(2, 1'000'000));
-  command.add_option("--vertices", page.shapes.vertices, "the most vertices of a body")
-      ->check(CLI::Range(100, 10'000'000));
   command.add_flag("--stress", page.shapes.stress, "stress of bodies with recovery files, to colour them by");
   command.add_option("--recovery", page.shapes.recovery, "recovery file of a superelement of the run")
       ->allow_extra_args(false);

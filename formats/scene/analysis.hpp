@@ -28,19 +28,14 @@ enum class LinearSolver { automatic, klu, umfpack, dense, qr };
 struct ErrorControl {
   bool active = false;
   double tolerance = 1e-3;  ///< of positions at the end, relative to the characteristic length; of rotations [rad]
-  double absolute = 0.0;    ///< [length] added to the tolerance of positions
   double min_step = 0.0;
   double max_step = 0.0;
 };
-
-enum class Stabilisation { projection, baumgarte };
 
 /// Backward differentiation of variable order on the equations of index 1.
 struct BdfSpec {
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-8;  ///< positions relative to the characteristic length; velocities per unit of time
-  Stabilisation stabilisation = Stabilisation::projection;
-  double alpha = 5.0, beta = 5.0;  ///< [1/time] Φ̈ + 2 α Φ̇ + β² Φ = 0
 };
 
 /// What a channel has to reach: tolerance and modes are chosen for it (mechanism/study/accuracy.hpp).
@@ -88,7 +83,6 @@ struct OutputSpec {
   std::optional<double> interval;
   double from = 0.0;                  ///< the reader's default is integrator.start
   std::vector<std::string> channels;  ///< groups or datasets such as "nodes", "nodes/position", "energy"; empty: all
-  bool ledger = false;                ///< after a run of dynamics: what each effect changes and costs
 };
 
 struct ModesSpec {

@@ -21,8 +21,6 @@ constexpr Choice<LinearSolver> linear_solvers[] = {{"auto", LinearSolver::automa
                                                    {"umfpack", LinearSolver::umfpack},
                                                    {"dense", LinearSolver::dense},
                                                    {"qr", LinearSolver::qr}};
-constexpr Choice<Stabilisation> stabilisations[] = {{"projection", Stabilisation::projection},
-                                                    {"baumgarte", Stabilisation::baumgarte}};
 
 /// First step of `step: auto`, as a part of the whole time: the error control finds its own within a few steps.
 constexpr double automatic_part = 1e-4;
@@ -41,8 +39,7 @@ void check_keys(const MapReader& map, Method method) {
     map.refuse({"tolerance", "constraint_tolerance", "max_iterations", "max_halvings", "error_control"}, why,
                "leave it out, or use method: generalised_alpha");
   else
-    map.refuse({"relative_tolerance", "absolute_tolerance", "stabilisation", "baumgarte"}, why,
-               "leave it out, or use method: bdf");
+    map.refuse({"relative_tolerance", "absolute_tolerance"}, why, "leave it out, or use method: bdf");
 }
 
 ErrorControl read_error_control(const MapReader& map) {
@@ -74,20 +71,6 @@ Method read_method(const MapReader& map, const IntegratorSpec& spec, AnalysisKin
   return spec.accuracy && spec.linear_solver != LinearSolver::qr ? Method::automatic : spec.method;
 }
 
-BdfSpec read_bdf(const MapReader& map) {
-  BdfSpec spec;
-  read_fields(map, spec);
-  const YamlNode* baumgarte = map.find("baumgarte");
-  if (baumgarte == nullptr) return spec;
-  if (spec.stabilisation == Stabilisation::projection)
-    map.context().fail(baumgarte->key_place, "'baumgarte' has no effect with stabilisation: projection",
-                       "give stabilisation: baumgarte");
-  const Context inside{map.context().reader, "integrator baumgarte", map.context().entry};
-  const MapReader numbers(inside, *baumgarte, "baumgarte", "integrator.baumgarte.");
-  read_fields(numbers, spec);
-  return spec;
-}
-
 /// `auto` where something controls the error; with bdf also when left out.
 double read_step(const MapReader& map, const IntegratorSpec& spec, AnalysisKind analysis) {
   const YamlNode* node = map.find("step");
@@ -114,7 +97,7 @@ IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
     const Context inside{map.context().reader, "integrator error_control", map.context().entry};
     spec.error_control = read_error_control(MapReader(inside, *control, "error_control", "integrator.error_control."));
   }
-  spec.bdf = read_bdf(map);
+  read_fields(map, spec.bdf);
   spec.accuracy = read_accuracy(map, analysis);
   spec.method = read_method(map, spec, analysis);
   spec.error_control.active = spec.error_control.active || (spec.accuracy && spec.method != Method::bdf);
@@ -124,16 +107,12 @@ IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
 
 std::vector<KeySet> integrator_key_sets() {
   const std::vector<Field> of_bdf = shared_fields(
-      "integrator_bdf",
-      {plain<&BdfSpec::relative_tolerance>("relative_tolerance", "positive",
-                                           "of each coordinate and velocity per step"),
-       plain<&BdfSpec::absolute_tolerance>(
-           "absolute_tolerance", "positive",
-           "of positions relative to the extent of the scene, of Euler parameters; of "
-           "velocities the same per second (of scenes without named units: per unit of time)"),
-       choice<&BdfSpec::stabilisation, stabilisations>(
-           "stabilisation", "`projection`: after each step onto the constraints, in the mass norm; or `baumgarte`"),
-       {"baumgarte", "baumgarte", "`{alpha: 5, beta: 5}` [1/time]: Φ̈ + 2 α Φ̇ + β² Φ = 0", "5, 5"}});
+      "integrator_bdf", {plain<&BdfSpec::relative_tolerance>("relative_tolerance", "positive",
+                                                             "of each coordinate and velocity per step"),
+                         plain<&BdfSpec::absolute_tolerance>(
+                             "absolute_tolerance", "positive",
+                             "of positions relative to the extent of the scene, of Euler parameters; of "
+                             "velocities the same per second (of scenes without named units: per unit of time)")});
   return {
       {"integrator",
        {choice<&IntegratorSpec::method, methods>(
@@ -171,7 +150,6 @@ std::vector<KeySet> integrator_key_sets() {
                                         "error of positions at the end of the run, relative to the extent of the "
                                         "scene, of rotations in rad: each step may add its share of the time. Errors "
                                         "fall with it: a tenth costs about 3.2 times the steps"),
-        plain<&ErrorControl::absolute>("absolute", "not_negative", "[length] added to the tolerance of positions"),
         plain<&ErrorControl::min_step>("min_step", "not_negative", "[time] the run ends where the error asks for less",
                                        "1e-12 of the whole time"),
         plain<&ErrorControl::max_step>("max_step", "not_negative", "[time]", "a tenth of the whole time")}},
@@ -181,9 +159,7 @@ std::vector<KeySet> integrator_key_sets() {
         plain<&AccuracySpec::of>("of", "text", "channel of the results, `nodes/position/arm/tip/x`", "required"),
         choice<&AccuracySpec::norm, error_norms>("norm", "as in [STUDY.md](STUDY.md)"),
         plain<&AccuracySpec::scale>("scale", "positive", "the error is divided by it",
-                                    "the size of the channel; 1 for `peak_time`")}},
-      {"baumgarte",
-       {plain<&BdfSpec::alpha>("alpha", "not_negative", ""), plain<&BdfSpec::beta>("beta", "not_negative", "")}}};
+                                    "the size of the channel; 1 for `peak_time`")}}};
 }
 
 }  // namespace tisserand::formats

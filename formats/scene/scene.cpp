@@ -128,11 +128,7 @@ std::vector<KeySet> settings_key_sets() {
          "groups or datasets of the results file (`nodes`, `nodes/position`, `joints`, `energy`, ...), patterns of "
          "them, and "
          "single nodes in datasets of nodes (`nodes/position/arm/tip`, `nodes/*/rod/end`)",
-         "all"},
-        choice<&OutputSpec::ledger, yes_or_no>(
-            "ledger",
-            "`yes`: after a run of dynamics what each effect changes and costs, told and written as JSON beside "
-            "the results ([below](#ledger))")}}};
+         "all"}}}};
 }
 
 std::vector<Field> scene_fields() {

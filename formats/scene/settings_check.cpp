@@ -33,12 +33,8 @@ void check_times(const IntegratorSpec& spec, const Subject& group) {
 void check_accuracy(const IntegratorSpec& spec, const Subject& group) {
   const ErrorControl& control = spec.error_control;
   group.positive("error_control.tolerance", control.tolerance);
-  for (const auto& [key, value] : {std::pair{"error_control.absolute", control.absolute},
-                                   {"error_control.min_step", control.min_step},
-                                   {"error_control.max_step", control.max_step},
-                                   {"baumgarte.alpha", spec.bdf.alpha},
-                                   {"baumgarte.beta", spec.bdf.beta}})
-    group.not_negative(key, value);
+  group.not_negative("error_control.min_step", control.min_step);
+  group.not_negative("error_control.max_step", control.max_step);
   if (control.max_step > 0.0 && control.max_step < control.min_step)
     group.add("error_control.max_step",
               fmt::format("max_step {:g} is smaller than min_step {:g}", control.max_step, control.min_step));
@@ -80,9 +76,6 @@ void check_groups(const Scene& scene, const std::string& where, Faults& faults) 
     output.add("from",
                fmt::format("from {:g} is later than the end {:g} of the integrator", scene.output.from, spec.end),
                "nothing would be stored; give an earlier time");
-  if (scene.output.ledger && spec.accuracy && scene.analysis == AnalysisKind::dynamics)
-    output.add("ledger", "ledger: a ledger needs steps, not `accuracy`, which changes them from run to run",
-               "give integrator.step or error_control in its place, or leave it out");
   for (const std::string& channel : scene.output.channels)
     if (channel.empty())
       output.add("channels", "a channel has no name");
@@ -101,23 +94,10 @@ void check_groups(const Scene& scene, const std::string& where, Faults& faults) 
                    "use generalised_alpha or hht, or leave checkpoints out");
 }
 
-/// Several analyses take `output` from the scene, so that one of dynamics among them is enough.
-void check_ledger(const Scene& scene, Faults& faults) {
-  bool asked = scene.output.ledger, dynamics = scene.analysis == AnalysisKind::dynamics && scene.analyses.empty();
-  for (const Analysis& analysis : scene.analyses) {
-    asked = asked || analysis.output.ledger;
-    dynamics = dynamics || analysis.kind == AnalysisKind::dynamics;
-  }
-  if (asked && !dynamics)
-    settings("output", scene.file, faults)
-        .add("ledger", "ledger: only dynamics has a ledger, and no analysis is one", "leave it out");
-}
-
 }  // namespace
 
 void check_settings(const Scene& scene, Faults& faults) {
   std::vector<std::string> names;
-  check_ledger(scene, faults);
   for (const Analysis& analysis : scene.analyses) {
     check_name("analysis", analysis, names, faults);
     check_groups(scene_of(scene, analysis), analysis.where, faults);

@@ -28,9 +28,8 @@ struct BdfCounts {
 
 /// y = [x, p, internal coordinates, v, work, dissipated] with ẋ, ṗ = ½ L(p)ᵀ Ω and [M Bᵀ; B 0][v̇; λ] = [F − G; −Ḃ v]
 /// ([GA00] (14), (16); internal coordinates condensed). Drift is removed by CVODE's projection after each step, in the
-/// mass norm: positions, then velocities, then |p| = 1; or by −2 α Φ̇ − β² Φ in the last rows (Baumgarte). The
-/// rotation of p is that of p/|p|, so |p| needs no constraint. Linear algebra of CVODE: dense with differences up to
-/// 400 unknowns, GMRES without a matrix above.
+/// mass norm: positions, then velocities, then |p| = 1. The rotation of p is that of p/|p|, so |p| needs no constraint.
+/// Linear algebra of CVODE: dense with differences up to 400 unknowns, GMRES without a matrix above.
 class Bdf {
  public:
   /// The state is started (consistent). Throws Error if this build has no CVODE, or if a direction has no mass.

@@ -165,10 +165,8 @@ void Bdf::Data::create(const formats::Scene& scene) {
     linear = SUNLinSol_SPGMR(y, SUN_PREC_NONE, 0, context);
   }
   check(CVodeSetLinearSolver(cvode, linear, matrix));
-  if (spec.stabilisation == formats::Stabilisation::projection) {
-    check(CVodeSetProjFn(cvode, BdfCallbacks::project<Data>));
-    check(CVodeSetProjErrEst(cvode, SUNFALSE));
-  }
+  check(CVodeSetProjFn(cvode, BdfCallbacks::project<Data>));
+  check(CVodeSetProjErrEst(cvode, SUNFALSE));
   if (scene.integrator.step > 0.0) check(CVodeSetInitStep(cvode, scene.integrator.step));
 }
 

@@ -84,10 +84,6 @@ bool Index1::try_accelerate() {
     evaluate_bias(model_, workspace_.now);
     apply_jacobian(model_, workspace_.now, state_.vdot(), workspace_.matrix.rows);
     workspace_.matrix.rows = -workspace_.now.bias - workspace_.matrix.rows;
-    if (scene_.integrator.bdf.stabilisation == formats::Stabilisation::baumgarte) {
-      const double alpha = scene_.integrator.bdf.alpha, beta = scene_.integrator.bdf.beta;
-      workspace_.matrix.rows -= 2.0 * alpha * workspace_.now.constraint_rate + beta * beta * workspace_.now.constraint;
-    }
     workspace_.matrix.solve_increment(model_, workspace_.matrix.rows, workspace_.now);
     state_.vdot() += workspace_.matrix.increment;
     state_.lambda() += workspace_.matrix.multipliers;

@@ -118,8 +118,6 @@ class LedgerMaker {
 
   void judge(LedgerLine& line) {
     if (!line.failure.empty()) return;
-    if (line.activity && request_.settings.least_activity > 0.0 && line.share < request_.settings.least_activity)
-      return;
     try {
       replay_toggled(line);
     } catch (const Error& error) {

@@ -19,7 +19,6 @@ struct LedgerSettings {
   int repeats = 3;                         ///< of each window, for times
   std::vector<std::string> channels = {};  ///< that are compared; empty: places, deflections, reactions
   ToggleChoice choice = {};
-  double least_activity = 0.0;  ///< share of activity below which an effect is not replayed
 };
 
 /// Hears the part that is done, and what comes next.

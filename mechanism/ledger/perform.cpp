@@ -7,9 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
-#include "common/text.hpp"
 #include "mechanism/build/effects.hpp"
-#include "mechanism/ledger/table.hpp"
 #include "mechanism/simulate.hpp"
 
 namespace tisserand::mechanism {
@@ -42,39 +40,16 @@ std::vector<PlannedAnalysis> planned_for(const formats::Scene& scene, std::strin
   return plan(scene, analysis, {});
 }
 
-void require_part(const char* option, double value) {
-  if (!(value >= 0.0 && value <= 1.0))
-    throw Error(fmt::format("{}: {} is no part of a whole", option, value), "", "give a number from 0 to 1");
-}
-
-Ledger ledger_of(const formats::Scene& scene, std::optional<State> begin, const LedgerSettings& settings,
-                 const BodyFiles& files, const RunControl& control, const LedgerProgress& progress) {
-  const formats::Scene whole = with_switches(scene, {});  // auto: on
-  return make_ledger({whole, std::move(begin), settings, progress}, files, control);
-}
-
 }  // namespace
-
-bool wants_ledger(const PlannedAnalysis& one) {
-  return one.scene.output.ledger && one.scene.analysis == formats::AnalysisKind::dynamics;
-}
-
-std::string ledger_beside(const PlannedAnalysis& one, std::optional<State> begin, bool restarted,
-                          const std::string& path, const RunControl& control, const LedgerProgress& progress) {
-  if (restarted) return "ledger: none is made of a run that goes on from a file; `mechanism ledger` makes it\n";
-  const Ledger ledger = ledger_of(one.scene, std::move(begin), {}, read_ledger_files(one.scene), control, progress);
-  write_text_file(path, ledger_json(ledger));
-  return fmt::format("ledger: {}  {:<16} {}\n", ledger_text(ledger, one.scene.units), "written", path);
-}
 
 Ledger perform_ledger(const formats::Scene& scene, const std::string& analysis, const LedgerSettings& settings,
                       const RunControl& control, const LedgerProgress& progress) {
-  require_part("--share", settings.windows.share);
-  require_part("--active", settings.least_activity);
+  if (const double share = settings.windows.share; !(share >= 0.0 && share <= 1.0))
+    throw Error(fmt::format("--share: {} is no part of a whole", share), "", "give a number from 0 to 1");
   const std::vector<PlannedAnalysis> planned = planned_for(scene, analysis);
   const BodyFiles files = read_ledger_files(scene);
-  return ledger_of(planned.back().scene, beginning_of_last(planned, files, control), settings, files, control,
-                   progress);
+  const formats::Scene whole = with_switches(planned.back().scene, {});  // auto: on
+  return make_ledger({whole, beginning_of_last(planned, files, control), settings, progress}, files, control);
 }
 
 }  // namespace tisserand::mechanism

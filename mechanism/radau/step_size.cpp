@@ -26,7 +26,6 @@ double by_error(const Tuning& tuning, double error, int iterations) {
 formats::ErrorControl estimate_tolerance(const formats::ErrorControl& control) {
   formats::ErrorControl inner = control;
   inner.tolerance = 0.1 * std::pow(control.tolerance, 2.0 / 3.0);
-  inner.absolute = control.absolute * inner.tolerance / control.tolerance;
   return inner;
 }
 

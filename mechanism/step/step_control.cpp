@@ -40,7 +40,7 @@ LocalError measure_error(const Model& model, const formats::ErrorControl& contro
       worst = {ratio, k};
     }
   };
-  const double length = control.tolerance * model.length + control.absolute;
+  const double length = control.tolerance * model.length;
   for (const Node& node : model.nodes) {
     if (node.translation >= 0) look_at(node.translation, translations_of(model), length);
     if (node.rotation >= 0) look_at(node.rotation, rotations_of(model), control.tolerance);

@@ -183,7 +183,7 @@ BodyShape shape_of_body(ViewedRun& run, const ViewedBody& body, const ShapeOptio
   } else {
     shape = nodes_of_body(run, body);
   }
-  if (shape.source != "nodes") thin(options.vertices, shape);
+  if (shape.source != "nodes") thin(most_vertices, shape);
   return shape;
 }
 

@@ -29,8 +29,10 @@ struct BodyShape {
   std::vector<Eigen::Matrix3d> station_axes;  ///< of swept sections: at rest, in axes of the node
 };
 
+/// The most vertices of one body: more are thinned.
+inline constexpr int most_vertices = 50'000;
+
 struct ShapeOptions {
-  int vertices = 50'000;              ///< the most of one body
   bool stress = false;                ///< of bodies with recovery files
   std::vector<std::string> recovery;  ///< recovery files beside those that lie beside the superelements
 };

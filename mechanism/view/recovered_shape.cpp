@@ -194,7 +194,7 @@ std::optional<BodyShape> recovered_shape(ViewedRun& run, const ViewedBody& body,
   BodyShape shape;
   shape.source = "recovery";
   shape.all_vertices = skin.surface.size();
-  Thinned few = thinned(skin.surface, options.vertices);
+  Thinned few = thinned(skin.surface, most_vertices);
   std::vector<formats::SkinCarrier> carriers;
   for (const int v : few.kept) {
     carriers.push_back(skin.carriers[v]);

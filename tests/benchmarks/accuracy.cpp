@@ -53,7 +53,7 @@ Point take(const Case& input) {
 Point radau(Subject subject, double tolerance) {
   formats::IntegratorSpec& options = subject.input.scene.integrator;
   options.method = formats::Method::radau;
-  options.error_control = {true, tolerance, 0.0, 0.0, 0.0};
+  options.error_control = {true, tolerance, 0.0, 0.0};
   options.step = 1e-4 * options.end;
   return take(subject.input);
 }

@@ -137,7 +137,7 @@ class Measured {
   formats::Scene controlled(formats::Method method, double tolerance) const {
     formats::Scene scene = scene_;
     scene.integrator.method = method;
-    scene.integrator.error_control = {true, tolerance, 0.0, 0.0, 0.0};
+    scene.integrator.error_control = {true, tolerance, 0.0, 0.0};
     return scene;
   }
   formats::Scene stepped(double step) const {

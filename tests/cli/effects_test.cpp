@@ -42,22 +42,6 @@ TEST_F(Effects, ALedgerSizesThemLineByLine) {
   EXPECT_THAT(names(), Not(::testing::Contains(HasSubstr("results"))));  // nothing is stored
 }
 
-TEST_F(Effects, ARunWritesALedgerWhereItIsAskedForOne) {
-  const Outcome run = with("run", {"output={ledger: yes}", "integrator.end=0.05"});
-  ASSERT_EQ(run.code, 0) << run.error;
-  EXPECT_THAT(run.out, AllOf(HasSubstr("arm.results.h5\nledger: 5 windows of 0.01 s; "),
-                             HasSubstr("  gravity of 'rod': on; off would change "), HasSubstr("arm.ledger.json\n")));
-  const std::string json = read_text(file("arm.ledger.json"));
-  EXPECT_THAT(json, AllOf(HasSubstr("\"effect\": \"gravity\""), HasSubstr("\"windows\": 5")));
-  EXPECT_EQ(with("run", {"integrator.end=0.05"}).code, 0);
-  EXPECT_EQ(read_text(file("arm.ledger.json")), json);  // nothing new where none is asked for
-  expect_error(with("run", {"output={ledger: yes}", "analysis=statics"}),
-               {"output: ledger: only dynamics has a ledger", "leave it out"});
-  expect_error(with("run", {"output={ledger: maybe}"}), {"ledger", "maybe"});
-  expect_error(with("run", {"output={ledger: yes}", "integrator={end: 0.1, accuracy: {error: 0.01, of: energy}}"}),
-               {"a ledger needs steps, not `accuracy`"});
-}
-
 TEST_F(Effects, ALedgerTakesChosenOnesAndStoredStates) {
   ASSERT_EQ(with("run", {}).code, 0);
   const Outcome json = mechanism({"ledger", "arm.scene.yaml", "--results", "arm.results.h5", "--effect", "gravity",

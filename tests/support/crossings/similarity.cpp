@@ -161,7 +161,6 @@ void settings(Scene& scene, const Similarity& s) {
   i.step *= s.time;
   i.start = i.start * s.time + s.delay;
   i.end = i.end * s.time + s.delay;
-  i.error_control.absolute *= s.length;
   i.error_control.min_step *= s.time;
   i.error_control.max_step *= s.time;
   if (scene.output.interval) *scene.output.interval *= s.time;
