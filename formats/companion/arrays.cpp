@@ -1,6 +1,10 @@
 // Symmetric matrices in and out of HDF5; sizes are compared before memory is taken.
 #include "formats/companion/arrays.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
 #include "common/error.hpp"
 
 namespace tisserand::formats {
@@ -8,72 +12,70 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-[[noreturn]] void fail_shape(const hdf5::InputFile& file, const std::string& dataset, const hdf5::Shape& found,
-                             const std::string& expected) {
-  throw Error(
-      fmt::format("has shape {}, expected {}", hdf5::shape_text(found), expected),
-      fmt::format("{}: {}", file.path(), dataset),
-      "compare the file with formats/COMPANION.md, or let the program that made the superelement write it again");
-}
-
 void unpack(const double* values, Eigen::Index n, Eigen::MatrixXd& matrix) {
   matrix.resize(n, n);
   for (Eigen::Index k = 0; k < n; ++k)
     for (Eigen::Index l = k; l < n; ++l) matrix(k, l) = matrix(l, k) = *values++;
 }
 
-/// Reads the values of a dataset whose shape is `packed` (triangles) or `whole`.
-void read_either(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n, const hdf5::Shape& packed,
-                 const hdf5::Shape& whole, Eigen::MatrixXd* matrices, std::uint64_t count) {
+/// One of the ways in which matrices may lie in a dataset, in words of messages.
+struct Form {
+  hdf5::Shape shape;
+  const char* words;
+};
+
+/// Reads matrices n x n that lie in one of these forms: upper triangles, if the last axis is shorter than n².
+void read_matrices(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n,
+                   const std::vector<Form>& forms, std::span<Eigen::MatrixXd> matrices) {
   const hdf5::Shape found = file.info(dataset).shape;
   const std::string meaning = fmt::format("n = {} coordinates of the superelement", n);
-  if (found != packed && found != whole)
-    fail_shape(
-        file, dataset, found,
-        fmt::format("{} (upper triangles) or {} ({})", hdf5::shape_text(packed), hdf5::shape_text(whole), meaning));
-  const auto size = static_cast<Eigen::Index>(n);
-  const std::uint64_t each = found == packed ? n * (n + 1) / 2 : n * n;
-  std::vector<double> values(count * each);
-  file.read(dataset, found, meaning, values.data());
-  for (std::uint64_t i = 0; i < count; ++i) {
-    if (found == packed)
-      unpack(values.data() + i * each, size, matrices[i]);
-    else
-      matrices[i] = Eigen::Map<const RowMajor>(values.data() + i * each, size, size);
+  if (std::ranges::find(forms, found, &Form::shape) == forms.end()) {
+    std::string expected;
+    for (const Form& form : forms)
+      expected += fmt::format("{}{}{}", expected.empty() ? "" : " or ", hdf5::shape_text(form.shape), form.words);
+    throw Error(
+        fmt::format("has shape {}, expected {} ({})", hdf5::shape_text(found), expected, meaning),
+        fmt::format("{}: {}", file.path(), dataset),
+        "compare the file with formats/COMPANION.md, or let the program that made the superelement write it again");
   }
+  std::vector<double> values(std::accumulate(found.begin(), found.end(), std::uint64_t{1}, std::multiplies<>()));
+  file.read(dataset, found, meaning, values.data());
+  const auto size = static_cast<Eigen::Index>(n);
+  const std::uint64_t each = values.size() / matrices.size();
+  for (std::size_t i = 0; i < matrices.size(); ++i)
+    if (each == n * n)
+      matrices[i] = Eigen::Map<const RowMajor>(values.data() + i * each, size, size);
+    else
+      unpack(values.data() + i * each, size, matrices[i]);
 }
+
+constexpr const char* triangles = " (upper triangles)";
 
 }  // namespace
 
-std::vector<double> upper_triangles(const Eigen::MatrixXd* matrices, int count) {
+std::vector<double> upper_triangles(std::span<const Eigen::MatrixXd> matrices) {
   std::vector<double> values;
-  for (int i = 0; i < count; ++i)
-    for (Eigen::Index k = 0; k < matrices[i].rows(); ++k)
-      for (Eigen::Index l = k; l < matrices[i].cols(); ++l) values.push_back(matrices[i](k, l));
+  for (const Eigen::MatrixXd& matrix : matrices)
+    for (Eigen::Index k = 0; k < matrix.rows(); ++k)
+      for (Eigen::Index l = k; l < matrix.cols(); ++l) values.push_back(matrix(k, l));
   return values;
 }
 
-void read_symmetric(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n, Eigen::MatrixXd* matrices,
-                    std::uint64_t count) {
-  read_either(file, dataset, n, {count, n * (n + 1) / 2}, {count, n, n}, matrices, count);
+void read_symmetric(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n,
+                    std::span<Eigen::MatrixXd> matrices) {
+  const std::uint64_t count = matrices.size();
+  read_matrices(file, dataset, n, {{{count, n * (n + 1) / 2}, triangles}, {{count, n, n}, ""}}, matrices);
 }
 
 Eigen::MatrixXd read_symmetric(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n) {
   Eigen::MatrixXd matrix;
-  read_either(file, dataset, n, {n * (n + 1) / 2}, {n, n}, &matrix, 1);
+  read_matrices(file, dataset, n, {{{n * (n + 1) / 2}, triangles}, {{n, n}, ""}}, {&matrix, 1});
   return matrix;
 }
 
-void read_general(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n, Eigen::MatrixXd* matrices,
-                  std::uint64_t count) {
-  const hdf5::Shape found = file.info(dataset).shape, shape{count, n, n};
-  const std::string meaning = fmt::format("n = {} coordinates of the superelement", n);
-  if (found != shape) fail_shape(file, dataset, found, fmt::format("{} ({})", hdf5::shape_text(shape), meaning));
-  std::vector<double> values(count * n * n);
-  file.read(dataset, shape, meaning, values.data());
-  const auto size = static_cast<Eigen::Index>(n);
-  for (std::uint64_t i = 0; i < count; ++i)
-    matrices[i] = Eigen::Map<const RowMajor>(values.data() + i * n * n, size, size);
+void read_general(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n,
+                  std::span<Eigen::MatrixXd> matrices) {
+  read_matrices(file, dataset, n, {{{matrices.size(), n, n}, ""}}, matrices);
 }
 
 }  // namespace tisserand::formats

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,18 +13,18 @@
 namespace tisserand::formats {
 
 /// Entries (k, l), k ≤ l, row by row: n(n + 1)/2 of each matrix, one matrix after the other.
-std::vector<double> upper_triangles(const Eigen::MatrixXd* matrices, int count);
+std::vector<double> upper_triangles(std::span<const Eigen::MatrixXd> matrices);
 
-/// Reads `count` symmetric matrices n x n: shape count x n(n + 1)/2 (upper triangles) or count x n x n (whole; may turn
-/// out not to be symmetric, which check() tells).
-void read_symmetric(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n, Eigen::MatrixXd* matrices,
-                    std::uint64_t count);
+/// Reads symmetric matrices n x n: shape count x n(n + 1)/2 (upper triangles) or count x n x n (whole; may turn out not
+/// to be symmetric, which check() tells).
+void read_symmetric(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n,
+                    std::span<Eigen::MatrixXd> matrices);
 
 /// The same of one matrix: shape n(n + 1)/2 or n x n.
 Eigen::MatrixXd read_symmetric(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n);
 
-/// `count` matrices rows x columns, row by row.
-void read_general(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n, Eigen::MatrixXd* matrices,
-                  std::uint64_t count);
+/// Matrices n x n, row by row: shape count x n x n.
+void read_general(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n,
+                  std::span<Eigen::MatrixXd> matrices);
 
 }  // namespace tisserand::formats

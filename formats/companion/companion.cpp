@@ -60,7 +60,7 @@ void read_trapped(const hdf5::InputFile& file, std::uint64_t n, Companion& c) {
                 file.path() + ": /Lambda",
                 "keep the largest rows alone, or compare the file with formats/COMPANION.md");
   c.Lambda.resize(shape[0]);
-  read_symmetric(file, "/Lambda", n, c.Lambda.data(), shape[0]);
+  read_symmetric(file, "/Lambda", n, c.Lambda);
 }
 
 void read_second_order(const hdf5::InputFile& file, Companion& c) {
@@ -75,12 +75,12 @@ void read_second_order(const hdf5::InputFile& file, Companion& c) {
   file.read("/S1", {3, n}, "3 x n", S1.data());
   c.S1 = S1;
   c.H.resize(n);
-  read_symmetric(file, "/H", n, c.H.data(), n);
-  read_general(file, "/C", n, c.C.data(), 3);
-  read_symmetric(file, "/E", n, c.E.data(), 6);
-  read_symmetric(file, "/N", n, c.N.data(), 6);
-  read_symmetric(file, "/T", n, c.T.data(), 6);
-  if (file.has("/W")) read_general(file, "/W", n, c.W.data(), 3);
+  read_symmetric(file, "/H", n, c.H);
+  read_general(file, "/C", n, c.C);
+  read_symmetric(file, "/E", n, c.E);
+  read_symmetric(file, "/N", n, c.N);
+  read_symmetric(file, "/T", n, c.T);
+  if (file.has("/W")) read_general(file, "/W", n, c.W);
   if (file.has("/Lambda")) read_trapped(file, n, c);
 }
 
@@ -134,49 +134,49 @@ UncheckedCompanion read_unchecked_companion(const std::string& path) {
   return result;
 }
 
-void write_companion_head(hdf5::Id file, const Companion& c, const std::string& where) {
-  hdf5::write_text_attribute(file, "/", "format", companion_kind.format, where);
-  hdf5::write_text_attribute(file, "/", "version", fmt::format("1.{}", c.minor_version), where);
-  hdf5::write_text_attribute(file, "/", "producer", c.producer, where);
-  hdf5::write_text_attribute(file, "/", "superelement", c.content_id, where);
-  hdf5::write_text_attribute(file, "/", "content_id", c.companion_id, where);
-  hdf5::write_units(file, c.units, where);
-  hdf5::write_dataset(file, "/frame/reference_point", {3}, c.reference_point.data(), where);
-  hdf5::write_dataset(file, "/frame/weights", {static_cast<std::uint64_t>(c.weights.size())}, c.weights.data(), where);
+void write_companion_head(const hdf5::Output& out, const Companion& c) {
+  hdf5::write_attribute(out, "/", "format", companion_kind.format);
+  hdf5::write_attribute(out, "/", "version", fmt::format("1.{}", c.minor_version));
+  hdf5::write_attribute(out, "/", "producer", c.producer);
+  hdf5::write_attribute(out, "/", "superelement", c.content_id);
+  hdf5::write_attribute(out, "/", "content_id", c.companion_id);
+  hdf5::write_units(out, c.units);
+  hdf5::write_dataset(out, "/frame/reference_point", c.reference_point);
+  hdf5::write_dataset(out, "/frame/weights", c.weights);
 }
 
-void write_second_order(hdf5::Id file, const Companion& c, const std::string& where) {
+void write_second_order(const hdf5::Output& out, const Companion& c) {
   const auto n = static_cast<std::uint64_t>(c.S1.cols());
   const RowMajor3X S1 = c.S1;
-  hdf5::write_dataset(file, "/mass", {1}, &c.mass, where);
-  hdf5::write_dataset(file, "/S0", {3}, c.S0.data(), where);
-  hdf5::write_dataset(file, "/S1", {3, n}, S1.data(), where);
-  const auto write_triangles = [&](const char* name, const Eigen::MatrixXd* matrices, int count) {
-    hdf5::write_compressed_dataset(file, name, {static_cast<std::uint64_t>(count), n * (n + 1) / 2},
-                                   upper_triangles(matrices, count).data(), where);
+  const hdf5::Output packed{out.id, out.where, hdf5::Packing::small};
+  hdf5::write_dataset(out, "/mass", {1}, &c.mass);
+  hdf5::write_dataset(out, "/S0", c.S0);
+  hdf5::write_dataset(out, "/S1", {3, n}, S1.data());
+  const auto write_triangles = [&](const char* name, std::span<const Eigen::MatrixXd> matrices) {
+    hdf5::write_dataset(packed, name, {matrices.size(), n * (n + 1) / 2}, upper_triangles(matrices).data());
   };
-  write_triangles("/H", c.H.data(), static_cast<int>(c.H.size()));
+  write_triangles("/H", c.H);
   const auto write_general = [&](const char* name, const std::array<Eigen::MatrixXd, 3>& matrices) {
     std::vector<double> values;
     for (const RowMajorX matrix : matrices) values.insert(values.end(), matrix.data(), matrix.data() + matrix.size());
-    hdf5::write_compressed_dataset(file, name, {3, n, n}, values.data(), where);
+    hdf5::write_dataset(packed, name, {3, n, n}, values.data());
   };
   write_general("/C", c.C);
-  write_triangles("/E", c.E.data(), 6);
-  write_triangles("/N", c.N.data(), 6);
-  write_triangles("/T", c.T.data(), 6);
+  write_triangles("/E", c.E);
+  write_triangles("/N", c.N);
+  write_triangles("/T", c.T);
   if (c.has_relative_turns()) write_general("/W", c.W);
-  if (!c.Lambda.empty()) write_triangles("/Lambda", c.Lambda.data(), static_cast<int>(c.Lambda.size()));
+  if (!c.Lambda.empty()) write_triangles("/Lambda", c.Lambda);
 }
 
-void write_load_cases(hdf5::Id file, const Companion& c, const std::string& where) {
+void write_load_cases(const hdf5::Output& out, const Companion& c) {
   for (const LoadCase& load : c.load_cases) {
     const auto n = static_cast<std::uint64_t>(load.force.size());
     const std::string group = "/load_cases/" + load.name;
-    if (n > 0) hdf5::write_dataset(file, group + "/force", {n}, load.force.data(), where);
+    if (n > 0) hdf5::write_dataset(out, group + "/force", load.force);
     if (load.stiffness.size() > 0)
-      hdf5::write_compressed_dataset(file, group + "/stiffness", {n * (n + 1) / 2},
-                                     upper_triangles(&load.stiffness, 1).data(), where);
+      hdf5::write_dataset({out.id, out.where, hdf5::Packing::small}, group + "/stiffness", {n * (n + 1) / 2},
+                          upper_triangles({&load.stiffness, 1}).data());
   }
 }
 
@@ -189,8 +189,8 @@ class Identity {
     if (count > 0) sha_.add(values, count * sizeof(double));
   }
   void add(const std::string& text) { sha_.add(text.c_str(), text.size() + 1); }
-  void add_symmetric(const Eigen::MatrixXd* matrices, int count) {
-    const std::vector<double> values = upper_triangles(matrices, count);
+  void add_symmetric(std::span<const Eigen::MatrixXd> matrices) {
+    const std::vector<double> values = upper_triangles(matrices);
     add(values.data(), values.size());
   }
   std::string hex() { return sha_.hex(); }
@@ -218,17 +218,17 @@ std::string companion_id(const Companion& c) {
     identity.add(c.S0.data(), 3);
     const RowMajor3X S1 = c.S1;
     identity.add(S1.data(), static_cast<std::size_t>(S1.size()));
-    identity.add_symmetric(c.H.data(), static_cast<int>(c.H.size()));
+    identity.add_symmetric(c.H);
     for (const RowMajorX C : c.C) identity.add(C.data(), static_cast<std::size_t>(C.size()));
-    for (const auto* arrays : {&c.E, &c.N, &c.T}) identity.add_symmetric(arrays->data(), 6);
+    for (const auto* arrays : {&c.E, &c.N, &c.T}) identity.add_symmetric(*arrays);
     if (c.has_relative_turns())
       for (const RowMajorX W : c.W) identity.add(W.data(), static_cast<std::size_t>(W.size()));
-    if (!c.Lambda.empty()) identity.add_symmetric(c.Lambda.data(), static_cast<int>(c.Lambda.size()));
+    if (!c.Lambda.empty()) identity.add_symmetric(c.Lambda);
   }
   for (const LoadCase& load : c.load_cases) {
     identity.add(load.name);
     identity.add(load.force.data(), static_cast<std::size_t>(load.force.size()));
-    identity.add_symmetric(&load.stiffness, 1);
+    identity.add_symmetric({&load.stiffness, 1});
   }
   return identity.hex();
 }
@@ -250,9 +250,10 @@ std::string companion_image(const std::string& path, Companion& companion, const
   check(companion, superelement, path);
   companion.companion_id = companion_id(companion);
   hdf5::Handle file = hdf5::create_in_memory(path);
-  write_companion_head(file.id(), companion, path);
-  if (companion.has_second_order()) write_second_order(file.id(), companion, path);
-  write_load_cases(file.id(), companion, path);
+  const hdf5::Output out{file.id(), path};
+  write_companion_head(out, companion);
+  if (companion.has_second_order()) write_second_order(out, companion);
+  write_load_cases(out, companion);
   return hdf5::file_image(std::move(file), path);
 }
 

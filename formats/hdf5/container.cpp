@@ -106,33 +106,39 @@ bool has_only_checksums(Id creation) {
 /// Values of a dataset over time: rows [start[0], start[0] + count[0]) and a box of each.
 struct Selection {
   std::vector<hsize_t> start, count;
+  hsize_t values() const { return count_of(Shape(count.begin(), count.end())); }
 };
 
-bool read_selection(Id dataset, Id space, const Selection& selection, Id type, Id transfer, char* values) {
-  const hsize_t total = count_of(Shape(selection.count.begin(), selection.count.end()));
+/// An open dataset, its space, and the type of its values in memory.
+struct Source {
+  Id dataset = -1, space = -1, type = -1;
+};
+
+bool read_selection(const Source& source, const Selection& selection, Id transfer, char* values) {
+  const hsize_t total = selection.values();
   const Handle memory(H5Screate_simple(1, &total, nullptr), H5Sclose);
-  return H5Sselect_hyperslab(space, H5S_SELECT_SET, selection.start.data(), nullptr, selection.count.data(), nullptr) >=
-             0 &&
-         H5Dread(dataset, type, memory.id(), space, transfer, values) >= 0;
+  return H5Sselect_hyperslab(source.space, H5S_SELECT_SET, selection.start.data(), nullptr, selection.count.data(),
+                             nullptr) >= 0 &&
+         H5Dread(source.dataset, source.type, memory.id(), source.space, transfer, values) >= 0;
 }
 
 /// The chunk in which the rows end is written again and again while a run goes on. Where its writer was met, or killed,
 /// amid that, the rows are there but their checksum is not yet: this chunk is then read without, the others with it.
-bool read_beside_writer(Id dataset, Id space, const Selection& selection, Id type, char* values) {
-  const Handle creation(H5Dget_create_plist(dataset), H5Pclose), transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+bool read_beside_writer(const Source& source, const Selection& selection, char* values) {
+  const Handle creation(H5Dget_create_plist(source.dataset), H5Pclose), transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
   std::vector<hsize_t> chunk(H5S_MAX_RANK);
   if (H5Pget_chunk(creation.id(), H5S_MAX_RANK, chunk.data()) <= 0) return false;
   H5Pset_edc_check(transfer.id(), H5Z_DISABLE_EDC);
-  const hsize_t rows = shape_of(space)[0], last = rows > 0 ? (rows - 1) / chunk[0] * chunk[0] : 0;
+  const hsize_t rows = shape_of(source.space)[0], last = rows > 0 ? (rows - 1) / chunk[0] * chunk[0] : 0;
   const hsize_t begin = selection.start[0], end = begin + selection.count[0];
   const hsize_t middle = std::clamp(last, begin, end);
   Selection before = selection, after = selection;
   before.count[0] = middle - begin;
   after.start[0] = middle;
   after.count[0] = end - middle;
-  const std::uint64_t done = H5Tget_size(type) * count_of(Shape(before.count.begin(), before.count.end()));
-  return (middle == begin || read_selection(dataset, space, before, type, H5P_DEFAULT, values)) &&
-         (middle == end || read_selection(dataset, space, after, type, transfer.id(), values + done));
+  const std::uint64_t done = H5Tget_size(source.type) * before.values();
+  return (middle == begin || read_selection(source, before, H5P_DEFAULT, values)) &&
+         (middle == end || read_selection(source, after, transfer.id(), values + done));
 }
 
 herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* names) {
@@ -157,7 +163,8 @@ herr_t find_errno(unsigned, const H5E_error2_t* entry, void* number) {
   return 0;
 }
 
-/// The number of the system's error behind the HDF5 call that just failed, or 0. HDF5 may lack memory for its own report.
+/// The number of the system's error behind the HDF5 call that just failed, or 0. HDF5 may lack memory for its own
+/// report.
 int number_of_last_error() {
   const int last = errno;
   int number = 0;
@@ -460,10 +467,11 @@ void Container::read(const ValuesRequest& request, const Place& room) const {
   }
   if (shape.empty() || request.first > shape[0] || request.count > shape[0] - request.first) throw unexpected();
   const Selection selection = selection_of(request, shape);
-  if (count_of(Shape(selection.count.begin(), selection.count.end())) != request.values) throw unexpected();
+  if (selection.values() != request.values) throw unexpected();
   char* values = room(request.values * H5Tget_size(type));
-  if (read_selection(dataset, space.id(), selection, type, H5P_DEFAULT, values)) return;
-  if (!closed_properly_ && read_beside_writer(dataset, space.id(), selection, type, values)) return;
+  const Source source{dataset, space.id(), type};
+  if (read_selection(source, selection, H5P_DEFAULT, values)) return;
+  if (!closed_properly_ && read_beside_writer(source, selection, values)) return;
   throw last_error("cannot be read", place(request.dataset), damaged_values);
 }
 

@@ -111,27 +111,35 @@ class InputFile {
   mutable std::map<std::string, ObjectEntry> known_;
 };
 
-// Writing, used by the writers of superelements and results. `file` is a file or group identifier; missing groups on
-// the way are made. Texts are UTF-8. All throw Error with `where` in front.
+/// How large arrays lie in a file: as they are, shuffled and deflated (for many zeros), or the same in larger pieces
+/// and in a third of the time.
+enum class Packing { none, small, fast };
+
+/// Where something is written: a file or group, what messages call the file, and how large arrays lie in it.
+struct Output {
+  Id id = -1;
+  std::string where;
+  Packing packing = Packing::none;
+};
+
+// Writing, used by the writers of superelements and results. Missing groups on the way are made. Texts are UTF-8. All
+// throw Error.
 /// The groups on the way to a dataset, without times: equal contents give equal bytes whenever they are written.
 void create_groups(Id file, const std::string& dataset);
-void write_text_attribute(Id file, const std::string& object, const std::string& name, const std::string& value,
-                          const std::string& where);
-void write_number_attribute(Id file, const std::string& object, const std::string& name, double value,
-                            const std::string& where);
-void write_integer_attribute(Id file, const std::string& object, const std::string& name, std::int32_t value,
-                             const std::string& where);
-void write_dataset(Id file, const std::string& dataset, const Shape& shape, const double* values,
-                   const std::string& where);
-void write_dataset(Id file, const std::string& dataset, const Shape& shape, const std::int32_t* values,
-                   const std::string& where);
-/// Shuffled and deflated as well, with checksums: for large arrays with many zeros.
-void write_compressed_dataset(Id file, const std::string& dataset, const Shape& shape, const double* values,
-                              const std::string& where);
+void write_attribute(const Output& out, const std::string& object, const std::string& name, const std::string& value);
+void write_attribute(const Output& out, const std::string& object, const std::string& name, double value);
+void write_attribute(const Output& out, const std::string& object, const std::string& name, std::int32_t value);
+void write_dataset(const Output& out, const std::string& dataset, const Shape& shape, const double* values);
+void write_dataset(const Output& out, const std::string& dataset, const Shape& shape, const std::int32_t* values);
+/// The same, of a list or vector.
+template <class List>
+void write_dataset(const Output& out, const std::string& dataset, const List& values) {
+  write_dataset(out, dataset, {static_cast<std::uint64_t>(values.size())}, values.data());
+}
 /// Fixed-length, zero-padded strings (longest value decides), shape [values.size()].
-void write_texts(Id file, const std::string& dataset, const std::vector<std::string>& values, const std::string& where);
+void write_texts(const Output& out, const std::string& dataset, const std::vector<std::string>& values);
 /// One scalar string; replaces an existing one.
-void write_text(Id file, const std::string& dataset, const std::string& value, const std::string& where);
+void write_text(const Output& out, const std::string& dataset, const std::string& value);
 
 /// A new file in memory (core driver, nothing on disk), and its bytes when all is written.
 Handle create_in_memory(const std::string& where);

@@ -21,9 +21,9 @@ Unit read_unit(const InputFile& file, const std::string& name) {
   return unit;
 }
 
-void write_unit(Id file, const std::string& name, const Unit& unit, const std::string& where) {
-  write_number_attribute(file, "/", name, unit.factor, where);
-  write_text_attribute(file, "/", name + "_label", unit.label, where);
+void write_unit(const Output& out, const std::string& name, const Unit& unit) {
+  write_attribute(out, "/", name, unit.factor);
+  write_attribute(out, "/", name + "_label", unit.label);
 }
 
 void check_unit(const Units& units, const Unit& unit, const std::string& name, Unit (*find)(const std::string&),
@@ -91,10 +91,10 @@ Units read_units(const InputFile& file) {
   return {read_unit(file, "length_unit"), read_unit(file, "mass_unit"), read_unit(file, "time_unit")};
 }
 
-void write_units(Id file, const Units& units, const std::string& where) {
-  write_unit(file, "length_unit", units.length, where);
-  write_unit(file, "mass_unit", units.mass, where);
-  write_unit(file, "time_unit", units.time, where);
+void write_units(const Output& out, const Units& units) {
+  write_unit(out, "length_unit", units.length);
+  write_unit(out, "mass_unit", units.mass);
+  write_unit(out, "time_unit", units.time);
 }
 
 void check_units(const Units& units, const std::string& where) {

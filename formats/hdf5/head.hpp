@@ -24,7 +24,7 @@ int minor_version(const InputFile& file);
 
 /// Attributes length_unit, mass_unit, time_unit and their labels.
 Units read_units(const InputFile& file);
-void write_units(Id file, const Units& units, const std::string& where);
+void write_units(const Output& out, const Units& units);
 
 /// Factors are positive or all zero, and agree with labels that are known. `where`: the file, or empty.
 void check_units(const Units& units, const std::string& where);

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "common/text.hpp"
 
@@ -14,46 +13,7 @@ namespace tisserand::formats::hdf5 {
 namespace {
 
 constexpr const char* packed_remedy = "free some space, or choose another place for the file";
-constexpr unsigned packed_deflate_level = 1;    // higher ones take three times the time for a hundredth of the size
-constexpr std::uint64_t unpacked_bytes = 4096;  // of arrays that are stored as they are
-constexpr std::uint64_t packed_chunk_bytes = 1u << 20;
-
-Handle packed_dataset(Id file, const std::string& dataset, const Shape& shape, std::uint64_t chunk, Id type,
-                      const std::string& where) {
-  const std::vector<hsize_t> extent(shape.begin(), shape.end());
-  const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation.id(), false);
-  const bool empty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
-  if (!empty) {
-    std::vector<hsize_t> rows = extent;
-    rows[0] = std::clamp<hsize_t>(chunk, 1, extent[0]);
-    H5Pset_chunk(creation.id(), static_cast<int>(rows.size()), rows.data());
-    H5Pset_shuffle(creation.id());
-    H5Pset_deflate(creation.id(), packed_deflate_level);
-    H5Pset_fletcher32(creation.id());
-  }
-  create_groups(file, dataset);
-  Handle handle(H5Dcreate2(file, dataset.c_str(), type, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), H5Dclose);
-  if (!handle.valid()) throw last_error(fmt::format("cannot write dataset {}", dataset), where, packed_remedy);
-  return handle;
-}
-
-std::uint64_t elements_of(const Shape& shape) {
-  std::uint64_t count = 1;
-  for (const std::uint64_t extent : shape) count *= extent;
-  return count;
-}
-
-void write_all(Id file, const std::string& dataset, const Shape& shape, std::uint64_t element, Id type, Id memory,
-               const void* values, const std::string& where) {
-  const std::uint64_t row =
-      std::max<std::uint64_t>(element * elements_of(shape) / std::max<std::uint64_t>(shape[0], 1), 1);
-  Handle handle = packed_dataset(file, dataset, shape, packed_chunk_bytes / row, type, where);
-  if (elements_of(shape) > 0 && H5Dwrite(handle.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-    throw last_error(fmt::format("cannot write dataset {}", dataset), where, packed_remedy);
-  close_packed(handle, dataset, where);
-}
+constexpr unsigned packed_deflate_level = 1;  // higher ones take three times the time for a hundredth of the size
 
 /// The box of rows [first, first + count) of `space`, selected; its number of values.
 hsize_t select_rows(Id space, std::uint64_t first, std::uint64_t count) {
@@ -100,9 +60,26 @@ std::string OutputFile::stage() {
 
 void OutputFile::publish() { publish_file(stage(), path_); }
 
-Handle create_packed(Id file, const std::string& dataset, const Shape& shape, std::uint64_t chunk,
-                     const std::string& where) {
-  return packed_dataset(file, dataset, shape, chunk, H5T_IEEE_F32LE, where);
+Handle create_packed(const Output& out, const std::string& dataset, const Shape& shape, std::uint64_t chunk) {
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.id(), false);
+  const bool empty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
+  if (!empty) {
+    std::vector<hsize_t> rows = extent;
+    rows[0] = std::clamp<hsize_t>(chunk, 1, extent[0]);
+    H5Pset_chunk(creation.id(), static_cast<int>(rows.size()), rows.data());
+    H5Pset_shuffle(creation.id());
+    H5Pset_deflate(creation.id(), packed_deflate_level);
+    H5Pset_fletcher32(creation.id());
+  }
+  create_groups(out.id, dataset);
+  Handle handle(
+      H5Dcreate2(out.id, dataset.c_str(), H5T_IEEE_F32LE, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+      H5Dclose);
+  if (!handle.valid()) throw last_error(fmt::format("cannot write dataset {}", dataset), out.where, packed_remedy);
+  return handle;
 }
 
 void write_packed_rows(const Handle& dataset, std::uint64_t first, std::uint64_t count, const float* values,
@@ -116,33 +93,6 @@ void write_packed_rows(const Handle& dataset, std::uint64_t first, std::uint64_t
 
 void close_packed(Handle& handle, const std::string& dataset, const std::string& where) {
   if (handle.reset() < 0) throw last_error(fmt::format("cannot write dataset {}", dataset), where, packed_remedy);
-}
-
-void write_packed(Id file, const std::string& dataset, const Shape& shape, const double* values,
-                  const std::string& where) {
-  if (elements_of(shape) * sizeof(double) <= unpacked_bytes) return write_dataset(file, dataset, shape, values, where);
-  write_all(file, dataset, shape, sizeof(double), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values, where);
-}
-
-void write_packed(Id file, const std::string& dataset, const Shape& shape, const std::int32_t* values,
-                  const std::string& where) {
-  if (elements_of(shape) * sizeof(std::int32_t) <= unpacked_bytes)
-    return write_dataset(file, dataset, shape, values, where);
-  write_all(file, dataset, shape, sizeof(std::int32_t), H5T_STD_I32LE, H5T_NATIVE_INT32, values, where);
-}
-
-void write_packed_texts(Id file, const std::string& dataset, const std::vector<std::string>& values,
-                        const std::string& where) {
-  std::size_t size = 1;
-  for (const std::string& value : values) size = std::max(size, value.size());
-  if (size * values.size() <= unpacked_bytes) return write_texts(file, dataset, values, where);
-  std::vector<char> buffer(size * values.size(), '\0');
-  for (std::size_t i = 0; i < values.size(); ++i) std::memcpy(&buffer[i * size], values[i].data(), values[i].size());
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.id(), size);
-  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
-  H5Tset_cset(type.id(), H5T_CSET_UTF8);
-  write_all(file, dataset, {values.size()}, size, type.id(), type.id(), buffer.data(), where);
 }
 
 }  // namespace tisserand::formats::hdf5

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "formats/hdf5/file.hpp"
 
@@ -16,7 +15,7 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  Id id() const { return file_.id(); }
+  Output output() const { return {file_.id(), path_, Packing::fast}; }
   const std::string& path() const { return path_; }
   /// Closes the complete file under its temporary name, which is returned; the caller renames or removes it.
   std::string stage();
@@ -28,21 +27,12 @@ class OutputFile {
 };
 
 /// A dataset of 32-bit floats whose chunks hold `chunk` rows each.
-Handle create_packed(Id file, const std::string& dataset, const Shape& shape, std::uint64_t chunk,
-                     const std::string& where);
+Handle create_packed(const Output& out, const std::string& dataset, const Shape& shape, std::uint64_t chunk);
 /// Rows [first, first + count) of it.
 void write_packed_rows(const Handle& dataset, std::uint64_t first, std::uint64_t count, const float* values,
                        const std::string& where);
 
 /// Closes the dataset, whose last values go to the disk only now. Throws Error if they do not.
 void close_packed(Handle& handle, const std::string& dataset, const std::string& where);
-
-/// All of a dataset of numbers or of strings, compressed.
-void write_packed(Id file, const std::string& dataset, const Shape& shape, const double* values,
-                  const std::string& where);
-void write_packed(Id file, const std::string& dataset, const Shape& shape, const std::int32_t* values,
-                  const std::string& where);
-void write_packed_texts(Id file, const std::string& dataset, const std::vector<std::string>& values,
-                        const std::string& where);
 
 }  // namespace tisserand::formats::hdf5

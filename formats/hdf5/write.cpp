@@ -12,11 +12,13 @@ namespace tisserand::formats::hdf5 {
 
 namespace {
 
-constexpr const char* remedy = "choose another place for the file";
+constexpr const char* remedy = "free some space, or choose another place for the file";
 constexpr std::uint64_t compact_bytes = 4096;         // of datasets whose values stand in their header
 constexpr std::uint64_t compact_text_bytes = 60'000;  // of one string; HDF5 allows 64 KiB of a header's message
-constexpr std::uint64_t chunk_bytes = 256u << 10;     // roughly; fits the cache of a dataset
-constexpr unsigned deflate_level = 4;                 // higher ones take longer for hardly less
+// By Packing. Chunks, roughly, fit the cache of a dataset. Higher levels than 4 take longer for hardly less, and 4
+// takes three times the time of 1 for a hundredth of the size.
+constexpr std::uint64_t chunk_bytes[] = {256u << 10, 256u << 10, 1u << 20};
+constexpr unsigned deflate_level[] = {0, 4, 1};
 
 /// Zero-padded UTF-8 of `size` bytes.
 Handle text_type(std::size_t size) {
@@ -27,19 +29,25 @@ Handle text_type(std::size_t size) {
   return type;
 }
 
-void write_attribute(Id file, const std::string& object, const std::string& name, Id file_type, Id memory_type,
-                     const void* value, const std::string& where) {
-  if (H5Aexists_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT) > 0)
-    H5Adelete_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT);
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle attribute(H5Acreate_by_name(file, object.c_str(), name.c_str(), file_type, space.id(), H5P_DEFAULT,
-                                           H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose);
-  if (!attribute.valid() || H5Awrite(attribute.id(), memory_type, value) < 0)
-    throw last_error(fmt::format("cannot write attribute '{}' of {}", name, object), where, remedy);
-}
+/// Values in memory, and their type there and in the file.
+struct Values {
+  Id file_type = -1, memory_type = -1;
+  const void* data = nullptr;
+};
 
-enum class Packing { none, deflate };
+Values values_of(const double* values) { return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values}; }
+Values values_of(const std::int32_t* values) { return {H5T_STD_I32LE, H5T_NATIVE_INT32, values}; }
+
+void write_one(const Output& out, const std::string& object, const std::string& name, const Values& value) {
+  if (H5Aexists_by_name(out.id, object.c_str(), name.c_str(), H5P_DEFAULT) > 0)
+    H5Adelete_by_name(out.id, object.c_str(), name.c_str(), H5P_DEFAULT);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle attribute(H5Acreate_by_name(out.id, object.c_str(), name.c_str(), value.file_type, space.id(),
+                                           H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose);
+  if (!attribute.valid() || H5Awrite(attribute.id(), value.memory_type, value.data) < 0)
+    throw last_error(fmt::format("cannot write attribute '{}' of {}", name, object), out.where, remedy);
+}
 
 /// How values are stored so that damaged ones cannot be read as others: a few in the dataset's header, whose checksum
 /// HDF5 keeps, others in chunks with Fletcher's. A scalar cannot be in chunks: a longer text bears none.
@@ -55,27 +63,29 @@ void set_checked_storage(Id creation, Id space, Id file_type, Packing packing) {
   if (rank == 0) return;
   std::vector<hsize_t> chunk(rank);
   H5Sget_simple_extent_dims(space, chunk.data(), nullptr);
-  const hsize_t chunks = std::clamp<hsize_t>(bytes / chunk_bytes, 1, chunk[0]);
+  const hsize_t chunks = std::clamp<hsize_t>(bytes / chunk_bytes[static_cast<int>(packing)], 1, chunk[0]);
   chunk[0] = (chunk[0] + chunks - 1) / chunks;
   H5Pset_chunk(creation, rank, chunk.data());
-  if (packing == Packing::deflate) {
+  if (packing != Packing::none) {
     H5Pset_shuffle(creation);
-    H5Pset_deflate(creation, deflate_level);
+    H5Pset_deflate(creation, deflate_level[static_cast<int>(packing)]);
   }
   H5Pset_fletcher32(creation);
 }
 
-/// Creates and writes; no times are stored, so that equal contents give equal bytes.
-void write_values(Id file, const std::string& dataset, Id space, Id file_type, Id memory_type, const void* values,
-                  const std::string& where, Packing packing = Packing::none) {
+/// Creates and writes; no times are stored, so that equal contents give equal bytes. The last values may go to the
+/// disk only when the dataset is closed.
+void write_values(const Output& out, const std::string& dataset, const Handle& space, const Values& values) {
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.id(), false);
-  set_checked_storage(creation.id(), space, file_type, packing);
-  create_groups(file, dataset);
-  const Handle handle(H5Dcreate2(file, dataset.c_str(), file_type, space, H5P_DEFAULT, creation.id(), H5P_DEFAULT),
-                      H5Dclose);
-  if (!handle.valid() || H5Dwrite(handle.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-    throw last_error(fmt::format("cannot write dataset {}", dataset), where, remedy);
+  set_checked_storage(creation.id(), space.id(), values.file_type, out.packing);
+  create_groups(out.id, dataset);
+  Handle handle(
+      H5Dcreate2(out.id, dataset.c_str(), values.file_type, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+      H5Dclose);
+  if (!handle.valid() || H5Dwrite(handle.id(), values.memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data) < 0 ||
+      handle.reset() < 0)
+    throw last_error(fmt::format("cannot write dataset {}", dataset), out.where, remedy);
 }
 
 Handle simple_space(const Shape& shape) {
@@ -106,57 +116,41 @@ void create_groups(Id file, const std::string& dataset) {
   }
 }
 
-void write_text_attribute(Id file, const std::string& object, const std::string& name, const std::string& value,
-                          const std::string& where) {
-  std::string padded = value;
-  if (padded.empty()) padded.push_back('\0');
-  const Handle type = text_type(padded.size());
-  write_attribute(file, object, name, type.id(), type.id(), padded.data(), where);
+void write_attribute(const Output& out, const std::string& object, const std::string& name, const std::string& value) {
+  const Handle type = text_type(value.size());  // of an empty one: its closing zero
+  write_one(out, object, name, {type.id(), type.id(), value.c_str()});
 }
 
-void write_number_attribute(Id file, const std::string& object, const std::string& name, double value,
-                            const std::string& where) {
-  write_attribute(file, object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value, where);
+void write_attribute(const Output& out, const std::string& object, const std::string& name, double value) {
+  write_one(out, object, name, values_of(&value));
 }
 
-void write_integer_attribute(Id file, const std::string& object, const std::string& name, std::int32_t value,
-                             const std::string& where) {
-  write_attribute(file, object, name, H5T_STD_I32LE, H5T_NATIVE_INT32, &value, where);
+void write_attribute(const Output& out, const std::string& object, const std::string& name, std::int32_t value) {
+  write_one(out, object, name, values_of(&value));
 }
 
-void write_dataset(Id file, const std::string& dataset, const Shape& shape, const double* values,
-                   const std::string& where) {
-  write_values(file, dataset, simple_space(shape).id(), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values, where);
+void write_dataset(const Output& out, const std::string& dataset, const Shape& shape, const double* values) {
+  write_values(out, dataset, simple_space(shape), values_of(values));
 }
 
-void write_compressed_dataset(Id file, const std::string& dataset, const Shape& shape, const double* values,
-                              const std::string& where) {
-  write_values(file, dataset, simple_space(shape).id(), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values, where,
-               Packing::deflate);
+void write_dataset(const Output& out, const std::string& dataset, const Shape& shape, const std::int32_t* values) {
+  write_values(out, dataset, simple_space(shape), values_of(values));
 }
 
-void write_dataset(Id file, const std::string& dataset, const Shape& shape, const std::int32_t* values,
-                   const std::string& where) {
-  write_values(file, dataset, simple_space(shape).id(), H5T_STD_I32LE, H5T_NATIVE_INT32, values, where);
-}
-
-void write_texts(Id file, const std::string& dataset, const std::vector<std::string>& values,
-                 const std::string& where) {
+void write_texts(const Output& out, const std::string& dataset, const std::vector<std::string>& values) {
   std::size_t size = 1;
   for (const std::string& value : values) size = std::max(size, value.size());
   std::vector<char> buffer(size * values.size() + 1, '\0');
   for (std::size_t i = 0; i < values.size(); ++i)
     std::memcpy(buffer.data() + i * size, values[i].data(), values[i].size());
   const Handle type = text_type(size);
-  write_values(file, dataset, simple_space({values.size()}).id(), type.id(), type.id(), buffer.data(), where);
+  write_values(out, dataset, simple_space({values.size()}), {type.id(), type.id(), buffer.data()});
 }
 
-void write_text(Id file, const std::string& dataset, const std::string& value, const std::string& where) {
-  if (H5Lexists(file, dataset.c_str(), H5P_DEFAULT) > 0) H5Ldelete(file, dataset.c_str(), H5P_DEFAULT);
-  std::string padded = value;
-  if (padded.empty()) padded.push_back('\0');
-  const Handle type = text_type(padded.size()), space(H5Screate(H5S_SCALAR), H5Sclose);
-  write_values(file, dataset, space.id(), type.id(), type.id(), padded.data(), where);
+void write_text(const Output& out, const std::string& dataset, const std::string& value) {
+  if (H5Lexists(out.id, dataset.c_str(), H5P_DEFAULT) > 0) H5Ldelete(out.id, dataset.c_str(), H5P_DEFAULT);
+  const Handle type = text_type(value.size());
+  write_values(out, dataset, Handle(H5Screate(H5S_SCALAR), H5Sclose), {type.id(), type.id(), value.c_str()});
 }
 
 Handle create_in_memory(const std::string& where) {

@@ -142,31 +142,31 @@ ModalBody read_unchecked(const std::string& path) {
   return body;
 }
 
-void write_head(hdf5::Id file, const ModalBody& body, const std::string& where) {
-  hdf5::write_text_attribute(file, "/", "format", kind.format, where);
-  hdf5::write_text_attribute(file, "/", "version", body.residual.node.empty() ? "1.0" : "1.1", where);
-  hdf5::write_text_attribute(file, "/", "name", body.name, where);
-  hdf5::write_text_attribute(file, "/", "producer", body.producer, where);
-  hdf5::write_units(file, body.units, where);
-  hdf5::write_integer_attribute(file, "/", "all_nodes", body.all_nodes ? 1 : 0, where);
+void write_head(const hdf5::Output& out, const ModalBody& body) {
+  hdf5::write_attribute(out, "/", "format", kind.format);
+  hdf5::write_attribute(out, "/", "version", body.residual.node.empty() ? "1.0" : "1.1");
+  hdf5::write_attribute(out, "/", "name", body.name);
+  hdf5::write_attribute(out, "/", "producer", body.producer);
+  hdf5::write_units(out, body.units);
+  hdf5::write_attribute(out, "/", "all_nodes", body.all_nodes ? 1 : 0);
   const bool nodes = body.reference == ModalReference::nodes;
-  hdf5::write_text_attribute(file, "/", "reference", nodes ? "nodes" : "mean_axis", where);
+  hdf5::write_attribute(out, "/", "reference", nodes ? "nodes" : "mean_axis");
   if (!nodes) return;
-  hdf5::write_dataset(file, "/reference/node", {6}, body.reference_node.data(), where);
-  hdf5::write_dataset(file, "/reference/component", {6}, body.reference_component.data(), where);
+  hdf5::write_dataset(out, "/reference/node", body.reference_node);
+  hdf5::write_dataset(out, "/reference/component", body.reference_component);
 }
 
-void write_arrays(hdf5::Id file, const ModalBody& body, const std::string& where) {
+void write_arrays(const hdf5::Output& out, const ModalBody& body) {
   const ModalSizes sizes{body.node_name.size(), static_cast<std::uint64_t>(body.modes()), body.residual.node.size()};
-  hdf5::write_texts(file, "/nodes/name", body.node_name, where);
+  hdf5::write_texts(out, "/nodes/name", body.node_name);
   for_each_array(body, sizes, [&](const char* dataset, const hdf5::Shape& shape, const char*, auto&& array) {
     std::vector<double> values;
     give(array, values);
-    hdf5::write_dataset(file, dataset, shape, values.data(), where);
+    hdf5::write_dataset(out, dataset, shape, values.data());
   });
   if (sizes.f == 0) return;
-  hdf5::write_dataset(file, "/residual/node", {sizes.f}, body.residual.node.data(), where);
-  hdf5::write_dataset(file, "/residual/component", {sizes.f}, body.residual.component.data(), where);
+  hdf5::write_dataset(out, "/residual/node", body.residual.node);
+  hdf5::write_dataset(out, "/residual/component", body.residual.component);
 }
 
 }  // namespace
@@ -197,8 +197,9 @@ LoadedModalBody read_modal_body(const std::string& path) {
 std::string modal_body_image(const std::string& path, const ModalBody& body) {
   static_cast<void>(check(body, path));
   hdf5::Handle file = hdf5::create_in_memory(path);
-  write_head(file.id(), body, path);
-  write_arrays(file.id(), body, path);
+  const hdf5::Output out{file.id(), path};
+  write_head(out, body);
+  write_arrays(out, body);
   return hdf5::file_image(std::move(file), path);
 }
 

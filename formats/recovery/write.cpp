@@ -27,74 +27,51 @@ const char* version_of(const Recovery& r) {
   return r.loads ? "1.1" : "1.0";
 }
 
-void write_head(hdf5::Id file, const Recovery& r, const std::string& where) {
-  hdf5::write_text_attribute(file, "/", "format", recovery_format, where);
-  hdf5::write_text_attribute(file, "/", "version", version_of(r), where);
-  hdf5::write_text_attribute(file, "/", "name", r.name, where);
-  hdf5::write_text_attribute(file, "/", "producer", r.producer, where);
-  hdf5::write_text_attribute(file, "/", "content_id", r.content_id, where);
-  hdf5::write_texts(file, "/mirror/content_id", {r.mirror_content_id.begin(), r.mirror_content_id.end()}, where);
-  hdf5::write_units(file, r.units, where);
+void write_head(const hdf5::Output& out, const Recovery& r) {
+  hdf5::write_attribute(out, "/", "format", recovery_format);
+  hdf5::write_attribute(out, "/", "version", version_of(r));
+  hdf5::write_attribute(out, "/", "name", r.name);
+  hdf5::write_attribute(out, "/", "producer", r.producer);
+  hdf5::write_attribute(out, "/", "content_id", r.content_id);
+  hdf5::write_texts(out, "/mirror/content_id", {r.mirror_content_id.begin(), r.mirror_content_id.end()});
+  hdf5::write_units(out, r.units);
 }
 
-/// Writes tables, all of them compressed.
-class TableWriter {
- public:
-  TableWriter(hdf5::Id file, const std::string& where) : file_(file), where_(where) {}
-
-  void integers(const std::string& dataset, const hdf5::Shape& shape, const int* values) const {
-    hdf5::write_packed(file_, dataset, shape, values, where_);
-  }
-  void integers(const std::string& dataset, const std::vector<int>& values) const {
-    integers(dataset, {values.size()}, values.data());
-  }
-  void numbers(const std::string& dataset, const hdf5::Shape& shape, const double* values) const {
-    hdf5::write_packed(file_, dataset, shape, values, where_);
-  }
-  void texts(const std::string& dataset, const std::vector<std::string>& values) const {
-    hdf5::write_packed_texts(file_, dataset, values, where_);
-  }
-
- private:
-  hdf5::Id file_;
-  std::string where_;
-};
-
-void write_mesh(const TableWriter& table, const Recovery& r) {
+void write_mesh(const hdf5::Output& out, const Recovery& r) {
   const auto nodes = static_cast<std::uint64_t>(r.nodes());
-  table.texts("/boundary/name", r.boundary_name);
-  table.integers("/boundary/node", r.boundary_node);
-  table.integers("/dof/node", r.dof_node);
-  table.integers("/dof/component", r.dof_component);
-  table.numbers("/nodes/position", {nodes, 3}, r.position.data());
-  table.texts("/nodes/label", r.node_label);
-  table.integers("/nodes/rotates", r.rotates);
-  if (!r.node_number.empty()) table.integers("/nodes/number", r.node_number);
-  table.texts("/groups/name", r.group_name);
+  hdf5::write_texts(out, "/boundary/name", r.boundary_name);
+  hdf5::write_dataset(out, "/boundary/node", r.boundary_node);
+  hdf5::write_dataset(out, "/dof/node", r.dof_node);
+  hdf5::write_dataset(out, "/dof/component", r.dof_component);
+  hdf5::write_dataset(out, "/nodes/position", {nodes, 3}, r.position.data());
+  hdf5::write_texts(out, "/nodes/label", r.node_label);
+  hdf5::write_dataset(out, "/nodes/rotates", r.rotates);
+  if (!r.node_number.empty()) hdf5::write_dataset(out, "/nodes/number", r.node_number);
+  hdf5::write_texts(out, "/groups/name", r.group_name);
   std::vector<int> shapes;
   for (const ElementShape shape : r.elements.shape) shapes.push_back(static_cast<int>(shape));
-  table.integers("/elements/shape", shapes);
-  table.integers("/elements/group", r.elements.group);
-  table.integers("/elements/id", r.elements.id);
-  table.integers("/elements/first", r.elements.first);
-  table.integers("/elements/node", r.elements.node);
-  table.integers("/surface/triangle", {static_cast<std::uint64_t>(r.triangle.cols()), 3}, r.triangle.data());
-  table.integers("/surface/element", r.triangle_element);
-  table.integers("/stress_points/node", r.stress_node);
-  table.integers("/stress_points/group", r.stress_group);
+  hdf5::write_dataset(out, "/elements/shape", shapes);
+  hdf5::write_dataset(out, "/elements/group", r.elements.group);
+  hdf5::write_dataset(out, "/elements/id", r.elements.id);
+  hdf5::write_dataset(out, "/elements/first", r.elements.first);
+  hdf5::write_dataset(out, "/elements/node", r.elements.node);
+  hdf5::write_dataset(out, "/surface/triangle", {static_cast<std::uint64_t>(r.triangle.cols()), 3}, r.triangle.data());
+  hdf5::write_dataset(out, "/surface/element", r.triangle_element);
+  hdf5::write_dataset(out, "/stress_points/node", r.stress_node);
+  hdf5::write_dataset(out, "/stress_points/group", r.stress_group);
 }
 
-void write_loads(const TableWriter& table, const RecoveryLoads& loads) {
+void write_loads(const hdf5::Output& out, const RecoveryLoads& loads) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const RowMajor share = loads.share.leftCols(inertia_loads);
   const auto n = static_cast<std::uint64_t>(loads.stiffness.size());
-  table.numbers("/loads/reference_point", {3}, loads.reference_point.data());
-  table.numbers("/loads/share", {n, static_cast<std::uint64_t>(inertia_loads)}, share.data());
-  table.numbers("/loads/stiffness", {n}, loads.stiffness.data());
-  table.numbers("/loads/left_out", {1}, &loads.left_out);
+  hdf5::write_dataset(out, "/loads/reference_point", loads.reference_point);
+  hdf5::write_dataset(out, "/loads/share", {n, static_cast<std::uint64_t>(inertia_loads)}, share.data());
+  hdf5::write_dataset(out, "/loads/stiffness", loads.stiffness);
+  hdf5::write_dataset(out, "/loads/left_out", {1}, &loads.left_out);
   const auto boundary = static_cast<std::uint64_t>(loads.boundary_stiffness.rows());
   if (loads.has_forces())
-    table.numbers("/loads/boundary_stiffness", {boundary, boundary}, loads.boundary_stiffness.data());
+    hdf5::write_dataset(out, "/loads/boundary_stiffness", {boundary, boundary}, loads.boundary_stiffness.data());
   if (loads.applied.empty()) return;
   const RowMajor applied = loads.share.rightCols(static_cast<Eigen::Index>(loads.applied.size()));
   std::vector<std::string> cases, nodes;
@@ -104,30 +81,30 @@ void write_loads(const TableWriter& table, const RecoveryLoads& loads) {
     nodes.push_back(load.node);
     component.push_back(load.component);
   }
-  table.texts("/applied/load_case", cases);
-  table.texts("/applied/node", nodes);
-  table.integers("/applied/component", component);
-  table.numbers("/applied/share", {n, cases.size()}, applied.data());
+  hdf5::write_texts(out, "/applied/load_case", cases);
+  hdf5::write_texts(out, "/applied/node", nodes);
+  hdf5::write_dataset(out, "/applied/component", component);
+  hdf5::write_dataset(out, "/applied/share", {n, cases.size()}, applied.data());
 }
 
-void write_second_order(const TableWriter& table, const SecondOrderForms& forms, std::uint64_t n) {
+void write_second_order(const hdf5::Output& out, const SecondOrderForms& forms, std::uint64_t n) {
   const auto write = [&](const std::string& dataset, const std::vector<Eigen::MatrixXd>& all) {
     Numbers values;
     for (const Eigen::MatrixXd& one : all)
       for (Eigen::Index k = 0; k < one.rows(); ++k)
         for (Eigen::Index l = k; l < one.cols(); ++l) values.push_back(one(k, l));
-    table.numbers(dataset, {all.size(), n * (n + 1) / 2}, values.data());
+    hdf5::write_dataset(out, dataset, {all.size(), n * (n + 1) / 2}, values.data());
   };
   write("/second_order/shape_form", forms.of_shape);
   write("/second_order/coordinate_form", forms.of_coordinate);
-  table.integers("/second_order/coordinate", forms.coordinate);
+  hdf5::write_dataset(out, "/second_order/coordinate", forms.coordinate);
 }
 
-void write_properties(const TableWriter& table, const Recovery& r) {
+void write_properties(const hdf5::Output& out, const Recovery& r) {
   const auto beams = static_cast<std::uint64_t>(r.beams()), shells = static_cast<std::uint64_t>(r.shells());
-  table.numbers("/beams/axes", {beams, 3, 3}, rows_of(r.beam_axes).data());
-  table.numbers("/beams/offset", {beams, 2, 3}, r.beam_offset.data());
-  table.integers("/beams/section", {beams, 2}, r.beam_section.data());
+  hdf5::write_dataset(out, "/beams/axes", {beams, 3, 3}, rows_of(r.beam_axes).data());
+  hdf5::write_dataset(out, "/beams/offset", {beams, 2, 3}, r.beam_offset.data());
+  hdf5::write_dataset(out, "/beams/section", {beams, 2}, r.beam_section.data());
   std::vector<double> constants, outline;
   std::vector<int> known, first{0};
   for (const RecoverySection& s : r.sections) {
@@ -137,13 +114,13 @@ void write_properties(const TableWriter& table, const Recovery& r) {
     known.push_back(s.outline_known ? 1 : 0);
     first.push_back(static_cast<int>(outline.size() / 2));
   }
-  table.numbers("/sections/constants", {r.sections.size(), 6}, constants.data());
-  table.integers("/sections/outline_known", known);
-  table.integers("/sections/outline_first", first);
-  table.numbers("/sections/outline", {outline.size() / 2, 2}, outline.data());
-  table.numbers("/shells/axes", {shells, 3, 3}, rows_of(r.shell_axes).data());
-  table.numbers("/shells/thickness", {shells}, r.shell_thickness.data());
-  table.numbers("/shells/offset", {shells}, r.shell_offset.data());
+  hdf5::write_dataset(out, "/sections/constants", {r.sections.size(), 6}, constants.data());
+  hdf5::write_dataset(out, "/sections/outline_known", known);
+  hdf5::write_dataset(out, "/sections/outline_first", first);
+  hdf5::write_dataset(out, "/sections/outline", {outline.size() / 2, 2}, outline.data());
+  hdf5::write_dataset(out, "/shells/axes", {shells, 3, 3}, rows_of(r.shell_axes).data());
+  hdf5::write_dataset(out, "/shells/thickness", r.shell_thickness);
+  hdf5::write_dataset(out, "/shells/offset", r.shell_offset);
 }
 
 }  // namespace
@@ -158,8 +135,8 @@ struct RecoveryWriter::Impl {
   Impl(const std::string& path, const Recovery& recovery) : file(path), head(recovery) {
     for (const FieldSet& set : field_sets(recovery))
       fields.push_back(
-          {hdf5::create_packed(file.id(), set.dataset, set.shape(), static_cast<std::uint64_t>(set.chunk), file.path()),
-           set, 0});
+          {hdf5::create_packed(file.output(), set.dataset, set.shape(), static_cast<std::uint64_t>(set.chunk)), set,
+           0});
   }
 
   void append(Growing& growing, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
@@ -209,12 +186,12 @@ struct RecoveryWriter::Impl {
 RecoveryWriter::RecoveryWriter(const std::string& path, const Recovery& recovery) {
   check(recovery, path);
   impl_ = std::make_unique<Impl>(path, recovery);
-  write_head(impl_->file.id(), recovery, path);
-  const TableWriter table(impl_->file.id(), path);
-  write_mesh(table, recovery);
-  write_properties(table, recovery);
-  if (recovery.loads) write_loads(table, *recovery.loads);
-  if (recovery.second_order) write_second_order(table, *recovery.second_order, recovery.dof_node.size());
+  const hdf5::Output out = impl_->file.output();
+  write_head(out, recovery);
+  write_mesh(out, recovery);
+  write_properties(out, recovery);
+  if (recovery.loads) write_loads(out, *recovery.loads);
+  if (recovery.second_order) write_second_order(out, *recovery.second_order, recovery.dof_node.size());
 }
 
 RecoveryWriter::~RecoveryWriter() = default;

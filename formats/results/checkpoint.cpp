@@ -88,9 +88,8 @@ Checkpoint read_unchecked(const std::string& path) {
 
 void write_checkpoint(const std::string& path, const Checkpoint& c) {
   hdf5::Handle file = hdf5::create_in_memory(path);
-  const auto text = [&](const char* name, const std::string& value) {
-    hdf5::write_text_attribute(file.id(), "/", name, value, path);
-  };
+  const hdf5::Output out{file.id(), path};
+  const auto text = [&](const char* name, const std::string& value) { hdf5::write_attribute(out, "/", name, value); };
   text("format", format_name);
   text("version", "1.3");
   text("scene", c.scene);
@@ -99,13 +98,13 @@ void write_checkpoint(const std::string& path, const Checkpoint& c) {
   text("content_id", content_id(c));
   text("results", c.results);
   text("run", c.run);
-  hdf5::write_number_attribute(file.id(), "/", "rows", static_cast<double>(c.rows), path);
-  hdf5::write_integer_attribute(file.id(), "/", "state_version", c.state_version, path);
-  hdf5::write_number_attribute(file.id(), "/", "time", c.time, path);
-  hdf5::write_dataset(file.id(), "/state", {c.state.size()}, c.state.data(), path);
-  hdf5::write_dataset(file.id(), "/schedule", {c.schedule.size()}, c.schedule.data(), path);
-  if (!c.values.empty()) hdf5::write_text(file.id(), "/values", c.values, path);
-  if (!c.off.empty()) hdf5::write_text(file.id(), "/off", c.off, path);
+  hdf5::write_attribute(out, "/", "rows", static_cast<double>(c.rows));
+  hdf5::write_attribute(out, "/", "state_version", c.state_version);
+  hdf5::write_attribute(out, "/", "time", c.time);
+  hdf5::write_dataset(out, "/state", c.state);
+  hdf5::write_dataset(out, "/schedule", c.schedule);
+  if (!c.values.empty()) hdf5::write_text(out, "/values", c.values);
+  if (!c.off.empty()) hdf5::write_text(out, "/off", c.off);
   write_text_file(path, hdf5::file_image(std::move(file), path));
 }
 

@@ -10,10 +10,9 @@
 namespace tisserand::formats {
 
 /// Names and offsets of each group of which any dataset is stored. Throws Error.
-void write_names(hdf5::Id file, const ResultsLayout& layout, const std::vector<Block>& blocks,
-                 const std::string& where);
+void write_names(const hdf5::Output& out, const ResultsLayout& layout, const std::vector<Block>& blocks);
 
 /// Names of nodes and their other names, which files of modes also need where they store no motion. Throws Error.
-void write_node_names(hdf5::Id file, const ResultsLayout& layout, const std::string& where);
+void write_node_names(const hdf5::Output& out, const ResultsLayout& layout);
 
 }  // namespace tisserand::formats

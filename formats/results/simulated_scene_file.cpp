@@ -80,7 +80,7 @@ void read_links(const hdf5::InputFile& file, std::size_t nodes, SimulatedScene& 
   }
 }
 
-void write_bodies(hdf5::Id file, const std::vector<SimulatedBody>& bodies, const std::string& where) {
+void write_bodies(const hdf5::Output& out, const std::vector<SimulatedBody>& bodies) {
   std::vector<std::string> name, kind, id, path;
   std::vector<double> numbers;
   for (const SimulatedBody& body : bodies) {
@@ -92,14 +92,14 @@ void write_bodies(hdf5::Id file, const std::vector<SimulatedBody>& bodies, const
     numbers.insert(numbers.end(), body.center_of_mass.begin(), body.center_of_mass.end());
     numbers.insert(numbers.end(), body.origin.begin(), body.origin.end());
   }
-  hdf5::write_texts(file, "/scene/body_name", name, where);
-  hdf5::write_texts(file, "/scene/body_kind", kind, where);
-  hdf5::write_texts(file, "/scene/body_content_id", id, where);
-  hdf5::write_texts(file, "/scene/body_file", path, where);
-  hdf5::write_dataset(file, "/scene/body_numbers", {bodies.size(), body_numbers}, numbers.data(), where);
+  hdf5::write_texts(out, "/scene/body_name", name);
+  hdf5::write_texts(out, "/scene/body_kind", kind);
+  hdf5::write_texts(out, "/scene/body_content_id", id);
+  hdf5::write_texts(out, "/scene/body_file", path);
+  hdf5::write_dataset(out, "/scene/body_numbers", {bodies.size(), body_numbers}, numbers.data());
 }
 
-void write_links(hdf5::Id file, const std::vector<SimulatedLink>& links, const std::string& where) {
+void write_links(const hdf5::Output& out, const std::vector<SimulatedLink>& links) {
   if (links.empty()) return;
   std::vector<std::string> name, kind;
   std::vector<std::int32_t> node;
@@ -113,27 +113,26 @@ void write_links(hdf5::Id file, const std::vector<SimulatedLink>& links, const s
       marker.insert(marker.end(), {end.position.x(), end.position.y(), end.position.z(), q.w(), q.x(), q.y(), q.z()});
     }
   }
-  hdf5::write_texts(file, "/scene/link_name", name, where);
-  hdf5::write_texts(file, "/scene/link_kind", kind, where);
-  hdf5::write_dataset(file, "/scene/link_node", {links.size(), 2}, node.data(), where);
-  hdf5::write_dataset(file, "/scene/link_marker", {links.size(), 2, marker_numbers}, marker.data(), where);
+  hdf5::write_texts(out, "/scene/link_name", name);
+  hdf5::write_texts(out, "/scene/link_kind", kind);
+  hdf5::write_dataset(out, "/scene/link_node", {links.size(), 2}, node.data());
+  hdf5::write_dataset(out, "/scene/link_marker", {links.size(), 2, marker_numbers}, marker.data());
 }
 
 }  // namespace
 
-void write_simulated(hdf5::Id file, const SimulatedScene& scene, const std::string& where) {
+void write_simulated(const hdf5::Output& out, const SimulatedScene& scene) {
   if (scene.empty()) return;
-  hdf5::write_text(file, "/scene/text", scene.text, where);
-  hdf5::write_text(file, "/scene/file", scene.file, where);
-  hdf5::write_text(file, "/scene/analysis", scene.analysis, where);
-  hdf5::write_dataset(file, "/scene/gravity", {3}, scene.gravity.data(), where);
-  write_bodies(file, scene.bodies, where);
-  if (!scene.body_of_node.empty())
-    hdf5::write_dataset(file, "/scene/body_of_node", {scene.body_of_node.size()}, scene.body_of_node.data(), where);
+  hdf5::write_text(out, "/scene/text", scene.text);
+  hdf5::write_text(out, "/scene/file", scene.file);
+  hdf5::write_text(out, "/scene/analysis", scene.analysis);
+  hdf5::write_dataset(out, "/scene/gravity", scene.gravity);
+  write_bodies(out, scene.bodies);
+  if (!scene.body_of_node.empty()) hdf5::write_dataset(out, "/scene/body_of_node", scene.body_of_node);
   if (scene.node_reference.cols() > 0)
-    hdf5::write_dataset(file, "/scene/node_reference", {static_cast<std::uint64_t>(scene.node_reference.cols()), 3},
-                        scene.node_reference.data(), where);
-  write_links(file, scene.links, where);
+    hdf5::write_dataset(out, "/scene/node_reference", {static_cast<std::uint64_t>(scene.node_reference.cols()), 3},
+                        scene.node_reference.data());
+  write_links(out, scene.links);
 }
 
 SimulatedScene read_simulated(const hdf5::InputFile& file, std::size_t nodes) {

@@ -22,7 +22,7 @@
 #include <utility>
 
 #include "common/text.hpp"
-#include "formats/hdf5/file.hpp"
+#include "formats/hdf5/head.hpp"
 #include "formats/results/blocks.hpp"
 #include "formats/results/held_file.hpp"
 #include "formats/results/layout_file.hpp"
@@ -46,7 +46,7 @@ std::size_t chunk_rows(const Block& block) {
 }
 
 /// An empty dataset 0 x shape that can grow in its first dimension.
-void create_growing(hdf5::Id file, const Block& block, const std::string& where) {
+void create_growing(const hdf5::Output& out, const Block& block) {
   std::vector<hsize_t> extent{0}, limit{H5S_UNLIMITED}, chunk{chunk_rows(block)};
   for (const std::uint64_t e : block.shape) {
     extent.push_back(e);
@@ -60,19 +60,14 @@ void create_growing(hdf5::Id file, const Block& block, const std::string& where)
   H5Pset_chunk(creation.id(), rank, chunk.data());
   H5Pset_fletcher32(creation.id());
   H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
-  hdf5::create_groups(file, block.dataset);
+  hdf5::create_groups(out.id, block.dataset);
   const hdf5::Handle dataset(
-      H5Dcreate2(file, block.dataset.c_str(), H5T_IEEE_F64LE, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
+      H5Dcreate2(out.id, block.dataset.c_str(), H5T_IEEE_F64LE, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
       H5Dclose);
   if (!dataset.valid())
-    throw hdf5::last_error("cannot create dataset " + block.dataset, where,
+    throw hdf5::last_error("cannot create dataset " + block.dataset, out.where,
                            "name fewer nodes or choose fewer channels");
-  hdf5::write_text_attribute(file, block.dataset, "unit", block.unit, where);
-}
-
-void write_unit(hdf5::Id file, const std::string& name, const Unit& unit, const std::string& where) {
-  hdf5::write_number_attribute(file, "/", name, unit.factor, where);
-  hdf5::write_text_attribute(file, "/", name + "_label", unit.label, where);
+  hdf5::write_attribute(out, block.dataset, "unit", block.unit);
 }
 
 void check_layout(const ResultsLayout& l) {
@@ -102,19 +97,18 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
   // Exclusive: a link that somebody has put in the place of the temporary file is not followed.
   hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access.id()), H5Fclose);
   if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
-  hdf5::write_text_attribute(file.id(), "/", "format", "tisserand-results", where);
-  hdf5::write_text_attribute(file.id(), "/", "version", "1.12", where);
-  hdf5::write_text_attribute(file.id(), "/", "run", run, where);
-  hdf5::write_text_attribute(file.id(), "/", "scene", layout.scene, where);
-  hdf5::write_text_attribute(file.id(), "/", "producer", layout.producer, where);
-  write_unit(file.id(), "length_unit", layout.units.length, where);
-  write_unit(file.id(), "mass_unit", layout.units.mass, where);
-  write_unit(file.id(), "time_unit", layout.units.time, where);
-  hdf5::write_integer_attribute(file.id(), "/", "completed", 0, where);
-  hdf5::write_text_attribute(file.id(), "/", "reason", "", where);
-  for (const Block& block : blocks) create_growing(file.id(), block, where);
-  write_names(file.id(), layout, blocks, where);
-  write_simulated(file.id(), layout.simulated, where);
+  const hdf5::Output out{file.id(), where};
+  hdf5::write_attribute(out, "/", "format", "tisserand-results");
+  hdf5::write_attribute(out, "/", "version", "1.12");
+  hdf5::write_attribute(out, "/", "run", run);
+  hdf5::write_attribute(out, "/", "scene", layout.scene);
+  hdf5::write_attribute(out, "/", "producer", layout.producer);
+  hdf5::write_units(out, layout.units);
+  hdf5::write_attribute(out, "/", "completed", 0);
+  hdf5::write_attribute(out, "/", "reason", "");
+  for (const Block& block : blocks) create_growing(out, block);
+  write_names(out, layout, blocks);
+  write_simulated(out, layout.simulated);
   if (file.reset() < 0) throw hdf5::last_error("cannot write the file", where, "choose another place or name");
 }
 
@@ -147,16 +141,16 @@ hdf5::Handle open_for_writing(const std::string& path, unsigned mode) {
 }
 
 /// /modes: eigenvalues, frequencies, damping ratios and shapes, modes x nodes x 3 x [real, imaginary].
-void write_modes(hdf5::Id file, const ModesTable& table, const std::string& where) {
+void write_modes(const hdf5::Output& out, const ModesTable& table) {
   const auto modes = static_cast<std::uint64_t>(table.eigenvalue.size());
   const auto nodes = static_cast<std::uint64_t>(table.translation.rows() / 3);
   const auto complex = [&](const char* name, hdf5::Shape shape, const std::complex<double>* values) {
     shape.push_back(2);
-    hdf5::write_dataset(file, std::string("/modes/") + name, shape, reinterpret_cast<const double*>(values), where);
+    hdf5::write_dataset(out, std::string("/modes/") + name, shape, reinterpret_cast<const double*>(values));
   };
   complex("eigenvalue", {modes}, table.eigenvalue.data());
-  hdf5::write_dataset(file, "/modes/frequency", {modes}, table.frequency.data(), where);
-  hdf5::write_dataset(file, "/modes/damping_ratio", {modes}, table.damping_ratio.data(), where);
+  hdf5::write_dataset(out, "/modes/frequency", table.frequency);
+  hdf5::write_dataset(out, "/modes/damping_ratio", table.damping_ratio);
   complex("translation", {modes, nodes, 3}, table.translation.data());
   complex("rotation", {modes, nodes, 3}, table.rotation.data());
   for (const auto& [name, rows] : {std::pair("y", &table.y), std::pair("w", &table.w)})
@@ -320,11 +314,12 @@ std::string ResultsWriter::Impl::write_end_apart(int completed, const std::strin
 void ResultsWriter::Impl::write_end(const std::string& target, int completed, const std::string& reason,
                                     const std::string& report_json) const {
   hdf5::Handle end = open_for_writing(target, 0);
-  hdf5::write_text(end.id(), "/report", report_json, target);
-  if (modes) write_modes(end.id(), *modes, target);
-  if (modes && H5Lexists(end.id(), "/nodes", H5P_DEFAULT) <= 0) write_node_names(end.id(), layout, target);
-  hdf5::write_text_attribute(end.id(), "/", "reason", reason.substr(0, 4096), target);
-  hdf5::write_integer_attribute(end.id(), "/", "completed", completed, target);
+  const hdf5::Output out{end.id(), target};
+  hdf5::write_text(out, "/report", report_json);
+  if (modes) write_modes(out, *modes);
+  if (modes && H5Lexists(end.id(), "/nodes", H5P_DEFAULT) <= 0) write_node_names(out, layout);
+  hdf5::write_attribute(out, "/", "reason", reason.substr(0, 4096));
+  hdf5::write_attribute(out, "/", "completed", completed);
   if (end.reset() < 0)
     throw hdf5::last_error("cannot write the run report", target, "choose another place for the results");
 }
@@ -480,8 +475,7 @@ void ResultsWriter::finish(bool completed, const std::string& reason, const std:
     problem = without_memory;
   }
   impl_->close();
-  if (problem.empty() && impl_->broken)
-    problem = hdf5::last_error("some rows could not be written", "", "").message();
+  if (problem.empty() && impl_->broken) problem = hdf5::last_error("some rows could not be written", "", "").message();
   const std::string told = reason.empty() || problem.empty() ? reason + problem : reason + "; " + problem;
   std::string last = impl_->part;
   try {

@@ -148,15 +148,18 @@ std::vector<double> section_positions(const CrgHeader& header, const std::string
   return v;
 }
 
+double size_of(double d) { return std::abs(d); }
+double size_of(const Vector2d& d) { return d.norm(); }
+
 /// Adds the closing error, in proportion to the distance: what integration forward and backward, weighted by the
 /// distance, gives. `end`: that the parameters give.
-template <class Value, class Size>
+template <class Value>
 void distribute_closing_error(std::vector<Value>& points, const Value& end, double length, const char* what,
-                              const std::string& where, const Size& size) {
+                              const std::string& where) {
   const Value error = end - points.back();
-  if (!(size(error) <= largest_closing_error * length))
-    throw Error(fmt::format("the {} leads to an end {:g} m away from that of the parameters", what, size(error)), where,
-                "correct the parameters of the end, or remove them");
+  if (!(size_of(error) <= largest_closing_error * length))
+    throw Error(fmt::format("the {} leads to an end {:g} m away from that of the parameters", what, size_of(error)),
+                where, "correct the parameters of the end, or remove them");
   const double last = static_cast<double>(points.size() - 1);
   for (std::size_t i = 0; i < points.size(); ++i) points[i] += error * (static_cast<double>(i) / last);
 }
@@ -183,8 +186,7 @@ Eigen::Matrix2Xd reference_line(const CrgHeader& header, const CrgData& data, co
   if (header.has("reference_line_end_x"))
     distribute_closing_error(
         points, Vector2d(header.value("reference_line_end_x", 0.0), header.value("reference_line_end_y", 0.0)), length,
-        "heading", place(path, header.parameters.at("reference_line_end_x").line),
-        [](const Vector2d& d) { return d.norm(); });
+        "heading", place(path, header.parameters.at("reference_line_end_x").line));
   Eigen::Matrix2Xd line(2, static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) line.col(static_cast<Eigen::Index>(i)) = points[i];
   return line;
@@ -210,9 +212,9 @@ std::vector<double> reference_heights(const CrgHeader& header, const CrgData& da
     z.push_back(data.slope.empty() ? start + slope * header.increment * static_cast<double>(i)
                                    : z.back() + header.increment * data.slope[i]);
   if (header.has("reference_line_end_z"))
-    distribute_closing_error(
-        z, header.value("reference_line_end_z", 0.0), header.increment * static_cast<double>(data.lines.size() - 1),
-        "slope", place(path, header.parameters.at("reference_line_end_z").line), [](double d) { return std::abs(d); });
+    distribute_closing_error(z, header.value("reference_line_end_z", 0.0),
+                             header.increment * static_cast<double>(data.lines.size() - 1), "slope",
+                             place(path, header.parameters.at("reference_line_end_z").line));
   return z;
 }
 

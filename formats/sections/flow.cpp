@@ -95,42 +95,44 @@ std::vector<Corner> corners_of(const std::vector<Polyline>& rings, std::size_t r
   return corners;
 }
 
+/// Corners that disturb far sides, and how many distances to the nearest of them a panel may be long.
+struct Disturbance {
+  std::vector<Corner> corners;
+  double opening = 0.0;
+};
+
 /// Divides the piece from a to b (graded towards sharp ends) until it is short against its distance to sharp corners.
-void divide(Complex a, Complex b, double smallest_a, double smallest_b, const std::vector<Corner>& sharp,
-            double opening, std::vector<Panel>& panels) {
-  const double length = std::abs(b - a);
-  bool split = length > std::max(smallest_a, 1e-9) && std::isfinite(smallest_a);
-  split = split || (length > smallest_b && std::isfinite(smallest_b));
-  for (std::size_t i = 0; i < sharp.size() && !split; ++i) {
-    const double gap = distance(sharp[i].place, a, b);
-    split = gap > 1e-12 && length > opening * std::max(gap, sharp[i].smallest);
+void divide(const Corner& a, const Corner& b, const Disturbance& sharp, std::vector<Panel>& panels) {
+  const Complex way = b.place - a.place;
+  const double length = std::abs(way);
+  bool split = length > std::max(a.smallest, 1e-9) && std::isfinite(a.smallest);
+  split = split || (length > b.smallest && std::isfinite(b.smallest));
+  for (std::size_t i = 0; i < sharp.corners.size() && !split; ++i) {
+    const double gap = distance(sharp.corners[i].place, a.place, b.place);
+    split = gap > 1e-12 && length > sharp.opening * std::max(gap, sharp.corners[i].smallest);
   }
   if (!split) {
-    panels.push_back({0.5 * (a + b), 0.5 * (b - a)});
+    panels.push_back({0.5 * (a.place + b.place), 0.5 * way});
     return;
   }
-  const bool graded_a = std::isfinite(smallest_a) && length > smallest_a;
-  const bool graded_b = std::isfinite(smallest_b) && length > smallest_b;
+  const bool graded_a = std::isfinite(a.smallest) && length > a.smallest;
+  const bool graded_b = std::isfinite(b.smallest) && length > b.smallest;
   const double at = graded_a == graded_b ? 0.5 : graded_a ? 0.3 : 0.7;
-  const Complex middle = a + at * (b - a);
-  divide(a, middle, smallest_a, no_limit, sharp, opening, panels);
-  divide(middle, b, no_limit, smallest_b, sharp, opening, panels);
+  const Corner middle{a.place + at * way, no_limit, false};
+  divide(a, middle, sharp, panels);
+  divide(middle, b, sharp, panels);
 }
 
 std::vector<Panel> graded_panels(const std::vector<Polyline>& rings, const Grading& grading) {
   std::vector<std::vector<Corner>> corners;
-  std::vector<Corner> sharp;
+  Disturbance sharp{{}, grading.opening};
   for (std::size_t r = 0; r < rings.size(); ++r) {
     corners.push_back(corners_of(rings, r, grading));
-    std::copy_if(corners[r].begin(), corners[r].end(), std::back_inserter(sharp),
-                 [](const Corner& c) { return c.sharp; });
+    std::ranges::copy_if(corners[r], std::back_inserter(sharp.corners), &Corner::sharp);
   }
   std::vector<Panel> panels;
   for (const std::vector<Corner>& ring : corners)
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Corner &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      divide(a.place, b.place, a.smallest, b.smallest, sharp, grading.opening, panels);
-    }
+    for (std::size_t i = 0; i < ring.size(); ++i) divide(ring[i], ring[(i + 1) % ring.size()], sharp, panels);
   return panels;
 }
 

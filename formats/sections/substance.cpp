@@ -1,7 +1,6 @@
 // Ranges of common structural materials, and the units in which a number would lie in them.
 #include "formats/sections/substance.hpp"
 
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -16,17 +15,20 @@ struct NamedUnit {
   const char* name;
   double factor;  ///< to SI
 };
-constexpr std::array densities{NamedUnit{"kg/m^3", 1.0}, NamedUnit{"t/mm^3", 1e12}, NamedUnit{"g/cm^3", 1e3},
-                               NamedUnit{"kg/mm^3", 1e9}, NamedUnit{"lb/in^3", 27679.905}};
-constexpr std::array moduli{NamedUnit{"Pa", 1.0}, NamedUnit{"MPa", 1e6}, NamedUnit{"GPa", 1e9},
-                            NamedUnit{"psi", 6894.757}};
+/// Units in which a property is given, and the range of common structural materials.
+struct Usual {
+  std::vector<NamedUnit> units;
+  double least = 0.0, most = 0.0;  ///< in SI
+};
+const Usual usual_density{
+    {{"kg/m^3", 1.0}, {"t/mm^3", 1e12}, {"g/cm^3", 1e3}, {"kg/mm^3", 1e9}, {"lb/in^3", 27679.905}}, 100.0, 23000.0};
+const Usual usual_modulus{{{"Pa", 1.0}, {"MPa", 1e6}, {"GPa", 1e9}, {"psi", 6894.757}}, 1e9, 1.3e12};
 
-/// "t/mm^3 (here 7.85e-09)": the unit in which a number lies in the range of common structural materials, and what it
-/// is in units of `own`; empty if there is none or if it is that of `own`.
-std::string likely_unit(double value, double own, const auto& units, double least, double most,
-                        const std::string& owner) {
-  for (const NamedUnit& unit : units)
-    if (value * unit.factor >= least && value * unit.factor <= most)
+/// "t/mm^3 (here 7.85e-09)": the unit in which a number lies in the usual range, and what it is in units of `own`;
+/// empty if there is none or if it is that of `own`.
+std::string likely_unit(double value, double own, const Usual& usual, const std::string& owner) {
+  for (const NamedUnit& unit : usual.units)
+    if (value * unit.factor >= usual.least && value * unit.factor <= usual.most)
       return std::abs(unit.factor - own) < 1e-6 * own
                  ? std::string()
                  : fmt::format("{} (in units of {} {:.4g})", unit.name, owner, value * unit.factor / own);
@@ -55,8 +57,8 @@ std::string substance_doubt(const Substance& s, const Units& units, const std::s
         "are 100 to 20 000 m/s",
         s.modulus, s.density, units.length.label, units.mass.label, units.time.label, speed);
   std::vector<std::string> hints;
-  const std::string other_density = likely_unit(s.density, per_volume, densities, 100.0, 23000.0, owner);
-  const std::string other_modulus = likely_unit(s.modulus, pressure, moduli, 1e9, 1.3e12, owner);
+  const std::string other_density = likely_unit(s.density, per_volume, usual_density, owner);
+  const std::string other_modulus = likely_unit(s.modulus, pressure, usual_modulus, owner);
   if (!other_density.empty()) hints.push_back("the density looks like " + other_density);
   if (!other_modulus.empty()) hints.push_back("the modulus looks like " + other_modulus);
   return text + (hints.empty() ? ". Do length, mass, time and the material belong together (for example mm, t, s, MPa)?"

@@ -214,23 +214,27 @@ void check_rigid_rank(const Superelement& e, const FilePlace& place) {
   fail(fmt::format("turning about the line {}-{}", name(std::min(other, far)), name(std::max(other, far))), remedy);
 }
 
-/// Throws if rigid motions meet more resistance than projection may remove. `bound` are errors of the entries of
-/// `scaled`.
-void check_rigid_strain(const Superelement& e, const Eigen::MatrixXd& scaled, const Eigen::MatrixXd& R,
-                        const Eigen::MatrixXd& bound, SuperelementReport& report, const FilePlace& place) {
+/// The stiffness, rigid motions and errors of the entries, scaled.
+struct ScaledStiffness {
+  Eigen::MatrixXd S, R, bound;
+};
+
+/// Throws if rigid motions meet more resistance than projection may remove.
+void check_rigid_strain(const Superelement& e, const ScaledStiffness& scaled, SuperelementReport& report,
+                        const FilePlace& place) {
   static constexpr const char* motions[] = {"moving in x",     "moving in y",     "moving in z",
                                             "turning about x", "turning about y", "turning about z"};
   const std::string positions =
       "check positions of nodes and their unit, signs and order of rotations (in radians), or whether the part was "
       "fixed to the ground";
   Eigen::Index row = 0, motion = 0;
-  report.rigid_residual = (scaled * R).cwiseAbs().maxCoeff(&row, &motion);
+  report.rigid_residual = (scaled.S * scaled.R).cwiseAbs().maxCoeff(&row, &motion);
   if (report.rigid_residual <= rigid_residual_exact) return;
   if (report.rigid_residual > rigid_residual_filtered)
     throw Error(fmt::format("the part resists rigid motion: {} gives a relative force of {:.3e} (at most {:g}) in {}",
                             motions[motion], report.rigid_residual, rigid_residual_filtered, row_text(e, row)),
                 place.dataset("/stiffness"), positions);
-  const RigidStrain strain = rigid_strain(0.5 * (scaled + scaled.transpose()), R, bound);
+  const RigidStrain strain = rigid_strain(0.5 * (scaled.S + scaled.S.transpose()), scaled.R, scaled.bound);
   report.rigid_change = strain.change;
   const bool explained = strain.cause == RigidStrainCause::rounding;
   if (strain.change <= (explained ? rigid_change_rounding : rigid_change_accepted)) return;
@@ -335,30 +339,29 @@ SuperelementReport check(const Superelement& element, const std::string& where, 
   check_diagonal(element, element.mass, "/mass", place);
 
   const ScaledMatrices s = scale(element);
-  Eigen::MatrixXd S =
-      s.stiffness_row.asDiagonal() * element.stiffness * s.stiffness_row.asDiagonal() / s.stiffness_scale;
+  const auto scaled = [&s](const Eigen::MatrixXd& A) -> Eigen::MatrixXd {
+    return s.stiffness_row.asDiagonal() * A * s.stiffness_row.asDiagonal() / s.stiffness_scale;
+  };
+  ScaledStiffness stiffness{scaled(element.stiffness), scaled_rigid_motions(element, s.stiffness_row, s.length), {}};
   const Eigen::MatrixXd M = s.mass_row.asDiagonal() * element.mass * s.mass_row.asDiagonal() / s.mass_scale;
-  const Eigen::MatrixXd R = scaled_rigid_motions(element, s.stiffness_row, s.length);
-  if (!S.allFinite() || !M.allFinite() || !R.allFinite())
+  if (!stiffness.S.allFinite() || !M.allFinite() || !stiffness.R.allFinite())
     throw Error("values of /boundary/position, /stiffness and /mass differ by too many powers of ten", where,
                 "choose units in which lengths, forces and masses are ordinary numbers");
-  check_symmetry(element, element.stiffness, S, "/stiffness", place);
+  check_symmetry(element, element.stiffness, stiffness.S, "/stiffness", place);
   check_symmetry(element, element.mass, M, "/mass", place);
   check_rigid_rank(element, place);
 
   SuperelementReport report;
   report.characteristic_length = s.length;
   report.rounding = errors.reason;
-  Eigen::MatrixXd bound;
-  if (errors.bound.size() > 0)
-    bound = s.stiffness_row.asDiagonal() * errors.bound * s.stiffness_row.asDiagonal() / s.stiffness_scale;
-  check_rigid_strain(element, S, R, bound, report, place);
+  if (errors.bound.size() > 0) stiffness.bound = scaled(errors.bound);
+  check_rigid_strain(element, stiffness, report, place);
   if (needs_filter(report)) {
     Superelement filtered = element;
     filter_rigid_motions(filtered);
-    S = s.stiffness_row.asDiagonal() * filtered.stiffness * s.stiffness_row.asDiagonal() / s.stiffness_scale;
+    stiffness.S = scaled(filtered.stiffness);
   }
-  check_semidefinite(element, S, "/stiffness", place);
+  check_semidefinite(element, stiffness.S, "/stiffness", place);
   check_semidefinite(element, M, "/mass", place);
   check_rigid_mass(element, s.length, place);
   report.rigid = rigid_properties(element);

@@ -126,23 +126,23 @@ Unchecked read_unchecked(const std::string& path) {
   return result;
 }
 
-void write_fields(hdf5::Id file, const Superelement& e, const std::string& where) {
+void write_fields(const hdf5::Output& out, const Superelement& e) {
   const auto n = static_cast<std::uint64_t>(e.size()), nodes = static_cast<std::uint64_t>(e.node_name.size());
-  hdf5::write_text_attribute(file, "/", "format", kind.format, where);
-  hdf5::write_text_attribute(file, "/", "version", "1.0", where);
-  hdf5::write_text_attribute(file, "/", "name", e.name, where);
-  hdf5::write_text_attribute(file, "/", "method", e.method, where);
-  hdf5::write_text_attribute(file, "/", "producer", e.producer, where);
-  hdf5::write_units(file, e.units, where);
-  hdf5::write_text_attribute(file, "/", "content_id", e.content_id, where);
-  hdf5::write_texts(file, "/boundary/name", e.node_name, where);
+  hdf5::write_attribute(out, "/", "format", kind.format);
+  hdf5::write_attribute(out, "/", "version", "1.0");
+  hdf5::write_attribute(out, "/", "name", e.name);
+  hdf5::write_attribute(out, "/", "method", e.method);
+  hdf5::write_attribute(out, "/", "producer", e.producer);
+  hdf5::write_units(out, e.units);
+  hdf5::write_attribute(out, "/", "content_id", e.content_id);
+  hdf5::write_texts(out, "/boundary/name", e.node_name);
   const RowMajor3 position = e.node_position;
-  hdf5::write_dataset(file, "/boundary/position", {nodes, 3}, position.data(), where);
-  hdf5::write_dataset(file, "/dof/node", {n}, e.dof_node.data(), where);
-  hdf5::write_dataset(file, "/dof/component", {n}, e.dof_component.data(), where);
+  hdf5::write_dataset(out, "/boundary/position", {nodes, 3}, position.data());
+  hdf5::write_dataset(out, "/dof/node", e.dof_node);
+  hdf5::write_dataset(out, "/dof/component", e.dof_component);
   const RowMajor stiffness = e.stiffness, mass = e.mass;
-  hdf5::write_dataset(file, "/stiffness", {n, n}, stiffness.data(), where);
-  hdf5::write_dataset(file, "/mass", {n, n}, mass.data(), where);
+  hdf5::write_dataset(out, "/stiffness", {n, n}, stiffness.data());
+  hdf5::write_dataset(out, "/mass", {n, n}, mass.data());
 }
 
 /// Texts for people: no control characters and of bounded length, so that they fit attributes and messages.
@@ -207,7 +207,7 @@ std::string superelement_image(const std::string& path, Superelement& element) {
   static_cast<void>(check(element, path));
   element.content_id = content_id(element);
   hdf5::Handle file = hdf5::create_in_memory(path);
-  write_fields(file.id(), element, path);
+  write_fields({file.id(), path}, element);
   return hdf5::file_image(std::move(file), path);
 }
 

@@ -122,11 +122,10 @@ YamlNode& SceneExpander::flat(const std::string& collection, const YamlPlace& pl
   return root_.children.back();
 }
 
-YamlNode SceneExpander::expanded(const std::string& collection, const YamlNode& entry, const Level& level,
-                                 ParameterScope& scope) {
+YamlNode SceneExpander::expanded(const std::string& collection, const YamlNode& entry, const Level& level) {
   budget_.take(count_nodes(entry), document_.where(entry.place));
   YamlNode copy = entry;
-  substitution_.apply(copy, scope);
+  substitution_.apply(copy, *level.scope);
   if (collection == "bodies") insert_definitions(level, substitution_, copy);
   rebase_files(document_, copy);
   Placement(reader_, level.frame).place(collection, copy);
@@ -147,26 +146,26 @@ void SceneExpander::expand_top(Assembly& top, ParameterScope& scope) {
     if (entries) copy.children.clear();
     root_.children.push_back(std::move(copy));
     YamlNode& target = root_.children.back();
-    if (!entries) collect([&] { target = expanded("", child, level, scope); });
+    if (!entries) collect([&] { target = expanded("", child, level); });
     for (const YamlNode& entry : child.children)
-      if (entries) collect([&] { target.children.push_back(expanded(child.key, entry, level, scope)); });
+      if (entries) collect([&] { target.children.push_back(expanded(child.key, entry, level)); });
   }
   const YamlNode* instances = find_child(top.node, "instances");
   if (instances == nullptr) return;
   read_names(reader_, top);
-  for (const YamlNode& node : instances->children) collect([&] { expand_instance(node, level, scope); });
+  for (const YamlNode& node : instances->children) collect([&] { expand_instance(node, level); });
 }
 
-void SceneExpander::expand(const Level& level, ParameterScope& scope) {
+void SceneExpander::expand(const Level& level) {
   for (const YamlNode& child : level.assembly->node.children) {
     if (child.kind != YamlKind::map || !is_instantiated(child.key)) continue;
     for (const YamlNode& entry : child.children) {
-      YamlNode copy = expanded(child.key, entry, level, scope);
+      YamlNode copy = expanded(child.key, entry, level);
       flat(child.key, child.key_place).children.push_back(std::move(copy));
     }
   }
   if (const YamlNode* instances = find_child(level.assembly->node, "instances"))
-    for (const YamlNode& node : instances->children) expand_instance(node, level, scope);
+    for (const YamlNode& node : instances->children) expand_instance(node, level);
 }
 
 SceneExpander::Instance SceneExpander::read_instance(const YamlNode& node, ParameterScope& scope) {
@@ -195,11 +194,11 @@ SceneExpander::Instance SceneExpander::read_instance(const YamlNode& node, Param
   return instance;
 }
 
-void SceneExpander::expand_instance(const YamlNode& node, const Level& level, ParameterScope& scope) {
+void SceneExpander::expand_instance(const YamlNode& node, const Level& level) {
   if (level.depth >= deepest_level)
     throw Error(fmt::format("assemblies hold one another more than {} deep", deepest_level),
                 document_.where(node.key_place), "break the circle");
-  const Instance instance = read_instance(node, scope);
+  const Instance instance = read_instance(node, *level.scope);
   const YamlNode* use = find_child(instance.node, "use");
   if (use == nullptr) return;
   Assembly& assembly = find_assembly(*use, *level.assembly);
@@ -209,17 +208,17 @@ void SceneExpander::expand_instance(const YamlNode& node, const Level& level, Pa
     if (index > 0 && instance.step.turned()) power = compose(power, instance.step);
     if (!instance.step.turned()) power.p = index * instance.step.p;
     const AssemblyFrame frame = compose(level.frame, compose(instance.pose, compose(power, instance.mirror)));
-    make_one(instance, index, frame, assembly, level, scope);
+    make_one(instance, index, frame, assembly, level);
     if (errors_.size() > errors) return;
   }
 }
 
 void SceneExpander::make_one(const Instance& instance, int index, const AssemblyFrame& frame, Assembly& assembly,
-                             const Level& level, ParameterScope& scope) {
+                             const Level& level) {
   if (++instances_ > most_instances)
     throw Error(fmt::format("the scene has more than {} instances", most_instances),
                 document_.where(instance.node.key_place), "make fewer");
-  ParameterScope around(&scope);
+  ParameterScope around(level.scope);
   const auto name_of = [&](int i) {
     return instance.count < 0 ? instance.name : fmt::format("{}[{}]", instance.name, i);
   };
@@ -232,7 +231,7 @@ void SceneExpander::make_one(const Instance& instance, int index, const Assembly
   define_parameters(instance, index, assembly, around, own);
   assembly.made = true;
   const Level inner{level.prefix + name_of(index) + "/", &level, &assembly, frame, &own, level.depth + 1};
-  expand(inner, own);
+  expand(inner);
   for (const auto& [name, parameter] : own.own())
     if (parameter.used) assembly.used_parameters.insert(name);
 }

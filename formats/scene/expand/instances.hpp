@@ -40,12 +40,12 @@ class SceneExpander {
   Assembly& define(const std::string& name, YamlNode node, const Assembly* outer);
   Assembly& find_assembly(const YamlNode& use, const Assembly& from);
   void expand_top(Assembly& top, ParameterScope& scope);
-  void expand(const Level& level, ParameterScope& scope);
-  YamlNode expanded(const std::string& collection, const YamlNode& entry, const Level& level, ParameterScope& scope);
-  void expand_instance(const YamlNode& node, const Level& level, ParameterScope& scope);
+  void expand(const Level& level);
+  YamlNode expanded(const std::string& collection, const YamlNode& entry, const Level& level);
+  void expand_instance(const YamlNode& node, const Level& level);
   Instance read_instance(const YamlNode& node, ParameterScope& scope);
-  void make_one(const Instance& instance, int index, const AssemblyFrame& frame, Assembly& assembly, const Level& level,
-                ParameterScope& scope);
+  void make_one(const Instance& instance, int index, const AssemblyFrame& frame, Assembly& assembly,
+                const Level& level);
   void define_parameters(const Instance& instance, int index, const Assembly& assembly, ParameterScope& around,
                          ParameterScope& own);
   void report_unused(const ParameterScope& scope);

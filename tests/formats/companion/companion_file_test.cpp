@@ -90,7 +90,7 @@ TEST(CompanionFile, MayHoldTrappedStress) {
   change(path, [](hid_t file) {
     H5Ldelete(file, "/Lambda", H5P_DEFAULT);
     const std::vector<double> zeros(2001 * 105, 0.0);
-    hdf5::write_dataset(file, "/Lambda", {2001, 105}, zeros.data(), "test");
+    hdf5::write_dataset({file, "test"}, "/Lambda", {2001, 105}, zeros.data());
   });
   EXPECT_THAT(error_of([&] { static_cast<void>(read_companion(path, network().element)); }),
               HasSubstr("/Lambda: has shape 2001 x 105, expected 1 to 2000 matrices of n = 14 coordinates"));
@@ -169,7 +169,7 @@ void write_whole(hid_t file, const char* dataset, const Eigen::MatrixXd* matrice
     for (Eigen::Index k = 0; k < matrices[i].rows(); ++k)
       for (Eigen::Index l = 0; l < matrices[i].cols(); ++l) values.push_back(matrices[i](k, l));
   const auto n = static_cast<std::uint64_t>(matrices[0].rows());
-  hdf5::write_dataset(file, dataset, {count, n, n}, values.data(), "test");
+  hdf5::write_dataset({file, "test"}, dataset, {count, n, n}, values.data());
 }
 
 // What other programs write: whole matrices; their identity is the same.
@@ -273,11 +273,17 @@ TEST(CompanionFile, RefusesForeignAndDamagedFiles) {
   };
   EXPECT_THAT(error_of([&] { static_cast<void>(read_companion(folder.file("none.h5"), network().element)); }),
               HasSubstr("none.h5"));
-  EXPECT_THAT(spoiled([](hid_t f) { hdf5::write_text_attribute(f, "/", "format", "tisserand-superelement", ""); }),
+  EXPECT_THAT(spoiled([](hid_t f) {
+                hdf5::write_attribute({f, ""}, "/", "format", "tisserand-superelement");
+              }),
               HasSubstr("expected 'tisserand-companion'"));
-  EXPECT_THAT(spoiled([](hid_t f) { hdf5::write_text_attribute(f, "/", "version", "2.0", ""); }),
+  EXPECT_THAT(spoiled([](hid_t f) {
+                hdf5::write_attribute({f, ""}, "/", "version", "2.0");
+              }),
               HasSubstr("versions 1.x"));
-  EXPECT_THAT(spoiled([](hid_t f) { hdf5::write_text_attribute(f, "/", "content_id", "0123", ""); }),
+  EXPECT_THAT(spoiled([](hid_t f) {
+                hdf5::write_attribute({f, ""}, "/", "content_id", "0123");
+              }),
               HasSubstr("changed after it was written"));
   for (const char* dataset :
        {"/frame/reference_point", "/frame/weights", "/H", "/C", "/E", "/N", "/T", "/S0", "/S1", "/mass"})
@@ -286,13 +292,13 @@ TEST(CompanionFile, RefusesForeignAndDamagedFiles) {
   EXPECT_THAT(spoiled([](hid_t f) {
                 H5Ldelete(f, "/S1", H5P_DEFAULT);
                 const std::vector<double> zeros(3 * 501, 0.0);
-                hdf5::write_dataset(f, "/S1", {3, 501}, zeros.data(), "test");
+                hdf5::write_dataset({f, "test"}, "/S1", {3, 501}, zeros.data());
               }),
               HasSubstr("at most 500"));
   EXPECT_THAT(spoiled([](hid_t f) {
                 H5Ldelete(f, "/H", H5P_DEFAULT);
                 const std::vector<double> zeros(15 * 120, 0.0);
-                hdf5::write_dataset(f, "/H", {15, 120}, zeros.data(), "test");
+                hdf5::write_dataset({f, "test"}, "/H", {15, 120}, zeros.data());
               }),
               HasSubstr("has shape 15 x 120, expected 14 x 105 (upper triangles) or 14 x 14 x 14"));
 }

@@ -288,7 +288,7 @@ void put_text(Bytes& bytes, hid_t object, const std::string& name, std::string v
     default:
       break;
   }
-  formats::hdf5::write_text_attribute(object, ".", name, value, "");
+  formats::hdf5::write_attribute({object, ""}, ".", name, value);
 }
 
 void put_number(Bytes& bytes, hid_t object, const std::string& name, double value, bool is_integer) {
@@ -306,9 +306,9 @@ void put_number(Bytes& bytes, hid_t object, const std::string& name, double valu
       break;
   }
   if (is_integer)
-    formats::hdf5::write_integer_attribute(object, ".", name, static_cast<std::int32_t>(value), "");
+    formats::hdf5::write_attribute({object, ""}, ".", name, static_cast<std::int32_t>(value));
   else
-    formats::hdf5::write_number_attribute(object, ".", name, value, "");
+    formats::hdf5::write_attribute({object, ""}, ".", name, value);
 }
 
 void put_names(Bytes& bytes, hid_t file, const std::string& dataset, std::vector<std::string> names) {
@@ -334,7 +334,7 @@ void put_names(Bytes& bytes, hid_t file, const std::string& dataset, std::vector
     default:
       break;
   }
-  formats::hdf5::write_texts(file, dataset, names, "");
+  formats::hdf5::write_texts({file, ""}, dataset, names);
 }
 
 /// Texts of fixed or variable length in an attribute or a dataset of `points` points.
@@ -378,7 +378,7 @@ void put_dataset(Bytes& bytes, hid_t from, hid_t to, const std::string& name) {
   if (H5Tget_class(type) == H5T_STRING) {
     const std::vector<std::string> texts = texts_of(type, points, read);
     if (table.shape.empty())
-      formats::hdf5::write_text(to, name, texts.empty() ? "" : texts[0], "");
+      formats::hdf5::write_text({to, ""}, name, texts.empty() ? "" : texts[0]);
     else
       put_names(bytes, to, name, texts);
     return;

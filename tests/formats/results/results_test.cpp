@@ -383,7 +383,7 @@ TEST(Results, CheckpointThatCountsNothingIsRefused) {
     EXPECT_EQ(read_checkpoint(path).rows, 3U);
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     H5Adelete(file, name);
-    hdf5::write_number_attribute(file, ".", name, std::numeric_limits<double>::quiet_NaN(), path);
+    hdf5::write_attribute({file, path}, ".", name, std::numeric_limits<double>::quiet_NaN());
     H5Fclose(file);
     EXPECT_THAT(error_of([&] { read_checkpoint(path); }),
                 HasSubstr("attribute '" + std::string(name) + "' is nan, which counts nothing"));
@@ -425,8 +425,8 @@ TEST(Results, TimesThatDescendAndUnitsThatAreNoNumbersAreRejected) {
     write_rows(path, example_layout(), static_cast<int>(time.size()));
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     H5Ldelete(file, "/time", H5P_DEFAULT);
-    hdf5::write_dataset(file, "/time", {time.size()}, time.data(), "");
-    hdf5::write_number_attribute(file, "/", "length_unit", unit, "");
+    hdf5::write_dataset({file, ""}, "/time", {time.size()}, time.data());
+    hdf5::write_attribute({file, ""}, "/", "length_unit", unit);
     H5Fclose(file);
     return error_of([&] { ResultsReader reader(path); });
   };
@@ -453,19 +453,19 @@ TEST(Results, OtherFilesAreRejected) {
     change(file);
     H5Fclose(file);
   };
-  edit([](hid_t f) { hdf5::write_text_attribute(f, "/", "version", "2.0", ""); });
+  edit([](hid_t f) { hdf5::write_attribute({f, ""}, "/", "version", "2.0"); });
   EXPECT_THAT(open(path), HasSubstr("is '2.0'"));
   edit([](hid_t f) {
-    hdf5::write_text_attribute(f, "/", "version", "1.4", "");
+    hdf5::write_attribute({f, ""}, "/", "version", "1.4");
     const std::int32_t offset[] = {0, 9, 5};
     H5Ldelete(f, "/superelements/offset", H5P_DEFAULT);
-    hdf5::write_dataset(f, "/superelements/offset", {3}, offset, "");
+    hdf5::write_dataset({f, ""}, "/superelements/offset", {3}, offset);
   });
   EXPECT_THAT(open(path), HasSubstr("/superelements/offset"));
   edit([](hid_t f) {
     const std::int32_t offset[] = {0, 3, 6};
     H5Ldelete(f, "/superelements/offset", H5P_DEFAULT);
-    hdf5::write_dataset(f, "/superelements/offset", {3}, offset, "");
+    hdf5::write_dataset({f, ""}, "/superelements/offset", {3}, offset);
   });
   EXPECT_THAT(open(path), AllOf(HasSubstr("/superelements/y"), HasSubstr("shape 2 x 5")));
   edit([](hid_t f) { H5Ldelete(f, "/time", H5P_DEFAULT); });

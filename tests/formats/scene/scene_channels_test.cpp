@@ -123,10 +123,10 @@ TEST(InputTable, DatasetsOfHdf5Files) {
   const Folder folder;
   const std::vector<double> time{0, 1, 2}, value{5, 6, 8};
   hdf5::Handle file = hdf5::create_in_memory("test");
-  hdf5::write_dataset(file.id(), "/time", {3}, time.data(), "test");
-  hdf5::write_dataset(file.id(), "/drive/throttle", {3}, value.data(), "test");
-  hdf5::write_dataset(file.id(), "/short", {2}, value.data(), "test");
-  hdf5::write_dataset(file.id(), "/table", {1, 3}, value.data(), "test");
+  hdf5::write_dataset({file.id(), "test"}, "/time", {3}, time.data());
+  hdf5::write_dataset({file.id(), "test"}, "/drive/throttle", {3}, value.data());
+  hdf5::write_dataset({file.id(), "test"}, "/short", {2}, value.data());
+  hdf5::write_dataset({file.id(), "test"}, "/table", {1, 3}, value.data());
   const std::string path = folder.file("drive.h5", hdf5::file_image(std::move(file), "test"));
   const TimeTable table = read_input_table({path, "time", "drive/throttle"});
   EXPECT_EQ(table.time, time);

@@ -156,11 +156,17 @@ TEST(ModalBodyFile, RefusesForeignAndDamagedFiles) {
     return error_of([&] { static_cast<void>(read_modal_body(path)); });
   };
   EXPECT_THAT(error_of([&] { static_cast<void>(read_modal_body(folder.file("none.h5"))); }), HasSubstr("none.h5"));
-  EXPECT_THAT(spoiled([](hid_t f) { hdf5::write_text_attribute(f, "/", "format", "tisserand-superelement", ""); }),
+  EXPECT_THAT(spoiled([](hid_t f) {
+                hdf5::write_attribute({f, ""}, "/", "format", "tisserand-superelement");
+              }),
               HasSubstr("expected 'tisserand-modal-body'"));
-  EXPECT_THAT(spoiled([](hid_t f) { hdf5::write_text_attribute(f, "/", "version", "2.0", ""); }),
+  EXPECT_THAT(spoiled([](hid_t f) {
+                hdf5::write_attribute({f, ""}, "/", "version", "2.0");
+              }),
               HasSubstr("versions 1.x"));
-  EXPECT_THAT(spoiled([](hid_t f) { hdf5::write_text_attribute(f, "/", "reference", "nobody", ""); }),
+  EXPECT_THAT(spoiled([](hid_t f) {
+                hdf5::write_attribute({f, ""}, "/", "reference", "nobody");
+              }),
               HasSubstr("expected nodes or mean_axis"));
   for (const char* dataset : {"/frame/position", "/reference/node", "/nodes/name", "/nodes/inertia", "/modes/X",
                               "/modes/omega2", "/integrals/P2"})

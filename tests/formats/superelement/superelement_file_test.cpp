@@ -51,7 +51,7 @@ void replace_by_doubles(hid_t file, const char* dataset, const hdf5::Shape& shap
   std::uint64_t count = 1;
   for (const std::uint64_t extent : shape) count *= extent;
   const std::vector<double> values(count, value);
-  hdf5::write_dataset(file, dataset, shape, values.data(), "test");
+  hdf5::write_dataset({file, "test"}, dataset, shape, values.data());
 }
 
 /// A chunked dataset of any claimed shape without a single byte of data.
@@ -128,11 +128,11 @@ TEST(SuperelementFile, UnknownItemsOfTheSameMajorVersionAreOneLine) {
   Superelement e = craig_bampton_beam({}, 2);
   write_superelement(path, e);
   change(path, [](hid_t file) {
-    hdf5::write_text_attribute(file, "/", "version", "1.7", "test");
-    hdf5::write_text_attribute(file, "/", "colour", "red", "test");
+    hdf5::write_attribute({file, "test"}, "/", "version", "1.7");
+    hdf5::write_attribute({file, "test"}, "/", "colour", "red");
     const double damping = 0.01;
-    hdf5::write_dataset(file, "/damping/ratio", {1}, &damping, "test");
-    hdf5::write_dataset(file, "/dof/extra", {1}, &damping, "test");
+    hdf5::write_dataset({file, "test"}, "/damping/ratio", {1}, &damping);
+    hdf5::write_dataset({file, "test"}, "/dof/extra", {1}, &damping);
   });
   const LoadedSuperelement loaded = read_superelement(path);
   ASSERT_EQ(loaded.report.warnings.size(), 1u);
@@ -206,31 +206,47 @@ std::vector<BadFile> bad_files() {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   return {
       {"Format",
-       [](hid_t f) { hdf5::write_text_attribute(f, "/", "format", "tisserand-results", ""); },
+       [](hid_t f) {
+         hdf5::write_attribute({f, ""}, "/", "format", "tisserand-results");
+       },
        {"of the kind 'tisserand-results', expected 'tisserand-superelement'"}},
       {"NoFormat", [](hid_t f) { H5Adelete(f, "format"); }, {"not a superelement file"}},
       {"FormatNumber",
-       [](hid_t f) { hdf5::write_number_attribute(f, "/", "format", 3, ""); },
+       [](hid_t f) {
+         hdf5::write_attribute({f, ""}, "/", "format", 3.0);
+       },
        {"attribute 'format'", "expected a string"}},
       {"MajorVersion",
-       [](hid_t f) { hdf5::write_text_attribute(f, "/", "version", "2.0", ""); },
+       [](hid_t f) {
+         hdf5::write_attribute({f, ""}, "/", "version", "2.0");
+       },
        {"attribute 'version'", "is 2.0"}},
       {"BadVersion",
-       [](hid_t f) { hdf5::write_text_attribute(f, "/", "version", "one", ""); },
+       [](hid_t f) {
+         hdf5::write_attribute({f, ""}, "/", "version", "one");
+       },
        {"attribute 'version'", "'one'"}},
       {"HalfVersion",
-       [](hid_t f) { hdf5::write_text_attribute(f, "/", "version", "1.", ""); },
+       [](hid_t f) {
+         hdf5::write_attribute({f, ""}, "/", "version", "1.");
+       },
        {"attribute 'version'", "'1.'"}},
       {"NoUnit", [](hid_t f) { H5Adelete(f, "mass_unit"); }, {"attribute 'mass_unit'", "is missing"}},
       {"UnitText",
-       [](hid_t f) { hdf5::write_text_attribute(f, "/", "mass_unit", "kg", ""); },
+       [](hid_t f) {
+         hdf5::write_attribute({f, ""}, "/", "mass_unit", "kg");
+       },
        {"attribute 'mass_unit'", "expected a number"}},
       {"NoLabel", [](hid_t f) { H5Adelete(f, "mass_unit_label"); }, {"attribute 'mass_unit_label'", "is missing"}},
       {"LongName",
-       [](hid_t f) { hdf5::write_text_attribute(f, "/", "name", std::string(300, 'x'), ""); },
+       [](hid_t f) {
+         hdf5::write_attribute({f, ""}, "/", "name", std::string(300, 'x'));
+       },
        {"attribute 'name'", "300 bytes"}},
       {"ContentId",
-       [](hid_t f) { hdf5::write_text_attribute(f, "/", "content_id", std::string(64, 'a'), ""); },
+       [](hid_t f) {
+         hdf5::write_attribute({f, ""}, "/", "content_id", std::string(64, 'a'));
+       },
        {"attribute 'content_id'", "aaaaaaaaaaaa", "changed after it was written"}},
       {"NoStiffness", [](hid_t f) { H5Ldelete(f, "/stiffness", H5P_DEFAULT); }, {"/stiffness: is missing"}},
       {"NoBoundary", [](hid_t f) { H5Ldelete(f, "/boundary", H5P_DEFAULT); }, {"/boundary/name: is missing"}},
@@ -288,7 +304,7 @@ std::vector<BadFile> bad_files() {
          hdf5::Shape none{0};
          H5Ldelete(f, "/dof/node", H5P_DEFAULT);
          const std::int32_t value = 0;
-         hdf5::write_dataset(f, "/dof/node", none, &value, "");
+         hdf5::write_dataset({f, ""}, "/dof/node", none, &value);
        },
        {"/dof/node", "has 0 entries"}},
       {"WideInteger",
