@@ -15,27 +15,78 @@ const std::vector<std::string> xyz{"x", "y", "z"};
 const std::vector<std::string> wxyz{"w", "x", "y", "z"};
 const std::vector<std::string> wrench{"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"};
 
+/// Where values stand in a row: how they are read, and how they are given room.
+struct Room {
+  const double* (*values)(const ResultsRow&) = nullptr;
+  void (*resize)(ResultsRow&, Eigen::Index items) = nullptr;
+};
+
+const double* data_of(const double& value) { return &value; }
+template <class Matrix>
+const double* data_of(const Matrix& matrix) {
+  return matrix.data();
+}
+
+void set_items(double&, Eigen::Index) {}
+template <class Matrix>
+void set_items(Matrix& matrix, Eigen::Index items) {
+  if constexpr (Matrix::IsVectorAtCompileTime)
+    matrix.setZero(items);
+  else
+    matrix.setZero(matrix.rows(), items);
+}
+
+/// A member of a row, or a member of that.
+template <auto... path>
+constexpr Room at{[](const ResultsRow& row) { return data_of((row.*....*path)); },
+                  [](ResultsRow& row, Eigen::Index items) { set_items((row.*....*path), items); }};
+
 std::string with_radian(const std::string& unit) { return unit.empty() ? "" : "rad " + unit; }
 
-/// Items x components, column "item/component", one unit for all.
-Block vectors(const std::string& dataset, const std::vector<std::string>& items,
-              const std::vector<std::string>& components, const std::string& unit,
-              const double* (*values)(const ResultsRow&)) {
-  Block block{dataset, {items.size(), components.size()}, {}, {}, unit, values};
-  for (const std::string& item : items)
-    for (const std::string& component : components) block.columns.push_back(item + "/" + component);
-  block.units.assign(block.columns.size(), unit);
-  return block;
+/// Units of columns.
+struct Labels {
+  explicit Labels(const Units& u)
+      : length(unit_label(u, 1, 0, 0)),
+        velocity(unit_label(u, 1, 0, -1)),
+        acceleration(unit_label(u, 1, 0, -2)),
+        turn_rate(with_radian(unit_label(u, 0, 0, -1))),
+        turn_acceleration(with_radian(unit_label(u, 0, 0, -2))),
+        force(unit_label(u, 1, 1, -2)),
+        moment(unit_label(u, 2, 1, -2)) {}
+  std::string length, velocity, acceleration, turn_rate, turn_acceleration, force, moment;
+};
+
+Block scalar(const std::string& dataset, const std::string& unit, const Room& room) {
+  return {dataset, {}, {""}, {unit}, unit, room.values, room.resize};
 }
 
-Block scalars(const std::string& dataset, const std::vector<std::string>& items, const std::string& unit,
-              const double* (*values)(const ResultsRow&)) {
-  return {dataset, {items.size()}, items, std::vector<std::string>(items.size(), unit), unit, values};
-}
+/// Datasets of one group of items.
+struct Group {
+  std::string before;  ///< "/nodes/"
+  std::vector<std::string> items;
+  std::vector<Block>& blocks;
 
-Block scalar(const std::string& dataset, const std::string& unit, const double* (*values)(const ResultsRow&)) {
-  return {dataset, {}, {""}, {unit}, unit, values};
-}
+  void scalars(const char* dataset, const std::string& unit, const Room& room) const {
+    blocks.push_back({before + dataset, {items.size()}, items, {}, unit, room.values, room.resize});
+    blocks.back().units.assign(items.size(), unit);
+  }
+  /// Items x components, column "item/component", one unit for all.
+  Block& vectors(const char* dataset, const std::vector<std::string>& components, const std::string& unit,
+                 const Room& room) const {
+    blocks.push_back({before + dataset, {items.size(), components.size()}, {}, {}, unit, room.values, room.resize});
+    Block& block = blocks.back();
+    for (const std::string& item : items)
+      for (const std::string& component : components) block.columns.push_back(item + "/" + component);
+    block.units.assign(block.columns.size(), unit);
+    return block;
+  }
+  void wrenches(const char* dataset, const Labels& labels, const Room& room) const {
+    const std::string& force = labels.force;
+    Block& block = vectors(dataset, wrench, force.empty() ? "" : force + ", " + labels.moment, room);
+    for (std::size_t column = 0; column < block.width(); ++column)
+      block.units[column] = column % 6 < 3 ? force : labels.moment;
+  }
+};
 
 /// "beam/0", "beam/1", ... for the entries of each superelement between its offsets.
 std::vector<std::string> numbered(const std::vector<std::string>& owners, const std::vector<int>& offset) {
@@ -65,208 +116,144 @@ std::vector<std::string> owned(const std::vector<std::string>& owners, const std
   return names;
 }
 
-void add_nodes(const ResultsLayout& layout, std::vector<Block>& blocks) {
-  using Row = const ResultsRow&;
-  const Units& u = layout.units;
-  const auto add = [&](const char* name, const std::vector<std::string>& components, const std::string& unit,
-                       const double* (*values)(Row)) {
-    blocks.push_back(vectors(std::string("/nodes/") + name, layout.nodes, components, unit, values));
-  };
-  add("position", xyz, unit_label(u, 1, 0, 0), [](Row r) { return r.node_position.data(); });
-  add("rotation", wxyz, "1", [](Row r) { return r.node_rotation.data(); });
-  add("velocity", xyz, unit_label(u, 1, 0, -1), [](Row r) { return r.node_velocity.data(); });
-  add("angular_velocity", xyz, with_radian(unit_label(u, 0, 0, -1)),
-      [](Row r) { return r.node_angular_velocity.data(); });
-  add("acceleration", xyz, unit_label(u, 1, 0, -2), [](Row r) { return r.node_acceleration.data(); });
-  add("angular_acceleration", xyz, with_radian(unit_label(u, 0, 0, -2)),
-      [](Row r) { return r.node_angular_acceleration.data(); });
+void add_nodes(const ResultsLayout& layout, const Labels& labels, std::vector<Block>& blocks) {
+  const Group nodes{"/nodes/", layout.nodes, blocks};
+  nodes.vectors("position", xyz, labels.length, at<&ResultsRow::node_position>);
+  nodes.vectors("rotation", wxyz, "1", at<&ResultsRow::node_rotation>);
+  nodes.vectors("velocity", xyz, labels.velocity, at<&ResultsRow::node_velocity>);
+  nodes.vectors("angular_velocity", xyz, labels.turn_rate, at<&ResultsRow::node_angular_velocity>);
+  nodes.vectors("acceleration", xyz, labels.acceleration, at<&ResultsRow::node_acceleration>);
+  nodes.vectors("angular_acceleration", xyz, labels.turn_acceleration, at<&ResultsRow::node_angular_acceleration>);
 }
 
-void add_superelements(const ResultsLayout& layout, std::vector<Block>& blocks) {
-  using Row = const ResultsRow&;
-  const Units& u = layout.units;
-  const std::string force = unit_label(u, 1, 1, -2), moment = unit_label(u, 2, 1, -2);
-  blocks.push_back(vectors("/superelements/frame_position", layout.superelements, xyz, unit_label(u, 1, 0, 0),
-                           [](Row r) { return r.frame_position.data(); }));
-  blocks.push_back(vectors("/superelements/frame_rotation", layout.superelements, wxyz, "1",
-                           [](Row r) { return r.frame_rotation.data(); }));
-  blocks.push_back(vectors("/superelements/frame_acceleration", layout.superelements, xyz, unit_label(u, 1, 0, -2),
-                           [](Row r) { return r.frame_acceleration.data(); }));
-  blocks.push_back(vectors("/superelements/frame_angular_velocity", layout.superelements, xyz,
-                           with_radian(unit_label(u, 0, 0, -1)),
-                           [](Row r) { return r.frame_angular_velocity.data(); }));
-  blocks.push_back(vectors("/superelements/frame_angular_acceleration", layout.superelements, xyz,
-                           with_radian(unit_label(u, 0, 0, -2)),
-                           [](Row r) { return r.frame_angular_acceleration.data(); }));
-  blocks.push_back(scalars("/superelements/y", numbered(layout.superelements, layout.modes_offset), "",
-                           [](Row r) { return r.y.data(); }));
-  blocks.push_back(scalars("/superelements/y_rate", numbered(layout.superelements, layout.modes_offset), "",
-                           [](Row r) { return r.y_rate.data(); }));
-  if (layout.strained)
-    blocks.push_back(scalars("/superelements/y_strain", numbered(layout.superelements, layout.modes_offset), "",
-                             [](Row r) { return r.y_strain.data(); }));
-  blocks.push_back(scalars("/superelements/load_factor",
-                           owned(layout.superelements, layout.load_case_offset, layout.load_cases), "1",
-                           [](Row r) { return r.load_factor.data(); }));
-  Block boundary = vectors("/superelements/boundary_force", boundary_names(layout), wrench,
-                           force.empty() ? "" : force + ", " + moment, [](Row r) { return r.boundary_force.data(); });
-  for (std::size_t column = 0; column < boundary.width(); ++column)
-    boundary.units[column] = column % 6 < 3 ? force : moment;
-  blocks.push_back(boundary);
+void add_superelements(const ResultsLayout& layout, const Labels& labels, std::vector<Block>& blocks) {
+  const std::string group = "/superelements/";
+  const Group frames{group, layout.superelements, blocks};
+  frames.vectors("frame_position", xyz, labels.length, at<&ResultsRow::frame_position>);
+  frames.vectors("frame_rotation", wxyz, "1", at<&ResultsRow::frame_rotation>);
+  frames.vectors("frame_acceleration", xyz, labels.acceleration, at<&ResultsRow::frame_acceleration>);
+  frames.vectors("frame_angular_velocity", xyz, labels.turn_rate, at<&ResultsRow::frame_angular_velocity>);
+  frames.vectors("frame_angular_acceleration", xyz, labels.turn_acceleration,
+                 at<&ResultsRow::frame_angular_acceleration>);
+  const Group deformations{group, numbered(layout.superelements, layout.modes_offset), blocks};
+  deformations.scalars("y", "", at<&ResultsRow::y>);
+  deformations.scalars("y_rate", "", at<&ResultsRow::y_rate>);
+  if (layout.strained) deformations.scalars("y_strain", "", at<&ResultsRow::y_strain>);
+  const Group cases{group, owned(layout.superelements, layout.load_case_offset, layout.load_cases), blocks};
+  cases.scalars("load_factor", "1", at<&ResultsRow::load_factor>);
+  Group{group, boundary_names(layout), blocks}.wrenches("boundary_force", labels, at<&ResultsRow::boundary_force>);
 }
 
-void add_modal_bodies(const ResultsLayout& layout, std::vector<Block>& blocks) {
-  blocks.push_back(scalars("/modal_bodies/w", numbered(layout.modal_bodies, layout.modal_offset), "",
-                           [](const ResultsRow& r) { return r.w.data(); }));
-  blocks.push_back(scalars("/modal_bodies/w_rate", numbered(layout.modal_bodies, layout.modal_offset), "",
-                           [](const ResultsRow& r) { return r.w_rate.data(); }));
-  using Row = const ResultsRow&;
-  const Units& u = layout.units;
-  const auto add = [&](const char* name, const std::string& unit, const double* (*values)(Row)) {
-    blocks.push_back(vectors(std::string("/modal_bodies/") + name, layout.modal_bodies, xyz, unit, values));
-  };
-  add("frame_acceleration", unit_label(u, 1, 0, -2), [](Row r) { return r.modal.acceleration.data(); });
-  add("frame_angular_velocity", with_radian(unit_label(u, 0, 0, -1)),
-      [](Row r) { return r.modal.angular_velocity.data(); });
-  add("frame_angular_acceleration", with_radian(unit_label(u, 0, 0, -2)),
-      [](Row r) { return r.modal.angular_acceleration.data(); });
-  const std::string force = unit_label(u, 1, 1, -2), moment = unit_label(u, 2, 1, -2);
-  Block nodes = vectors("/modal_bodies/node_force",
-                        owned(layout.modal_bodies, layout.modal_node_offset, layout.modal_nodes), wrench,
-                        force.empty() ? "" : force + ", " + moment, [](Row r) { return r.modal.node_force.data(); });
-  for (std::size_t column = 0; column < nodes.width(); ++column) nodes.units[column] = column % 6 < 3 ? force : moment;
-  blocks.push_back(nodes);
+void add_modal_bodies(const ResultsLayout& layout, const Labels& labels, std::vector<Block>& blocks) {
+  const std::string group = "/modal_bodies/";
+  const Group deformations{group, numbered(layout.modal_bodies, layout.modal_offset), blocks};
+  deformations.scalars("w", "", at<&ResultsRow::w>);
+  deformations.scalars("w_rate", "", at<&ResultsRow::w_rate>);
+  constexpr auto modal = &ResultsRow::modal;
+  const Group frames{group, layout.modal_bodies, blocks};
+  frames.vectors("frame_acceleration", xyz, labels.acceleration, at<modal, &ModalFrames::acceleration>);
+  frames.vectors("frame_angular_velocity", xyz, labels.turn_rate, at<modal, &ModalFrames::angular_velocity>);
+  frames.vectors("frame_angular_acceleration", xyz, labels.turn_acceleration,
+                 at<modal, &ModalFrames::angular_acceleration>);
+  Group{group, owned(layout.modal_bodies, layout.modal_node_offset, layout.modal_nodes), blocks}.wrenches(
+      "node_force", labels, at<modal, &ModalFrames::node_force>);
 }
 
-void add_joints(const ResultsLayout& layout, std::vector<Block>& blocks) {
-  using Row = const ResultsRow&;
-  const Units& u = layout.units;
-  blocks.push_back(vectors("/joints/force", layout.joints, xyz, unit_label(u, 1, 1, -2),
-                           [](Row r) { return r.joint_force.data(); }));
-  blocks.push_back(vectors("/joints/moment", layout.joints, xyz, unit_label(u, 2, 1, -2),
-                           [](Row r) { return r.joint_moment.data(); }));
-  Block coordinate{
-      "/joints/coordinate", {layout.coordinates.size()}, {}, {}, "", [](Row r) {
-                     return r.joint_coordinate.data(); }};
-  Block rate{"/joints/rate", {layout.coordinates.size()}, {}, {}, "", [](Row r) { return r.joint_rate.data(); }};
-  for (const ResultsLayout::Coordinate& c : layout.coordinates) {
-    coordinate.columns.push_back(c.name);
-    coordinate.units.push_back(c.length ? unit_label(u, 1, 0, 0) : "rad");
-    rate.units.push_back(c.length ? unit_label(u, 1, 0, -1) : with_radian(unit_label(u, 0, 0, -1)));
-  }
-  rate.columns = coordinate.columns;
-  for (Block* block : {&coordinate, &rate}) {
-    const bool same =
-        std::equal(block->units.begin() + (block->units.empty() ? 0 : 1), block->units.end(), block->units.begin());
-    block->unit = block->units.empty() || !same ? "" : block->units.front();
-    blocks.push_back(*block);
-  }
-}
-
-/// Forces or moments along coordinates.
-Block along(const std::string& dataset, const std::vector<ResultsLayout::Coordinate>& items, const Units& u,
-            const double* (*values)(const ResultsRow&)) {
-  Block force{dataset, {items.size()}, {}, {}, "", values};
+/// What belongs to coordinates, in one unit for lengths and in another for angles.
+Block of_coordinates(const std::string& dataset, const std::vector<ResultsLayout::Coordinate>& items,
+                     const std::pair<std::string, std::string>& units, const Room& room) {
+  Block block{dataset, {items.size()}, {}, {}, "", room.values, room.resize};
   for (const ResultsLayout::Coordinate& item : items) {
-    force.columns.push_back(item.name);
-    force.units.push_back(unit_label(u, item.length ? 1 : 2, 1, -2));
+    block.columns.push_back(item.name);
+    block.units.push_back(item.length ? units.first : units.second);
   }
-  return force;
+  return block;
 }
 
-void add_couplings(const ResultsLayout& layout, std::vector<Block>& blocks) {
+void add_joints(const ResultsLayout& layout, const Labels& labels, std::vector<Block>& blocks) {
+  const Group joints{"/joints/", layout.joints, blocks};
+  joints.vectors("force", xyz, labels.force, at<&ResultsRow::joint_force>);
+  joints.vectors("moment", xyz, labels.moment, at<&ResultsRow::joint_moment>);
+  const auto add = [&](Block block) {
+    const std::vector<std::string>& units = block.units;
+    const bool same = std::ranges::all_of(units, [&](const auto& unit) { return unit == units.front(); });
+    if (!units.empty() && same) block.unit = units.front();
+    blocks.push_back(std::move(block));
+  };
+  const std::vector<ResultsLayout::Coordinate>& list = layout.coordinates;
+  add(of_coordinates("/joints/coordinate", list, {labels.length, "rad"}, at<&ResultsRow::joint_coordinate>));
+  add(of_coordinates("/joints/rate", list, {labels.velocity, labels.turn_rate}, at<&ResultsRow::joint_rate>));
+}
+
+void add_couplings(const ResultsLayout& layout, const Labels& labels, std::vector<Block>& blocks) {
   std::vector<ResultsLayout::Coordinate> first, second;
   for (const ResultsLayout::Coupling& coupling : layout.couplings) {
     first.push_back({coupling.name, coupling.first_length});
     second.push_back({coupling.name, coupling.second_length});
   }
-  using Row = const ResultsRow&;
-  blocks.push_back(
-      along("/couplings/first_force", first, layout.units, [](Row r) { return r.coupling_first_force.data(); }));
-  blocks.push_back(
-      along("/couplings/second_force", second, layout.units, [](Row r) { return r.coupling_second_force.data(); }));
+  const std::pair units{labels.force, labels.moment};
+  blocks.push_back(of_coordinates("/couplings/first_force", first, units, at<&ResultsRow::coupling_first_force>));
+  blocks.push_back(of_coordinates("/couplings/second_force", second, units, at<&ResultsRow::coupling_second_force>));
 }
 
-void add_forces(const ResultsLayout& layout, std::vector<Block>& blocks) {
-  using Row = const ResultsRow&;
-  const Units& u = layout.units;
-  const std::string force = unit_label(u, 1, 1, -2), moment = unit_label(u, 2, 1, -2);
-  blocks.push_back(along("/motions/force", layout.motions, u, [](Row r) { return r.motion_force.data(); }));
-  blocks.push_back(along("/forces/spring", layout.springs, u, [](Row r) { return r.spring_force.data(); }));
-  blocks.push_back(along("/forces/stop", layout.stops, u, [](Row r) { return r.stop_force.data(); }));
-  blocks.push_back(
-      vectors("/forces/bushing_force", layout.bushings, xyz, force, [](Row r) { return r.bushing_force.data(); }));
-  blocks.push_back(
-      vectors("/forces/bushing_moment", layout.bushings, xyz, moment, [](Row r) { return r.bushing_moment.data(); }));
-  blocks.push_back(
-      vectors("/forces/friction_force", layout.frictions, xyz, force, [](Row r) { return r.friction_force.data(); }));
-  blocks.push_back(vectors("/forces/friction_moment", layout.frictions, xyz, moment,
-                           [](Row r) { return r.friction_moment.data(); }));
+void add_forces(const ResultsLayout& layout, const Labels& labels, std::vector<Block>& blocks) {
+  const std::pair units{labels.force, labels.moment};
+  blocks.push_back(of_coordinates("/motions/force", layout.motions, units, at<&ResultsRow::motion_force>));
+  blocks.push_back(of_coordinates("/forces/spring", layout.springs, units, at<&ResultsRow::spring_force>));
+  blocks.push_back(of_coordinates("/forces/stop", layout.stops, units, at<&ResultsRow::stop_force>));
+  const Group bushings{"/forces/bushing_", layout.bushings, blocks};
+  bushings.vectors("force", xyz, labels.force, at<&ResultsRow::bushing_force>);
+  bushings.vectors("moment", xyz, labels.moment, at<&ResultsRow::bushing_moment>);
+  const Group frictions{"/forces/friction_", layout.frictions, blocks};
+  frictions.vectors("force", xyz, labels.force, at<&ResultsRow::friction_force>);
+  frictions.vectors("moment", xyz, labels.moment, at<&ResultsRow::friction_moment>);
 }
 
-void add_loads(const ResultsLayout& layout, std::vector<Block>& blocks) {
-  std::vector<std::string> names;
-  for (const ResultsLayout::Coordinate& load : layout.loads) names.push_back(load.name);
-  Block load = vectors("/forces/load", names, xyz, "", [](const ResultsRow& r) { return r.load.data(); });
-  for (std::size_t column = 0; column < load.width(); ++column)
-    load.units[column] = unit_label(layout.units, layout.loads[column / 3].length ? 1 : 2, 1, -2);
-  blocks.push_back(load);
+void add_loads(const ResultsLayout& layout, const Labels& labels, std::vector<Block>& blocks) {
+  Group loads{"/forces/", {}, blocks};
+  for (const ResultsLayout::Coordinate& load : layout.loads) loads.items.push_back(load.name);
+  Block& block = loads.vectors("load", xyz, "", at<&ResultsRow::load>);
+  for (std::size_t column = 0; column < block.width(); ++column)
+    block.units[column] = layout.loads[column / 3].length ? labels.force : labels.moment;
 }
 
 void add_quantities(const ResultsLayout& layout, std::vector<Block>& blocks) {
-  Block block{"/channels/value", {layout.quantities.size()}, {}, {}, "", [](const ResultsRow& r) {
-                return r.quantity.data();
-              }};
-  for (const ResultsLayout::Quantity& quantity : layout.quantities) {
-    block.columns.push_back(quantity.name);
-    block.units.push_back(quantity.unit);
-  }
-  blocks.push_back(std::move(block));
+  Group channels{"/channels/", {}, blocks};
+  for (const ResultsLayout::Quantity& quantity : layout.quantities) channels.items.push_back(quantity.name);
+  channels.scalars("value", "", at<&ResultsRow::quantity>);
+  for (std::size_t i = 0; i < layout.quantities.size(); ++i) blocks.back().units[i] = layout.quantities[i].unit;
 }
 
-void add_tyres(const ResultsLayout& layout, std::vector<Block>& blocks) {
-  using Row = const ResultsRow&;
-  const Units& u = layout.units;
-  const std::string length = unit_label(u, 1, 0, 0), force = unit_label(u, 1, 1, -2), moment = unit_label(u, 2, 1, -2);
-  const auto add = [&](const std::string& name, const std::string& unit, const double* (*values)(Row)) {
-    blocks.push_back(scalars("/tyres/" + name, layout.tyres, unit, values));
-  };
-  const auto add_vectors = [&](const std::string& name, const std::string& unit, const double* (*values)(Row)) {
-    blocks.push_back(vectors("/tyres/" + name, layout.tyres, xyz, unit, values));
-  };
-  add_vectors("force", force, [](Row r) { return r.tyre_force.data(); });
-  add_vectors("moment", moment, [](Row r) { return r.tyre_moment.data(); });
-  add_vectors("contact", length, [](Row r) { return r.tyre_contact.data(); });
-  add_vectors("normal", "1", [](Row r) { return r.tyre_normal.data(); });
-  add("slip", "1", [](Row r) { return r.tyre_slip.data(); });
-  add("slip_angle", "rad", [](Row r) { return r.tyre_slip_angle.data(); });
-  add("camber", "rad", [](Row r) { return r.tyre_camber.data(); });
-  add("penetration", length, [](Row r) { return r.tyre_penetration.data(); });
-  add("rolling_radius", length, [](Row r) { return r.tyre_rolling_radius.data(); });
-  add("adhesion", "1", [](Row r) { return r.tyre_adhesion.data(); });
+void add_tyres(const ResultsLayout& layout, const Labels& labels, std::vector<Block>& blocks) {
+  const Group tyres{"/tyres/", layout.tyres, blocks};
+  tyres.vectors("force", xyz, labels.force, at<&ResultsRow::tyre_force>);
+  tyres.vectors("moment", xyz, labels.moment, at<&ResultsRow::tyre_moment>);
+  tyres.vectors("contact", xyz, labels.length, at<&ResultsRow::tyre_contact>);
+  tyres.vectors("normal", xyz, "1", at<&ResultsRow::tyre_normal>);
+  tyres.scalars("slip", "1", at<&ResultsRow::tyre_slip>);
+  tyres.scalars("slip_angle", "rad", at<&ResultsRow::tyre_slip_angle>);
+  tyres.scalars("camber", "rad", at<&ResultsRow::tyre_camber>);
+  tyres.scalars("penetration", labels.length, at<&ResultsRow::tyre_penetration>);
+  tyres.scalars("rolling_radius", labels.length, at<&ResultsRow::tyre_rolling_radius>);
+  tyres.scalars("adhesion", "1", at<&ResultsRow::tyre_adhesion>);
   if (!layout.treads) return;
-  const auto add_treads = [&](const char* name, const std::string& unit, const double* (*values)(Row)) {
-    blocks.push_back(vectors(std::string("/tyres/") + name, layout.tyres, {"x", "y"}, unit, values));
-  };
-  add_treads("deflection", length, [](Row r) { return r.tyre_deflection.data(); });
-  add_treads("deflection_rate", unit_label(u, 1, 0, -1), [](Row r) { return r.tyre_deflection_rate.data(); });
+  tyres.vectors("deflection", {"x", "y"}, labels.length, at<&ResultsRow::tyre_deflection>);
+  tyres.vectors("deflection_rate", {"x", "y"}, labels.velocity, at<&ResultsRow::tyre_deflection_rate>);
 }
 
-void add_scalars(const ResultsLayout& layout, std::vector<Block>& blocks) {
-  using Row = const ResultsRow&;
-  const Units& u = layout.units;
-  const std::string energy = energy_label(u);
-  blocks.push_back(scalar("/energy/kinetic", energy, [](Row r) { return &r.kinetic; }));
-  blocks.push_back(scalar("/energy/strain", energy, [](Row r) { return &r.strain; }));
-  blocks.push_back(scalar("/energy/potential", energy, [](Row r) { return &r.potential; }));
-  blocks.push_back(scalar("/energy/work", energy, [](Row r) { return &r.work; }));
-  blocks.push_back(scalar("/energy/dissipated", energy, [](Row r) { return &r.dissipated; }));
-  blocks.push_back(scalar("/energy/total", energy, [](Row r) { return &r.total; }));
-  blocks.push_back(scalar("/energy/balance", energy, [](Row r) { return &r.balance; }));
-  blocks.push_back(scalar("/solver/step", unit_label(u, 0, 0, 1), [](Row r) { return &r.step; }));
-  blocks.push_back(scalar("/solver/iterations", "1", [](Row r) { return &r.iterations; }));
-  blocks.push_back(scalar("/solver/residual", "1", [](Row r) { return &r.residual; }));
-  blocks.push_back(scalar("/solver/constraint", "1", [](Row r) { return &r.constraint; }));
+void add_scalars(const Units& units, std::vector<Block>& blocks) {
+  const std::string energy = energy_label(units);
+  blocks.push_back(scalar("/energy/kinetic", energy, at<&ResultsRow::kinetic>));
+  blocks.push_back(scalar("/energy/strain", energy, at<&ResultsRow::strain>));
+  blocks.push_back(scalar("/energy/potential", energy, at<&ResultsRow::potential>));
+  blocks.push_back(scalar("/energy/work", energy, at<&ResultsRow::work>));
+  blocks.push_back(scalar("/energy/dissipated", energy, at<&ResultsRow::dissipated>));
+  blocks.push_back(scalar("/energy/total", energy, at<&ResultsRow::total>));
+  blocks.push_back(scalar("/energy/balance", energy, at<&ResultsRow::balance>));
+  blocks.push_back(scalar("/solver/step", unit_label(units, 0, 0, 1), at<&ResultsRow::step>));
+  blocks.push_back(scalar("/solver/iterations", "1", at<&ResultsRow::iterations>));
+  blocks.push_back(scalar("/solver/residual", "1", at<&ResultsRow::residual>));
+  blocks.push_back(scalar("/solver/constraint", "1", at<&ResultsRow::constraint>));
 }
 
 /// Whether the entry names the dataset, its group, or matches it; "/nodes/position" and "nodes/position" are the same.
@@ -275,7 +262,8 @@ bool chooses(const std::string& entry, const std::string& dataset) {
   return dataset == wanted || dataset.starts_with(wanted + "/") || matches_wildcard(dataset, wanted);
 }
 
-/// y without the strain that it stands for would give stresses that are wrong, and so without the factors of load cases.
+/// y without the strain that it stands for would give stresses that are wrong, and so without the factors of load
+/// cases.
 bool belongs_to(const std::string& entry, const std::string& dataset) {
   return (dataset == "/superelements/y_strain" || dataset == "/superelements/load_factor") &&
          chooses(entry, "/superelements/y");
@@ -308,18 +296,18 @@ bool means_node(const std::string& entry, const std::string& node) {
 }  // namespace
 
 std::vector<Block> all_blocks(const ResultsLayout& layout) {
-  std::vector<Block> blocks{
-      scalar("/time", unit_label(layout.units, 0, 0, 1), [](const ResultsRow& r) { return &r.time; })};
-  add_nodes(layout, blocks);
-  add_superelements(layout, blocks);
-  add_modal_bodies(layout, blocks);
-  add_joints(layout, blocks);
-  add_couplings(layout, blocks);
-  add_forces(layout, blocks);
-  add_tyres(layout, blocks);
-  add_loads(layout, blocks);
+  const Labels labels(layout.units);
+  std::vector<Block> blocks{scalar("/time", unit_label(layout.units, 0, 0, 1), at<&ResultsRow::time>)};
+  add_nodes(layout, labels, blocks);
+  add_superelements(layout, labels, blocks);
+  add_modal_bodies(layout, labels, blocks);
+  add_joints(layout, labels, blocks);
+  add_couplings(layout, labels, blocks);
+  add_forces(layout, labels, blocks);
+  add_tyres(layout, labels, blocks);
+  add_loads(layout, labels, blocks);
   add_quantities(layout, blocks);
-  add_scalars(layout, blocks);
+  add_scalars(layout.units, blocks);
   std::erase_if(blocks, [](const Block& block) { return block.width() == 0; });
   return blocks;
 }
@@ -340,11 +328,10 @@ std::string without_alias(std::string channel, const ResultsLayout& layout) {
 std::vector<Block> mode_blocks(const ResultsLayout& layout) {
   const std::string rate = unit_label(layout.units, 0, 0, -1), frequency = rate == "s^-1" ? "Hz" : rate;
   const std::vector<std::string> complex{"real", "imaginary"};
-  std::vector<Block> blocks{scalar("/modes/frequency", frequency, nullptr),
-                            scalar("/modes/damping_ratio", "1", nullptr)};
-  blocks.push_back({"/modes/eigenvalue", {2}, complex, {rate, rate}, rate, nullptr});
+  std::vector<Block> blocks{scalar("/modes/frequency", frequency, {}), scalar("/modes/damping_ratio", "1", {})};
+  blocks.push_back({"/modes/eigenvalue", {2}, complex, {rate, rate}, rate, {}, {}});
   for (const char* dataset : {"/modes/translation", "/modes/rotation"}) {
-    Block shape{dataset, {layout.nodes.size(), 3, 2}, {}, {}, "1", nullptr};
+    Block shape{dataset, {layout.nodes.size(), 3, 2}, {}, {}, "1", {}, {}};
     for (const std::string& node : layout.nodes)
       for (const std::string& axis : xyz)
         for (const std::string& part : complex) shape.columns.push_back(node + "/" + axis + "/" + part);
@@ -352,7 +339,7 @@ std::vector<Block> mode_blocks(const ResultsLayout& layout) {
     if (!layout.nodes.empty()) blocks.push_back(std::move(shape));
   }
   const auto coordinates = [&](const char* dataset, const std::vector<std::string>& names) {
-    Block block{dataset, {names.size(), 2}, {}, {}, "", nullptr};
+    Block block{dataset, {names.size(), 2}, {}, {}, "", {}, {}};
     for (const std::string& name : names)
       for (const std::string& part : complex) block.columns.push_back(name + "/" + part);
     block.units.assign(block.columns.size(), "");
@@ -402,7 +389,8 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
   full.coordinates = full.motions = full.springs = full.stops = full.loads = {{"a", false}};
   full.couplings = {{"a", false, false}};
   full.quantities = {{"a", ""}};
-  full.modes_offset = full.boundary_offset = full.modal_offset = full.load_case_offset = full.modal_node_offset = {0, 1};
+  full.modes_offset = full.boundary_offset = full.modal_offset = full.load_case_offset =
+      full.modal_node_offset = {0, 1};
   full.load_cases = full.modal_nodes = {"a"};
   for (const Block& block : all_blocks(full)) {
     const std::string name = block.dataset.substr(1), group = name.substr(0, name.find('/'));

@@ -21,6 +21,7 @@ struct Block {
   std::vector<std::string> units;    ///< per column
   std::string unit;                  ///< attribute "unit" of the dataset
   const double* (*values)(const ResultsRow&) = nullptr;
+  void (*resize)(ResultsRow&, Eigen::Index items) = nullptr;  ///< gives them room, and sets them to 0
 
   std::size_t width() const { return columns.size(); }
 };
