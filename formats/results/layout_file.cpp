@@ -2,24 +2,143 @@
 #include "formats/results/layout_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
-#include "formats/hdf5/file.hpp"
+#include "common/error.hpp"
+#include "formats/results/simulated_scene_file.hpp"
 
 namespace tisserand::formats {
 
 namespace {
 
-void write_couplings(const hdf5::Output& out, const std::vector<ResultsLayout::Coupling>& couplings) {
-  std::vector<std::string> names, first, second;
-  for (const ResultsLayout::Coupling& coupling : couplings) {
-    names.push_back(coupling.name);
-    first.push_back(coupling.first_length ? "length" : "angle");
-    second.push_back(coupling.second_length ? "length" : "angle");
+constexpr std::uint64_t max_names = 10'000'000;
+constexpr const char* compare = "compare the file with formats/RESULTS.md";
+
+/// Names that are stored with the blocks that begin with `block`.
+struct Names {
+  const char *block, *dataset;
+  std::vector<std::string> ResultsLayout::*list;
+};
+constexpr Names names_of_items[] = {
+    {"/joints/", "/joints/name", &ResultsLayout::joints},
+    {"/forces/bushing_", "/forces/bushing_name", &ResultsLayout::bushings},
+    {"/forces/friction_", "/forces/friction_name", &ResultsLayout::frictions},
+    {"/tyres/", "/tyres/name", &ResultsLayout::tyres},
+    {"/superelements/", "/superelements/name", &ResultsLayout::superelements},
+    {"/superelements/", "/superelements/content_id", &ResultsLayout::superelement_content_ids},
+    {"/superelements/", "/superelements/boundary_name", &ResultsLayout::boundary_nodes},
+    {"/superelements/load_factor", "/superelements/load_case", &ResultsLayout::load_cases},
+    {"/modal_bodies/", "/modal_bodies/name", &ResultsLayout::modal_bodies},
+    {"/modal_bodies/node_force", "/modal_bodies/node_name", &ResultsLayout::modal_nodes}};
+
+/// Coordinates: names and kinds below `before`.
+struct Coordinates {
+  const char *block, *before;
+  std::vector<ResultsLayout::Coordinate> ResultsLayout::*list;
+};
+constexpr Coordinates coordinate_lists[] = {{"/joints/", "/joints/coordinate_", &ResultsLayout::coordinates},
+                                            {"/motions/", "/motions/", &ResultsLayout::motions},
+                                            {"/forces/spring", "/forces/spring_", &ResultsLayout::springs},
+                                            {"/forces/stop", "/forces/stop_", &ResultsLayout::stops},
+                                            {"/forces/load", "/forces/load_", &ResultsLayout::loads}};
+
+/// Offsets of owners, and the names of which each owns those between two offsets, where they have names.
+struct Offsets {
+  const char *block, *dataset;
+  std::vector<int> ResultsLayout::*list;
+  std::vector<std::string> ResultsLayout::*owners;
+  const char* owned_dataset = nullptr;
+  std::vector<std::string> ResultsLayout::*owned = nullptr;
+};
+constexpr Offsets offset_lists[] = {
+    {"/superelements/", "/superelements/offset", &ResultsLayout::modes_offset, &ResultsLayout::superelements},
+    {"/superelements/", "/superelements/boundary_offset", &ResultsLayout::boundary_offset,
+     &ResultsLayout::superelements},
+    {"/superelements/load_factor", "/superelements/load_case_offset", &ResultsLayout::load_case_offset,
+     &ResultsLayout::superelements, "/superelements/load_case", &ResultsLayout::load_cases},
+    {"/modal_bodies/", "/modal_bodies/offset", &ResultsLayout::modal_offset, &ResultsLayout::modal_bodies},
+    {"/modal_bodies/node_force", "/modal_bodies/node_offset", &ResultsLayout::modal_node_offset,
+     &ResultsLayout::modal_bodies, "/modal_bodies/node_name", &ResultsLayout::modal_nodes}};
+
+std::vector<std::string> columns_of(const Coordinates& one) {
+  return {std::string(one.before) + "name", std::string(one.before) + "kind"};
+}
+const std::vector<std::string> coupling_columns{"/couplings/name", "/couplings/first_kind", "/couplings/second_kind"};
+const std::vector<std::string> channel_columns{"/channels/name", "/channels/unit"};
+
+std::string kind_word(bool is_length) { return is_length ? "length" : "angle"; }
+
+/// Two or more texts of each item, in datasets of their own.
+template <class Item, class Texts>
+void write_columns(const hdf5::Output& out, const std::vector<std::string>& datasets, const std::vector<Item>& items,
+                   const Texts& texts_of) {
+  std::vector<std::vector<std::string>> columns(datasets.size());
+  for (const Item& item : items) {
+    const std::vector<std::string> texts = texts_of(item);
+    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].push_back(texts[k]);
   }
-  hdf5::write_texts(out, "/couplings/name", names);
-  hdf5::write_texts(out, "/couplings/first_kind", first);
-  hdf5::write_texts(out, "/couplings/second_kind", second);
+  for (std::size_t k = 0; k < columns.size(); ++k) hdf5::write_texts(out, datasets[k], columns[k]);
+}
+
+std::uint64_t bounded_length(const hdf5::InputFile& file, const std::string& dataset) {
+  const hdf5::DatasetInfo info = file.info(dataset);
+  if (info.shape.size() != 1 || info.shape[0] > max_names)
+    throw Error(fmt::format("has shape {}, expected one dimension of at most {} entries", hdf5::shape_text(info.shape),
+                            max_names),
+                fmt::format("{}: {}", file.path(), dataset), compare);
+  return info.shape[0];
+}
+
+std::vector<std::string> names(const hdf5::InputFile& file, const std::string& dataset) {
+  if (!file.has(dataset)) return {};
+  return file.read_texts(dataset, bounded_length(file, dataset), "names");
+}
+
+/// Two or more texts of each item, from datasets of their own: the first one tells how many items there are.
+std::vector<std::vector<std::string>> read_columns(const hdf5::InputFile& file,
+                                                   const std::vector<std::string>& datasets) {
+  std::vector<std::vector<std::string>> columns;
+  for (const std::string& dataset : datasets) columns.push_back(names(file, dataset));
+  for (std::vector<std::string>& column : columns) column.resize(columns[0].size());
+  return columns;
+}
+
+/// Offsets of `owners` superelements: begin with 0, ascend, one more than owners.
+std::vector<int> read_offsets(const hdf5::InputFile& file, const std::string& dataset, std::size_t owners) {
+  if (!file.has(dataset)) return owners == 0 ? std::vector<int>{} : std::vector<int>(owners + 1, 0);
+  std::vector<std::int64_t> wide(bounded_length(file, dataset));
+  file.read(dataset, {wide.size()}, "offsets", wide.data());
+  const bool valid = wide.size() == owners + 1 && wide.front() == 0 && std::is_sorted(wide.begin(), wide.end()) &&
+                     wide.back() <= static_cast<std::int64_t>(max_names);
+  if (!valid)
+    throw Error(fmt::format("is no ascending list from 0 with one entry more than the {} names", owners),
+                fmt::format("{}: {}", file.path(), dataset), compare);
+  return std::vector<int>(wide.begin(), wide.end());
+}
+
+/// A factor of 0 stands for a unit without a name.
+Unit read_unit(const hdf5::InputFile& file, const std::string& name) {
+  const double factor = file.number_attribute("/", name);
+  if (!std::isfinite(factor) || factor < 0.0)
+    throw Error(fmt::format("is {}, expected a factor to SI, or 0", factor),
+                fmt::format("{}: attribute '{}'", file.path(), name), "write or copy the file again");
+  return {factor, file.text_attribute("/", name + "_label")};
+}
+
+/// Other names of nodes, each with the index of its node.
+std::vector<ResultsLayout::Alias> read_aliases(const hdf5::InputFile& file, std::size_t nodes) {
+  const std::vector<std::string> words = names(file, "/nodes/alias");
+  if (words.empty()) return {};
+  std::vector<std::int64_t> node(bounded_length(file, "/nodes/alias_of"));
+  file.read("/nodes/alias_of", {node.size()}, "indices of nodes", node.data());
+  const auto exists = [nodes](std::int64_t i) { return i >= 0 && i < static_cast<std::int64_t>(nodes); };
+  if (node.size() != words.size() || !std::all_of(node.begin(), node.end(), exists))
+    throw Error(fmt::format("does not hold the indices of {} of the {} nodes", words.size(), nodes),
+                file.path() + ": /nodes/alias_of", compare);
+  std::vector<ResultsLayout::Alias> list;
+  for (std::size_t i = 0; i < words.size(); ++i) list.push_back({words[i], static_cast<int>(node[i])});
+  return list;
 }
 
 }  // namespace
@@ -38,66 +157,60 @@ void write_node_names(const hdf5::Output& out, const ResultsLayout& layout) {
 }
 
 void write_names(const hdf5::Output& out, const ResultsLayout& layout, const std::vector<Block>& blocks) {
-  const auto stores = [&](const std::string& group) {
-    return std::any_of(blocks.begin(), blocks.end(), [&](const Block& b) { return b.dataset.starts_with(group); });
+  const auto stores = [&](const std::string& block) {
+    return std::any_of(blocks.begin(), blocks.end(), [&](const Block& b) { return b.dataset.starts_with(block); });
   };
   if (stores("/nodes/")) write_node_names(out, layout);
-  const auto coordinates = [&](const std::string& before, const std::vector<ResultsLayout::Coordinate>& list) {
-    std::vector<std::string> names, kinds;
-    for (const ResultsLayout::Coordinate& c : list) {
-      names.push_back(c.name);
-      kinds.push_back(c.length ? "length" : "angle");
-    }
-    hdf5::write_texts(out, before + "name", names);
-    hdf5::write_texts(out, before + "kind", kinds);
-  };
-  if (stores("/joints/")) {
-    hdf5::write_texts(out, "/joints/name", layout.joints);
-    coordinates("/joints/coordinate_", layout.coordinates);
+  for (const Names& one : names_of_items)
+    if (stores(one.block) && !(layout.*one.list).empty()) hdf5::write_texts(out, one.dataset, layout.*one.list);
+  for (const Coordinates& one : coordinate_lists)
+    if (stores(one.block))
+      write_columns(out, columns_of(one), layout.*one.list, [](const auto& c) {
+        return std::vector{c.name, kind_word(c.length)};
+      });
+  if (stores("/couplings/"))
+    write_columns(out, coupling_columns, layout.couplings, [](const auto& c) {
+      return std::vector{c.name, kind_word(c.first_length), kind_word(c.second_length)};
+    });
+  if (stores("/channels/"))
+    write_columns(out, channel_columns, layout.quantities, [](const auto& c) { return std::vector{c.name, c.unit}; });
+  for (const Offsets& one : offset_lists)
+    if (stores(one.block)) hdf5::write_dataset(out, one.dataset, layout.*one.list);
+}
+
+ResultsLayout read_layout(const hdf5::InputFile& file) {
+  ResultsLayout l;
+  l.scene = file.text_attribute("/", "scene");
+  l.producer = file.text_attribute("/", "producer");
+  l.units = {read_unit(file, "length_unit"), read_unit(file, "mass_unit"), read_unit(file, "time_unit")};
+  l.nodes = names(file, "/nodes/name");
+  l.node_aliases = read_aliases(file, l.nodes.size());
+  for (const Names& one : names_of_items) l.*one.list = names(file, one.dataset);
+  for (const Coordinates& one : coordinate_lists) {
+    const auto columns = read_columns(file, columns_of(one));
+    for (std::size_t i = 0; i < columns[0].size(); ++i)
+      (l.*one.list).push_back({columns[0][i], columns[1][i] == "length"});
   }
-  if (stores("/couplings/")) write_couplings(out, layout.couplings);
-  if (stores("/motions/")) coordinates("/motions/", layout.motions);
-  if (stores("/forces/spring")) coordinates("/forces/spring_", layout.springs);
-  if (stores("/forces/stop")) coordinates("/forces/stop_", layout.stops);
-  if (stores("/forces/load")) coordinates("/forces/load_", layout.loads);
-  if (stores("/channels/")) {
-    std::vector<std::string> names, units;
-    for (const ResultsLayout::Quantity& quantity : layout.quantities) {
-      names.push_back(quantity.name);
-      units.push_back(quantity.unit);
-    }
-    hdf5::write_texts(out, "/channels/name", names);
-    hdf5::write_texts(out, "/channels/unit", units);
+  const auto couplings = read_columns(file, coupling_columns), channels = read_columns(file, channel_columns);
+  for (std::size_t i = 0; i < couplings[0].size(); ++i)
+    l.couplings.push_back({couplings[0][i], couplings[1][i] == "length", couplings[2][i] == "length"});
+  for (std::size_t i = 0; i < channels[0].size(); ++i) l.quantities.push_back({channels[0][i], channels[1][i]});
+  l.strained = file.has("/superelements/y_strain");
+  l.treads = file.has("/tyres/deflection");
+  // Version 1.0 had one angle per joint, not-a-number where the joint has none.
+  if (l.coordinates.empty() && file.text_attribute("/", "version") == "1.0")
+    for (const std::string& joint : l.joints) l.coordinates.push_back({joint, false});
+  for (const Offsets& one : offset_lists) {
+    l.*one.list = read_offsets(file, one.dataset, (l.*one.owners).size());
+    const std::size_t end = (l.*one.list).empty() ? 0 : static_cast<std::size_t>((l.*one.list).back());
+    if (one.owned != nullptr && (l.*one.owned).size() != end)
+      throw Error(fmt::format("holds {} names, its offsets end with {}", (l.*one.owned).size(), end),
+                  fmt::format("{}: {}", file.path(), one.owned_dataset), compare);
   }
-  const auto list = [&](const std::string& before, const std::vector<std::string>& names) {
-    if (stores(before)) hdf5::write_texts(out, before + "name", names);
-  };
-  list("/forces/bushing_", layout.bushings);
-  list("/forces/friction_", layout.frictions);
-  list("/tyres/", layout.tyres);
-  if (stores("/superelements/")) {
-    const auto offsets = [&](const char* name, const std::vector<int>& offset) {
-      hdf5::write_dataset(out, std::string("/superelements/") + name, offset);
-    };
-    hdf5::write_texts(out, "/superelements/name", layout.superelements);
-    if (!layout.superelement_content_ids.empty())
-      hdf5::write_texts(out, "/superelements/content_id", layout.superelement_content_ids);
-    offsets("offset", layout.modes_offset);
-    offsets("boundary_offset", layout.boundary_offset);
-    if (!layout.boundary_nodes.empty()) hdf5::write_texts(out, "/superelements/boundary_name", layout.boundary_nodes);
-    if (stores("/superelements/load_factor")) {
-      hdf5::write_texts(out, "/superelements/load_case", layout.load_cases);
-      offsets("load_case_offset", layout.load_case_offset);
-    }
-  }
-  if (stores("/modal_bodies/")) {
-    hdf5::write_texts(out, "/modal_bodies/name", layout.modal_bodies);
-    hdf5::write_dataset(out, "/modal_bodies/offset", layout.modal_offset);
-    if (stores("/modal_bodies/node_force")) {
-      hdf5::write_texts(out, "/modal_bodies/node_name", layout.modal_nodes);
-      hdf5::write_dataset(out, "/modal_bodies/node_offset", layout.modal_node_offset);
-    }
-  }
+  const std::size_t boundary = l.boundary_offset.empty() ? 0 : static_cast<std::size_t>(l.boundary_offset.back());
+  if (l.boundary_nodes.size() != boundary) l.boundary_nodes.clear();
+  l.simulated = read_simulated(file, l.nodes.size());
+  return l;
 }
 
 }  // namespace tisserand::formats
