@@ -16,9 +16,7 @@ constexpr Choice<SpiderType> spider_types[] = {{"rigid", SpiderType::rigid}, {"a
 constexpr Choice<SpiderWeights> spider_weights[] = {{"area", SpiderWeights::area}, {"equal", SpiderWeights::equal}};
 
 void read_division(const MapReader& map, BeamLine& beam) {
-  if (map.has("elements") == map.has("size"))
-    map.fail(map.has("size") ? "both 'elements' and 'size' are given" : "neither 'elements' nor 'size' is given",
-             "give one of them");
+  map.require_one("elements", "size", "give one of them");
   if (const YamlNode* node = map.find("elements")) {
     beam.elements = read_integer(map.context(), *node, "elements").value_or(1);
     if (beam.elements < 1)
@@ -64,9 +62,7 @@ Eigen::Matrix<double, 6, 6> read_stiffness(const Context& context, const YamlNod
     context.fail(part.place, fmt::format("stiffness has {} numbers instead of 6", count),
                  "give [kx, ky, kz, krx, kry, krz] or six rows of six");
   };
-  const bool rows =
-      node.kind == YamlKind::sequence && !node.children.empty() && node.children.front().kind == YamlKind::sequence;
-  if (!rows) {
+  if (!has_rows(node)) {
     const std::vector<double> k = read_numbers(context, node, "stiffness");
     if (k.size() != 6) return fail(node, k.size()), stiffness;
     for (int i = 0; i < 6; ++i) stiffness(i, i) = k[i];
@@ -86,15 +82,12 @@ Eigen::Matrix<double, 6, 6> read_stiffness(const Context& context, const YamlNod
 void read_legs(const MapReader& map, SpiderLine& spider) {
   const YamlNode* on = map.require("on");
   if (on == nullptr) return;
-  const auto add = [&](const YamlNode& item) {
-    if (looks_like_number(item)) {
-      if (const auto node = read_integer(map.context(), item, "on")) spider.nodes.push_back(*node);
-    } else {
+  for (const YamlNode& item : items_of(*on)) {
+    if (!looks_like_number(item))
       spider.on.push_back(read_text(map.context(), item, "on"));
-    }
-  };
-  if (on->kind != YamlKind::sequence) add(*on);
-  for (const YamlNode& item : on->children) add(item);
+    else if (const auto node = read_integer(map.context(), item, "on"))
+      spider.nodes.push_back(*node);
+  }
 }
 
 void read_spider(const MapReader& map, const Part& part, SpiderLine& spider) {
@@ -156,11 +149,8 @@ std::vector<ModalBodyRequest::Held> read_reference(const MapReader& map) {
 unsigned read_component_bits(const Context& context, const YamlNode& node, const std::string& what) {
   unsigned bits = 0;
   const std::vector<std::string> words{"x", "y", "z", "rx", "ry", "rz"};
-  const auto add = [&](const YamlNode& item) {
+  for (const YamlNode& item : items_of(node))
     if (const auto index = read_word(context, item, what, words)) bits |= 1U << *index;
-  };
-  if (node.kind != YamlKind::sequence) add(node);
-  for (const YamlNode& item : node.children) add(item);
   return bits;
 }
 
@@ -295,11 +285,9 @@ void read_boundary(const MapReader& map, Part& part) {
       part.boundary.push_back(read_boundary_entry(entry_context(reader, "boundary node", *entry), *entry, part));
     return;
   }
-  if (node->kind != YamlKind::sequence) {
-    map.context().fail(node->place, fmt::format("boundary must be a list of points, not {}", describe(*node)),
-                       "write it as [base, tip] or {base: all, tip: translations}");
+  if (!map.context().require_list(*node, "boundary must be a list of points",
+                                  "write it as [base, tip] or {base: all, tip: translations}"))
     return;
-  }
   for (const YamlNode& item : node->children) {
     const Context context{reader, "boundary", reader.where(item.place)};
     reader.note_place(context.entry, item.place);

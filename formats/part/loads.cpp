@@ -60,10 +60,7 @@ Support read_support(const Context& context, const YamlNode& node, const Part& p
     read_directions(context, node, support);
   } else {
     const MapReader map(context, node, "support");
-    if (map.has("directions") == map.has("symmetry"))
-      map.fail(map.has("symmetry") ? "both 'directions' and 'symmetry' are given"
-                                   : "neither 'directions' nor 'symmetry' is given",
-               "give one of them");
+    map.require_one("directions", "symmetry", "give one of them");
     if (const YamlNode* directions = map.find("directions")) read_directions(context, *directions, support);
     if (map.has("symmetry")) read_symmetry(map, support);
     placed = read_where(map, part, support.at);

@@ -6,6 +6,7 @@
 #include "formats/part/reader.hpp"
 #include "formats/yaml/fields.hpp"
 #include "formats/yaml/geometry.hpp"
+#include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
 
@@ -24,21 +25,15 @@ std::vector<long> read_numbers_of(const MapReader& map, std::string_view key) {
   std::vector<long> numbers;
   const YamlNode* node = map.find(key);
   if (node == nullptr) return numbers;
-  const auto add = [&](const YamlNode& item) {
+  for (const YamlNode& item : items_of(*node))
     if (const auto number = read_integer(map.context(), item, std::string(key))) numbers.push_back(*number);
-  };
-  if (node->kind != YamlKind::sequence) add(*node);
-  for (const YamlNode& item : node->children) add(item);
   return numbers;
 }
 
 BoxSelection read_box(const MapReader& map) {
   const YamlNode& node = *map.find("box");
-  if (node.kind != YamlKind::sequence || node.children.size() != 2) {
-    map.context().fail(node.place, fmt::format("box must be two corners, not {}", describe(node)),
-                       "write it as [[0, 0, 0], [1, 1, 1]]");
+  if (!map.context().require_list(node, "box must be two corners", "write it as [[0, 0, 0], [1, 1, 1]]", 2))
     return {unreadable(), unreadable()};
-  }
   const Eigen::Vector3d a = read_vector(map.context(), node.children[0], "box[0]");
   const Eigen::Vector3d b = read_vector(map.context(), node.children[1], "box[1]");
   return {a.cwiseMin(b), a.cwiseMax(b)};
@@ -82,9 +77,7 @@ void read_group(const MapReader& map, const Part& part, GroupDefinition& group) 
 
 Eigen::Vector3d read_position(const Context& context, const YamlNode& node, const std::string& what, const Part& part) {
   if (node.kind != YamlKind::scalar) return read_vector(context, node, what);
-  std::vector<std::string> names;
-  for (const NamedPoint& point : part.points) names.push_back(point.name);
-  const auto index = read_word(context, node, "point", names);
+  const auto index = read_word(context, node, "point", texts_of(part.points, &NamedPoint::name));
   if (!index) return unreadable();
   if (!part.points[*index].place) return part.points[*index].position;
   context.fail(node.place, fmt::format("{}: point '{}' is a node of the mesh file", what, node.text),

@@ -55,9 +55,8 @@ std::vector<Eigen::Vector3d> read_positions(const MapReader& map, std::string_vi
   std::vector<Eigen::Vector3d> positions;
   const YamlNode* list = map.require(key);
   if (list == nullptr) return positions;
-  if (list->kind != YamlKind::sequence)
-    map.context().fail(list->place, fmt::format("{} must be a list of points, not {}", key, describe(*list)),
-                       "write it as [a, b, c, d] or [[0, 0, 0], ...]");
+  map.context().require_list(*list, fmt::format("{} must be a list of points", key),
+                             "write it as [a, b, c, d] or [[0, 0, 0], ...]");
   for (const YamlNode& item : list->children)
     positions.push_back(read_position(map.context(), item, fmt::format("{}[{}]", key, positions.size()), part));
   return positions;
@@ -96,9 +95,7 @@ Cylinder read_cylinder(const MapReader& map, const Part& part) {
 Extrusion read_extrusion(const MapReader& map, const Part& part) {
   Extrusion extrusion;
   extrusion.section = read_positions(map, "profile", part);
-  if (map.has("along") == map.has("arc"))
-    map.fail(map.has("arc") ? "both 'along' and 'arc' are given" : "neither 'along' nor 'arc' is given",
-             "along: [x, y, z], or arc: {through: [..], axis: [..], angle_deg: 90}");
+  map.require_one("along", "arc", "along: [x, y, z], or arc: {through: [..], axis: [..], angle_deg: 90}");
   if (const YamlNode* along = map.find("along")) extrusion.path = read_vector(map.context(), *along, "along");
   if (const YamlNode* arc = map.find("arc")) {
     const MapReader turn(map.context(), *arc, "arc", "arc.");
@@ -111,16 +108,10 @@ Extrusion read_extrusion(const MapReader& map, const Part& part) {
 }
 
 void read_division(const MapReader& map, ShellPatch& patch) {
-  if (map.has("elements") == map.has("size"))
-    map.fail(map.has("size") ? "both 'elements' and 'size' are given" : "neither 'elements' nor 'size' is given",
-             "give one of them: elements: [10, 20]");
+  map.require_one("elements", "size", "give one of them: elements: [10, 20]");
   const YamlNode* elements = map.find("elements");
   if (elements == nullptr) return;
-  if (elements->kind != YamlKind::sequence || elements->children.size() != 2) {
-    map.context().fail(elements->place, fmt::format("elements must be two counts, not {}", describe(*elements)),
-                       "write it as [10, 20]");
-    return;
-  }
+  if (!map.context().require_list(*elements, "elements must be two counts", "write it as [10, 20]", 2)) return;
   for (const YamlNode& item : elements->children)
     patch.elements.push_back(read_integer(map.context(), item, "elements").value_or(1));
 }

@@ -5,6 +5,7 @@
 #include "common/text.hpp"
 #include "formats/scene/reader.hpp"
 #include "formats/yaml/fields.hpp"
+#include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
 namespace {
@@ -44,11 +45,8 @@ const Analysis* read_from(const MapReader& map, const std::vector<Analysis>& bef
   analysis.from = read_text(map.context(), *node, "from");
   const auto found = std::ranges::find(before, analysis.from, &Analysis::name);
   if (found != before.end()) return &*found;
-  std::vector<std::string> names;
-  for (const Analysis& one : before) names.push_back(one.name);
-  const auto near = nearest(analysis.from, names);
   map.context().fail(node->place, fmt::format("from: no analysis '{}' stands before this one", analysis.from),
-                     near ? fmt::format("did you mean '{}'?", *near) : "put it above, or remove `from`");
+                     did_you_mean(analysis.from, texts_of(before, &Analysis::name), "put it above, or remove `from`"));
   return nullptr;
 }
 

@@ -7,6 +7,7 @@
 #include "formats/sections/reader.hpp"
 #include "formats/yaml/fields.hpp"
 #include "formats/yaml/geometry.hpp"
+#include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
 
@@ -37,21 +38,11 @@ void read_frame(const Context& context, const YamlNode& node, SuperelementBodySp
 /// Planes of the part frame, one or a list: −1 along the axes across them.
 Eigen::Vector3d read_mirror(const MapReader& map) {
   Eigen::Vector3d axes = Eigen::Vector3d::Ones();
-  const auto apply = [&](const YamlNode& plane) {
-    if (const auto axis = read_mirror_plane(map.context(), plane)) axes[*axis] *= -1.0;
-  };
   const YamlNode* node = map.find("mirror");
   if (node == nullptr) return axes;
-  if (node->kind != YamlKind::sequence)
-    apply(*node);
-  else
-    for (const YamlNode& plane : node->children) apply(plane);
+  for (const YamlNode& plane : items_of(*node))
+    if (const auto axis = read_mirror_plane(map.context(), plane)) axes[*axis] *= -1.0;
   return axes;
-}
-
-/// The context of a map inside a body: "body 'beam': damping".
-Context inside(const Context& context, const std::string& what) {
-  return {context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
 }
 
 /// `second_order` stands for both of the others.
@@ -68,7 +59,7 @@ std::vector<RigidNodeSpec> read_nodes(const MapReader& map) {
   const Context& context = map.context();
   std::vector<RigidNodeSpec> nodes;
   for (const YamlNode* place : map.entries("nodes", "node")) {
-    const Context inner{context.reader, fmt::format("{}: node '{}'", context.subject, place->key), context.entry};
+    const Context inner = context.inside(fmt::format("node '{}'", place->key));
     nodes.push_back({place->key, read_pose(inner, *place, fmt::format("nodes.{}.", place->key))});
   }
   return nodes;
@@ -104,9 +95,7 @@ SuperelementBodySpec read_superelement(const MapReader& map, const SceneDefiniti
 /// The definition with the name that `node` gives, or null and an error with the nearest name.
 template <class T>
 const T* find_named(const Context& context, const YamlNode& node, const std::string& noun, const std::vector<T>& all) {
-  std::vector<std::string> names;
-  for (const T& one : all) names.push_back(one.name);
-  const auto index = read_word(context, node, noun, names);
+  const auto index = read_word(context, node, noun, texts_of(all, &T::name));
   return index ? &all[*index] : nullptr;
 }
 
@@ -115,7 +104,7 @@ void read_properties(const MapReader& map, const SceneDefinitions& definitions, 
   body.section.where = body.material.where = context.entry;
   if (const YamlNode* node = map.require("section")) {
     if (node->kind == YamlKind::map) {
-      body.section = read_section(inside(context, "section"), *node, definitions.units, "section.");
+      body.section = read_section(context.inside("section"), *node, definitions.units, "section.");
       body.section.name.clear();
     } else if (const Section* found = find_named(context, *node, "section", definitions.sections)) {
       body.section = *found;
@@ -131,7 +120,7 @@ void read_properties(const MapReader& map, const SceneDefinitions& definitions, 
     map.refuse({"material"}, "beside a section by stiffness", "remove it: the section needs none");
   } else if (const YamlNode* node = map.require("material")) {
     if (node->kind == YamlKind::map) {
-      body.material = read_material(inside(context, "material"), *node, "material.");
+      body.material = read_material(context.inside("material"), *node, "material.");
       body.material.name.clear();
     } else if (const Material* found = find_named(context, *node, "material", definitions.materials)) {
       body.material = *found;

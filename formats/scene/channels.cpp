@@ -149,8 +149,6 @@ void check_channels(const SceneIndex& index, Faults& faults) {
     else
       check_time_function(input.table, "file", subject);
   }
-  std::vector<std::string> tyres;
-  for (const TyreSpec& tyre : scene.tyres) tyres.push_back(tyre.name);
   for (const ChannelSpec& channel : scene.channels) {
     const Subject subject = check_expression_name("channel", channel, names, faults);
     switch (channel.kind) {
@@ -167,7 +165,7 @@ void check_channels(const SceneIndex& index, Faults& faults) {
         check_marker(index, channel.b, "b", subject);
         break;
       case ChannelKind::tyre:
-        check_reference(subject, "tyre", "tyre", channel.tyre, tyres);
+        check_reference(subject, "tyre", "tyre", channel.tyre, texts_of(scene.tyres, &TyreSpec::name));
         break;
     }
   }

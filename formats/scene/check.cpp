@@ -143,10 +143,9 @@ void check_node_of_body(const BodySpec& body, const std::string& node, const std
   const RigidBodySpec* rigid = std::get_if<RigidBodySpec>(&body);
   const VirtualBodySpec* massless = std::get_if<VirtualBodySpec>(&body);
   if (rigid != nullptr || massless != nullptr) {
-    std::vector<std::string> names;
-    for (const RigidNodeSpec& one : rigid != nullptr ? rigid->nodes : massless->nodes) names.push_back(one.name);
+    const std::vector<RigidNodeSpec>& nodes = rigid != nullptr ? rigid->nodes : massless->nodes;
     check_reference({fmt::format("{}: body '{}'", subject.name, name_of(body)), subject.where, subject.faults}, key,
-                    "node", node, names);
+                    "node", node, texts_of(nodes, &RigidNodeSpec::name));
   } else if (const BeamBodySpec* beam = std::get_if<BeamBodySpec>(&body); beam != nullptr && !has_node(*beam, node)) {
     const auto near = nearest(node, {"start", "end"});
     const std::string hint = near ? fmt::format("did you mean '{}'? ", *near) : "";
@@ -166,8 +165,7 @@ void check_node(const SceneIndex& scene, const MarkerSpec& marker, const std::st
   }
   const std::string body_name = marker.node.substr(0, slash);
   if (found == scene.bodies.end()) {
-    std::vector<std::string> bodies;
-    for (const BodySpec& body : scene.scene.bodies) bodies.push_back(name_of(body));
+    std::vector<std::string> bodies = texts_of(scene.scene.bodies, name_of);
     if (key != "at") bodies.push_back("ground");
     check_reference(subject, key, "body", body_name, bodies);
     return;
@@ -189,14 +187,15 @@ void check_node(const SceneIndex& scene, const MarkerSpec& marker, const std::st
 
 /// Names of all that can have an effect of this owner.
 std::vector<std::string> effect_owners(EffectOwner owner, const Scene& scene) {
-  std::vector<std::string> names;
-  if (owner == EffectOwner::body)
-    for (const BodySpec& body : scene.bodies) names.push_back(name_of(body));
-  if (owner == EffectOwner::joint)
-    for (const JointSpec& joint : scene.joints) names.push_back(joint.name);
-  if (owner == EffectOwner::spring)
-    for (const SpringSpec& spring : scene.springs) names.push_back(spring.name);
-  return names;
+  switch (owner) {
+    case EffectOwner::body:
+      return texts_of(scene.bodies, name_of);
+    case EffectOwner::joint:
+      return texts_of(scene.joints, &JointSpec::name);
+    case EffectOwner::spring:
+      return texts_of(scene.springs, &SpringSpec::name);
+  }
+  return {};
 }
 
 /// Whether they have what is switched hangs on files too and is told where the model is built.
@@ -251,11 +250,9 @@ void check_coordinate(const CoordinateRef& coordinate, const SceneIndex& scene, 
                       const Subject& subject) {
   const std::string joint = coordinate.name.substr(0, coordinate.name.rfind('/'));
   if (scene.joints.contains(coordinate.name) || scene.joints.contains(joint)) return;
-  std::vector<std::string> names;
-  for (const JointSpec& spec : scene.scene.joints) names.push_back(spec.name);
-  const auto near = nearest(joint, names);
   subject.add(key, fmt::format("there is no joint '{}'", joint),
-              near ? fmt::format("did you mean '{}'?", *near) : "name a joint, or joint/coordinate as in slide/z");
+              did_you_mean(joint, texts_of(scene.scene.joints, &JointSpec::name),
+                           "name a joint, or joint/coordinate as in slide/z"));
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include "common/text.hpp"
 #include "formats/scene/reader.hpp"
 #include "formats/yaml/fields.hpp"
+#include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
 
@@ -59,8 +60,7 @@ void read_scene_effect(const MapReader& scene, const YamlNode& node, std::vector
     read_switch(context, node, *found, "", switches);
     return;
   }
-  std::vector<std::string> words;
-  for (const Choice<Effect>& effect : effect_words) words.emplace_back(effect.word);
+  const std::vector<std::string> words = texts_of(effect_words, &Choice<Effect>::word);
   std::vector<std::string> keys = words;
   keys.emplace_back("tolerance");
   const auto near = nearest(node.key, keys);

@@ -32,11 +32,8 @@ LoadSpec read_load(const MapReader& map) {
   auto load = read_entry<LoadSpec>(map);
   const YamlNode* value = map.require("value");
   if (value == nullptr) return load;
-  if (value->kind != YamlKind::sequence || value->children.size() != 3) {
-    map.context().fail(value->place, fmt::format("value must have three components, not {}", describe(*value)),
-                       "write it as [0, 0, \"sin(t)\"]");
+  if (!map.context().require_list(*value, "value must have three components", "write it as [0, 0, \"sin(t)\"]", 3))
     return load;
-  }
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string what = fmt::format("value[{}]", i);
     map.context().reader.note(load.where, what, value->children[i]);

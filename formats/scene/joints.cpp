@@ -3,6 +3,7 @@
 
 #include "formats/scene/reader.hpp"
 #include "formats/yaml/fields.hpp"
+#include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
 
@@ -45,11 +46,7 @@ std::array<bool, 6> read_hold(const MapReader& map) {
   std::array<bool, 6> held{};
   const YamlNode* node = map.require("hold");
   if (node == nullptr) return held;
-  if (node->kind != YamlKind::sequence) {
-    map.context().fail(node->place, fmt::format("hold must be a list of directions, not {}", describe(*node)),
-                       "write it as [x, y, rz]");
-    return held;
-  }
+  if (!map.context().require_list(*node, "hold must be a list of directions", "write it as [x, y, rz]")) return held;
   for (const YamlNode& item : node->children)
     if (const auto index = read_word(map.context(), item, "direction", {"x", "y", "z", "rx", "ry", "rz"}))
       held[*index] = true;
@@ -59,9 +56,7 @@ std::array<bool, 6> read_hold(const MapReader& map) {
 JointKind read_kind(const MapReader& map) {
   const YamlNode* node = map.require("type");
   if (node == nullptr) return JointKind::spherical;
-  std::vector<std::string> words;
-  for (const JointKindRow& row : joint_kinds()) words.emplace_back(row.word);
-  const auto index = read_word(map.context(), *node, "type", words);
+  const auto index = read_word(map.context(), *node, "type", texts_of(joint_kinds(), &JointKindRow::word));
   return index ? joint_kinds()[*index].kind : JointKind::spherical;
 }
 
@@ -105,12 +100,9 @@ GearSpec read_gear(const MapReader& map, const GearKindRow& kind) {
   gear.ratio = map.number(kind.key);
   const YamlNode* between = map.require("between");
   if (between == nullptr) return gear;
-  if (between->kind != YamlKind::sequence || between->children.size() != 2) {
-    map.context().fail(between->place,
-                       fmt::format("between must name two joint coordinates, not {}", describe(*between)),
-                       "write it as [hinge_1, hinge_2]");
+  if (!map.context().require_list(*between, "between must name two joint coordinates", "write it as [hinge_1, hinge_2]",
+                                  2))
     return gear;
-  }
   gear.first = read_coordinate(map, between->children[0], "between[0]");
   gear.second = read_coordinate(map, between->children[1], "between[1]");
   return gear;

@@ -6,6 +6,7 @@
 #include "formats/scene/reader.hpp"
 #include "formats/yaml/fields.hpp"
 #include "formats/yaml/geometry.hpp"
+#include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
 
@@ -50,9 +51,7 @@ void read_one(const Context& context, const YamlNode& node, const SceneDefinitio
         "write {type: box, size: [0.1, 0.2, 0.3]}");
     return;
   }
-  std::vector<std::string> known;
-  for (const ShapeRow& row : shape_rows) known.emplace_back(row.word);
-  const auto index = read_word(context, *type, "type", known);
+  const auto index = read_word(context, *type, "type", texts_of(shape_rows, &ShapeRow::word));
   if (!index) return;
   const MapReader map(context, node, shape_rows[*index].noun, "shape.");
   ShapeSpec shape;
@@ -82,12 +81,7 @@ std::vector<ShapeSpec> read_shapes(const MapReader& body, const SceneDefinitions
   std::vector<ShapeSpec> shapes;
   const YamlNode* node = body.find("shape");
   if (node == nullptr) return shapes;
-  const Context context{body.context().reader, body.context().subject + ": shape", body.context().entry};
-  if (node->kind != YamlKind::sequence) {
-    read_one(context, *node, definitions, shapes);
-  } else {
-    for (const YamlNode& child : node->children) read_one(context, child, definitions, shapes);
-  }
+  for (const YamlNode& one : items_of(*node)) read_one(body.context().inside("shape"), one, definitions, shapes);
   return shapes;
 }
 

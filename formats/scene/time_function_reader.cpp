@@ -12,11 +12,7 @@ namespace {
 
 TimeTable read_table(const Context& context, const YamlNode& node) {
   TimeTable table;
-  if (node.kind != YamlKind::sequence) {
-    context.fail(node.place, fmt::format("table must be a list of pairs, not {}", describe(node)),
-                 "write it as [[0, 0], [0.2, 200]]");
-    return table;
-  }
+  if (!context.require_list(node, "table must be a list of pairs", "write it as [[0, 0], [0.2, 200]]")) return table;
   for (std::size_t i = 0; i < node.children.size(); ++i) {
     const std::vector<double> pair = read_numbers(context, node.children[i], fmt::format("table[{}]", i));
     if (pair.size() == 2) {
@@ -71,17 +67,11 @@ void check_times(const std::vector<double>& times, const std::string& noun, cons
   }
 }
 
-/// The context of the map of a function of time.
-Context inside_function(const Context& context, const std::string& what) {
-  return {context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
-}
-
 }  // namespace
 
 TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node, const std::string& what) {
   if (node.kind == YamlKind::map) {
-    const Context inner = inside_function(context, what);
-    return read_map(MapReader(inner, node, "time_function", what + "."));
+    return read_map(MapReader(context.inside(what), node, "time_function", what + "."));
   }
   if (node.kind == YamlKind::scalar && !looks_like_number(node))
     return TimeExpression{node.text, {}, context.reader.where(node.place)};
@@ -90,7 +80,7 @@ TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node
 
 TimeFunctionSpec read_motion_function(const Context& context, const YamlNode& node, const std::string& what) {
   if (node.kind != YamlKind::map) return read_time_function(context, node, what);
-  const Context inner = inside_function(context, what);
+  const Context inner = context.inside(what);
   const MapReader map(inner, node, "motion_function", what + ".");
   TimeFunctionSpec function = read_map(map);
   if (auto* table = std::get_if<TimeTable>(&function))
@@ -119,7 +109,7 @@ void check_time_function(const TimeFunctionSpec& function, const std::string& ke
 }
 
 CurveSpec read_curve(const Context& context, const YamlNode& node, const std::string& what) {
-  const Context inner{context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
+  const Context inner = context.inside(what);
   const MapReader map(inner, node, "curve", what + ".");
   CurveSpec curve;
   read_fields(map, curve);

@@ -136,11 +136,8 @@ std::vector<RoadPieceSpec> read_track(const MapReader& map, const char* key, con
   std::vector<RoadPieceSpec> pieces;
   const YamlNode* node = map.find(key);
   if (node == nullptr) return pieces;
-  const Context context{map.context().reader, fmt::format("{}: {}", map.context().subject, key), map.context().entry};
-  if (node->kind != YamlKind::sequence)
-    pieces.push_back(read_piece(context, *node, key, definitions));
-  else
-    for (const YamlNode& child : node->children) pieces.push_back(read_piece(context, child, key, definitions));
+  for (const YamlNode& piece : items_of(*node))
+    pieces.push_back(read_piece(map.context().inside(key), piece, key, definitions));
   return pieces;
 }
 
@@ -242,9 +239,7 @@ void check_road(const RoadSpec& road, const Subject& subject) {
 void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, const Subject& subject) {
   check_marker(scene, tyre.wheel, "wheel", subject);
   if (tyre.wheel.node == "ground") subject.add("wheel", "is on the ground", "name the body of the wheel");
-  std::vector<std::string> roads;
-  for (const RoadSpec& road : scene.scene.roads) roads.push_back(road.name);
-  check_reference(subject, "road", "road", tyre.road, roads);
+  check_reference(subject, "road", "road", tyre.road, texts_of(scene.scene.roads, &RoadSpec::name));
   if (tyre.axis && !(tyre.axis->allFinite() && tyre.axis->stableNorm() > 0.0))
     subject.add("axis", "axis has zero length or is not finite",
                 "give the direction of the axle, to the left of the wheel: [0, 1, 0]");

@@ -12,13 +12,6 @@ namespace tisserand::formats {
 
 namespace {
 
-template <class Item>
-std::vector<std::string> names(const std::vector<Item>& items) {
-  std::vector<std::string> list;
-  for (const Item& item : items) list.push_back(item.name);
-  return list;
-}
-
 bool mentions(const YamlNode& node, const std::string& axis) {
   for (std::size_t at = node.text.find('$'); at != std::string::npos; at = node.text.find('$', at + 1)) {
     if (node.text.compare(at, 2, "${") == 0) {
@@ -70,7 +63,7 @@ void check_axes(const Study& study, const StudySeries& series, Faults& faults) {
   }
   if (!study.along.empty())
     check_reference({fmt::format("along: series '{}'", series.name), study.file, faults}, "along", "axis", study.along,
-                    names(series.axes));
+                    texts_of(series.axes, &StudyAxis::name));
 }
 
 void check_series(const Study& study, Faults& faults) {
@@ -80,7 +73,7 @@ void check_series(const Study& study, Faults& faults) {
     check_axes(study, series, faults);
     for (const auto& [quantity, channel] : series.channels)
       check_reference({fmt::format("series '{}': channels", series.name), series.where, faults}, "channels", "quantity",
-                      quantity, names(study.quantities));
+                      quantity, texts_of(study.quantities, &StudyQuantity::name));
   }
 }
 
@@ -88,14 +81,16 @@ void check_reference_of(const Study& study, Faults& faults) {
   const StudyReference& reference = study.reference;
   for (const auto& [quantity, column] : reference.columns)
     check_reference({"reference: columns", "reference", faults}, "columns", "quantity", quantity,
-                    names(study.quantities));
+                    texts_of(study.quantities, &StudyQuantity::name));
   for (const StudyRun& run : reference.runs) {
     if (!run.series.empty())
-      check_reference({"reference", "reference", faults}, "runs", "series", run.series, names(study.series));
+      check_reference({"reference", "reference", faults}, "runs", "series", run.series,
+                      texts_of(study.series, &StudySeries::name));
     for (const StudySeries& series : study.series)
       if (series.name == run.series || (run.series.empty() && &series == &study.series.front()))
         for (const auto& [axis, value] : run.at)
-          check_reference({"reference: at", "reference", faults}, "runs", "axis", axis, names(series.axes));
+          check_reference({"reference: at", "reference", faults}, "runs", "axis", axis,
+                          texts_of(series.axes, &StudyAxis::name));
   }
   if (!reference.file.empty() && reference.source.empty())
     faults.add("reference", "", "reference: the file has no source", "say with 'source' where its numbers come from");

@@ -116,19 +116,14 @@ Eigen::Vector3d read_vector(const MapReader& map, std::string_view key, const Ei
 
 Eigen::Matrix3d read_matrix(const Context& context, const YamlNode& node, const std::string& what) {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  if (node.kind != YamlKind::sequence || node.children.size() != 3) {
-    context.fail(node.place, fmt::format("{} must have three rows, not {}", what, describe(node)),
-                 "write it as [[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
+  if (!context.require_list(node, what + " must have three rows", "write it as [[1, 0, 0], [0, 1, 0], [0, 0, 1]]", 3))
     return matrix;
-  }
   for (int i = 0; i < 3; ++i) matrix.row(i) = read_vector(context, node.children[i], fmt::format("{}[{}]", what, i));
   return matrix;
 }
 
 Eigen::Matrix3d read_inertia(const Context& context, const YamlNode& node, const std::string& what) {
-  const bool rows =
-      node.kind == YamlKind::sequence && !node.children.empty() && node.children.front().kind == YamlKind::sequence;
-  if (rows) return read_matrix(context, node, what);
+  if (has_rows(node)) return read_matrix(context, node, what);
   const std::vector<double> v = read_numbers(context, node, what);
   if (v.size() == 3) return Eigen::Vector3d(v[0], v[1], v[2]).asDiagonal();
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -143,8 +138,7 @@ Eigen::Matrix3d read_inertia(const Context& context, const YamlNode& node, const
 
 Eigen::Quaterniond read_orientation(const Context& context, const YamlNode& node, const std::string& what) {
   if (node.kind == YamlKind::map) {
-    const Context inner{context.reader, context.subject.empty() ? what : context.subject + ": " + what, context.entry};
-    const MapReader map(inner, node, "orientation", what + ".");
+    const MapReader map(context.inside(what), node, "orientation", what + ".");
     if (map.has("axis") || map.has("angle_deg")) {
       if (map.has("x") || map.has("y") || map.has("z"))
         map.fail("both axis and angle and two axes are given", "give one form");
@@ -152,9 +146,7 @@ Eigen::Quaterniond read_orientation(const Context& context, const YamlNode& node
     }
     return from_axes(map);
   }
-  const bool rows =
-      node.kind == YamlKind::sequence && !node.children.empty() && node.children.front().kind == YamlKind::sequence;
-  return rows ? from_matrix(context, node, what) : from_numbers(context, node, what);
+  return has_rows(node) ? from_matrix(context, node, what) : from_numbers(context, node, what);
 }
 
 std::optional<Eigen::Index> read_mirror_plane(const Context& context, const YamlNode& node) {

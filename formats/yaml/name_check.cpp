@@ -53,11 +53,15 @@ void check_path_name(const Subject& subject, const std::string& name, std::unord
 void check_reference(const Subject& subject, const std::string& key, const std::string& noun, const std::string& name,
                      const std::vector<std::string>& known) {
   if (std::ranges::find(known, name) != known.end()) return;
-  const auto close = nearest(name, known);
   subject.add(key, fmt::format("there is no {} '{}'", noun, name),
-              close           ? fmt::format("did you mean '{}'?", *close)
-              : known.empty() ? fmt::format("define it; no {} is defined", noun)
-                              : fmt::format("known are {}", listed(known)));
+              did_you_mean(name, known,
+                           known.empty() ? fmt::format("define it; no {} is defined", noun)
+                                         : fmt::format("known are {}", listed(known))));
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known, const std::string& otherwise) {
+  const auto close = nearest(word, known);
+  return close ? fmt::format("did you mean '{}'?", *close) : otherwise;
 }
 
 }  // namespace tisserand::formats

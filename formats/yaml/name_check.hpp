@@ -1,6 +1,7 @@
 // Names of things: their spelling, uniqueness, and references to them.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <unordered_set>
 #include <vector>
@@ -11,6 +12,17 @@ namespace tisserand::formats {
 
 /// [A-Za-z_][A-Za-z0-9_-]*
 bool is_name(const std::string& text);
+
+/// A text of each entry: `texts_of(scene.joints, &JointSpec::name)`.
+template <class Entries, class Text>
+std::vector<std::string> texts_of(const Entries& entries, Text text) {
+  std::vector<std::string> texts;
+  for (const auto& entry : entries) texts.emplace_back(std::invoke(text, entry));
+  return texts;
+}
+
+/// "did you mean 'arm'?", if a known word is near; else what else can be done.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known, const std::string& otherwise);
 
 /// An entry of a collection as what its findings are about: "beam 'rod'".
 template <class Entry>

@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "formats/yaml/name_check.hpp"
 #include "formats/yaml/tree.hpp"
 
 namespace tisserand::formats {
@@ -49,13 +50,9 @@ YamlNode& enter_map(const Walk& walk, YamlNode& node, std::size_t i) {
   const bool last = i + 1 == walk.steps.size();
   const bool collection = i > 0 && std::ranges::find(walk.collections, walk.steps[i - 1]) != walk.collections.end();
   if (!last && collection) {
-    std::vector<std::string> known;
-    for (const YamlNode& child : node.children) known.push_back(child.key);
-    const auto close = nearest(step, known);
+    const std::vector<std::string> known = texts_of(node.children, &YamlNode::key);
     walk.fail(fmt::format("'{}' has no entry '{}'", walk.path_to(i), step),
-              close           ? fmt::format("did you mean '{}'?", *close)
-              : known.empty() ? ""
-                              : fmt::format("entries are {}", listed(known)));
+              did_you_mean(step, known, known.empty() ? "" : fmt::format("entries are {}", listed(known))));
   }
   YamlNode child;
   child.key = step;

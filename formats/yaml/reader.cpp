@@ -9,6 +9,7 @@
 
 #include "common/stable_sort.hpp"
 #include "common/text.hpp"
+#include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
 
@@ -41,11 +42,7 @@ std::string number_remedy(const YamlNode& node) {
   return "";
 }
 
-std::vector<std::string> key_words(const KeySet& set) {
-  std::vector<std::string> words;
-  for (const Field& field : set.fields) words.emplace_back(field.key);
-  return words;
-}
+std::vector<std::string> key_words(const KeySet& set) { return texts_of(set.fields, &Field::key); }
 
 bool has_key(const KeySet& set, std::string_view key) {
   return std::ranges::find(set.fields, key, &Field::key) != set.fields.end();
@@ -65,8 +62,7 @@ constexpr FormerKey former_keys[] = {
 };
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
-  const auto close = nearest(word, known);
-  return close ? fmt::format("did you mean '{}'?", *close) : fmt::format("known are {}", join(known, ", "));
+  return did_you_mean(word, known, fmt::format("known are {}", join(known, ", ")));
 }
 
 std::string remedy_of_unknown(const std::string& key, const KeySet& set) {
@@ -146,6 +142,25 @@ void Context::fail(const YamlPlace& place, const std::string& what, const std::s
   reader.fail(entry, place, subject.empty() ? what : fmt::format("{}: {}", subject, what), remedy);
 }
 
+bool Context::require_list(const YamlNode& node, const std::string& what, const std::string& remedy,
+                           std::optional<std::size_t> count) const {
+  if (node.kind == YamlKind::sequence && node.children.size() == count.value_or(node.children.size())) return true;
+  fail(node.place, fmt::format("{}, not {}", what, describe(node)), remedy);
+  return false;
+}
+
+Context Context::inside(const std::string& what) const {
+  return {reader, subject.empty() ? what : fmt::format("{}: {}", subject, what), entry};
+}
+
+std::span<const YamlNode> items_of(const YamlNode& node) {
+  return node.kind == YamlKind::sequence ? std::span(node.children) : std::span(&node, 1);
+}
+
+bool has_rows(const YamlNode& node) {
+  return node.kind == YamlKind::sequence && !node.children.empty() && node.children.front().kind == YamlKind::sequence;
+}
+
 bool looks_like_number(const YamlNode& node) {
   return node.kind == YamlKind::scalar && !node.quoted && parse_number(node.text).whole_text;
 }
@@ -184,19 +199,14 @@ std::string read_text(const Context& context, const YamlNode& node, const std::s
 }
 
 std::vector<std::string> read_texts(const Context& context, const YamlNode& node, const std::string& what) {
-  if (node.kind != YamlKind::sequence) return {read_text(context, node, what)};
   std::vector<std::string> texts;
-  for (const YamlNode& item : node.children) texts.push_back(read_text(context, item, what));
+  for (const YamlNode& item : items_of(node)) texts.push_back(read_text(context, item, what));
   return texts;
 }
 
 std::vector<double> read_numbers(const Context& context, const YamlNode& node, const std::string& what) {
   std::vector<double> values;
-  if (node.kind != YamlKind::sequence) {
-    context.fail(node.place, fmt::format("{} must be a list of numbers, not {}", what, describe(node)),
-                 "write it as [1, 2, 3]");
-    return values;
-  }
+  if (!context.require_list(node, what + " must be a list of numbers", "write it as [1, 2, 3]")) return values;
   for (std::size_t i = 0; i < node.children.size(); ++i)
     values.push_back(read_number(context, node.children[i], fmt::format("{}[{}]", what, i)));
   return values;
@@ -282,11 +292,15 @@ void MapReader::refuse_both(std::string_view first, std::string_view second, con
     context_.fail(node->key_place, fmt::format("both '{}' and '{}' are given", first, second), remedy);
 }
 
+void MapReader::require_one(std::string_view first, std::string_view second, const std::string& remedy) const {
+  if (has(first) == has(second))
+    fail(has(first) ? fmt::format("both '{}' and '{}' are given", first, second)
+                    : fmt::format("neither '{}' nor '{}' is given", first, second),
+         remedy);
+}
+
 MapReader MapReader::inside(const YamlNode& value, std::string_view noun) const {
-  const std::string& subject = context_.subject;
-  return {
-      Context{context_.reader, subject.empty() ? value.key : fmt::format("{}: {}", subject, value.key), context_.entry},
-      value, noun, fmt::format("{}{}.", prefix_, value.key)};
+  return {context_.inside(value.key), value, noun, fmt::format("{}{}.", prefix_, value.key)};
 }
 
 std::vector<const YamlNode*> MapReader::entries(std::string_view key, const std::string& noun) const {

@@ -70,6 +70,11 @@ struct Context {
   std::string entry;
 
   void fail(const YamlPlace& place, const std::string& what, const std::string& remedy) const;
+  /// Whether the node is a list, of so many entries if that is said; if not, an error: "`what`, not '4.5'".
+  bool require_list(const YamlNode& node, const std::string& what, const std::string& remedy,
+                    std::optional<std::size_t> count = std::nullopt) const;
+  /// What stands inside of this: "body 'arm': damping".
+  Context inside(const std::string& what) const;
 };
 
 /// Numbers are finite; not-a-number stands for one that could not be read (the error is recorded).
@@ -80,6 +85,12 @@ std::string read_text(const Context& context, const YamlNode& node, const std::s
 std::vector<std::string> read_texts(const Context& context, const YamlNode& node, const std::string& what);
 /// A list of numbers of any length.
 std::vector<double> read_numbers(const Context& context, const YamlNode& node, const std::string& what);
+
+/// The entries of a list; of another value that value itself, as of a list of one.
+std::span<const YamlNode> items_of(const YamlNode& node);
+
+/// Whether it is a list whose entries are lists: the rows of a matrix.
+bool has_rows(const YamlNode& node);
 
 /// Whether a scalar can be read as a number (finite or not).
 bool looks_like_number(const YamlNode& node);
@@ -124,6 +135,8 @@ class MapReader {
   void refuse(std::initializer_list<std::string_view> keys, const std::string& why, const std::string& remedy) const;
   /// An error at the second key if both are there.
   void refuse_both(std::string_view first, std::string_view second, const std::string& remedy) const;
+  /// An error unless exactly one of both is there.
+  void require_one(std::string_view first, std::string_view second, const std::string& remedy) const;
   void fail(const std::string& what, const std::string& remedy) const { context_.fail(place(), what, remedy); }
 
   template <class T, std::size_t N>

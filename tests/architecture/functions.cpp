@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t longest_function = 60;
 constexpr int most_parameters = 5;
 /// Functions with more parameters than that. Lower it when some have gone; it does not rise.
-constexpr std::size_t most_with_many = 125;
+constexpr std::size_t most_with_many = 114;
 
 /// Lists of fields and keys are as long as a file has keys.
 bool is_list(std::string_view name) { return name.ends_with("_fields") || name.ends_with("_key_sets"); }

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "common/error.hpp"
+#include "formats/yaml/reader.hpp"
 
 namespace tisserand::formats {
 
@@ -132,11 +133,7 @@ void TreeLoader::include_all(YamlDocument& document, YamlNode& root) {
   root.children.erase(found);
   if (std::ranges::find(root.children, "include", &YamlNode::key) != root.children.end())
     fail("key 'include' is given twice", document.where(list.key_place), "write a list of files");
-  if (list.kind != YamlKind::sequence) {
-    include(document, root, list);
-    return;
-  }
-  for (const YamlNode& item : list.children) include(document, root, item);
+  for (const YamlNode& item : items_of(list)) include(document, root, item);
 }
 
 void TreeLoader::include(YamlDocument& document, YamlNode& root, const YamlNode& item) {

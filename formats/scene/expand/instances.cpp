@@ -6,6 +6,7 @@
 
 #include "common/text.hpp"
 #include "formats/yaml/geometry.hpp"
+#include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
 
@@ -34,7 +35,7 @@ AssemblyFrame pose_frame(const MapReader& map, std::string_view key) {
   AssemblyFrame frame;
   const YamlNode* node = map.find(key);
   if (node == nullptr) return frame;
-  const Context inner{map.context().reader, fmt::format("{}: {}", map.context().subject, key), map.context().entry};
+  const Context inner = map.context().inside(std::string(key));
   const MapReader pose(inner, *node, "pose");
   frame.p = read_vector(pose, "position", frame.p);
   if (const YamlNode* orientation = pose.find("orientation"))
@@ -105,11 +106,10 @@ Assembly& SceneExpander::find_assembly(const YamlNode& use, const Assembly& from
     }
     for (const YamlNode& child : all->children) known.push_back(child.key);
   }
-  const auto close = nearest(use.text, known);
-  throw Error(fmt::format("there is no assembly '{}'", use.text), document_.where(use.place),
-              close           ? fmt::format("did you mean '{}'?", *close)
-              : known.empty() ? "define it under `assemblies`"
-                              : fmt::format("known are {}", listed(known)));
+  throw Error(
+      fmt::format("there is no assembly '{}'", use.text), document_.where(use.place),
+      did_you_mean(use.text, known,
+                   known.empty() ? "define it under `assemblies`" : fmt::format("known are {}", listed(known))));
 }
 
 YamlNode& SceneExpander::flat(const std::string& collection, const YamlPlace& place) {
@@ -245,12 +245,10 @@ void SceneExpander::define_parameters(const Instance& instance, int index, const
       if (!own.own().contains(value.key)) {
         std::vector<std::string> known;
         for (const auto& [name, parameter] : own.own()) known.push_back(name);
-        const auto close = nearest(value.key, known);
         throw Error(fmt::format("assembly '{}' has no parameter '{}'", assembly.name, value.key),
                     document_.where(value.key_place),
-                    close           ? fmt::format("did you mean '{}'?", *close)
-                    : known.empty() ? "it has none"
-                                    : fmt::format("its parameters are {}", listed(known)));
+                    did_you_mean(value.key, known,
+                                 known.empty() ? "it has none" : fmt::format("its parameters are {}", listed(known))));
       }
       own.define(value, around);
     }

@@ -5,6 +5,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "formats/yaml/name_check.hpp"
 #include "formats/yaml/reader.hpp"
 
 namespace tisserand::formats {
@@ -142,11 +143,10 @@ const YamlNode& Substitution::value_of(const std::string& name, ParameterScope& 
   Parameter* parameter = scope.find(name);
   if (parameter != nullptr) return value_of(*parameter, place);
   const std::vector<std::string> known = scope.names();
-  const auto close = nearest(name, known);
   fail(place, fmt::format("there is no parameter '{}'", name),
-       close           ? fmt::format("did you mean '{}'?", *close)
-       : known.empty() ? "define it under `parameters`; a $ that is meant is written $$"
-                       : fmt::format("parameters here are {}", listed(known)));
+       did_you_mean(name, known,
+                    known.empty() ? "define it under `parameters`; a $ that is meant is written $$"
+                                  : fmt::format("parameters here are {}", listed(known))));
 }
 
 std::optional<double> Substitution::named_number(const std::string& name, ParameterScope& scope,
