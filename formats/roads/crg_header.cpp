@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <vector>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
@@ -15,78 +17,39 @@ namespace {
 
 /// What a keyword may say here.
 enum class CrgRule { used, unused, zero, one, zero_or_two, zero_moves };
-struct CrgKeyword {
-  std::string_view name;
-  CrgRule rule;
-};
+using CrgKeywords = std::map<CrgRule, std::vector<std::string_view>>;
 
-constexpr CrgKeyword road_keywords[] = {
-    {"reference_line_start_u", CrgRule::used},     {"reference_line_end_u", CrgRule::used},
-    {"reference_line_increment", CrgRule::used},   {"reference_line_start_x", CrgRule::used},
-    {"reference_line_start_y", CrgRule::used},     {"reference_line_start_z", CrgRule::used},
-    {"reference_line_start_phi", CrgRule::used},   {"reference_line_end_x", CrgRule::used},
-    {"reference_line_end_y", CrgRule::used},       {"reference_line_end_z", CrgRule::used},
-    {"reference_line_start_b", CrgRule::used},     {"reference_line_end_b", CrgRule::used},
-    {"reference_line_start_s", CrgRule::used},     {"reference_line_end_s", CrgRule::used},
-    {"long_section_v_right", CrgRule::used},       {"long_section_v_left", CrgRule::used},
-    {"long_section_v_increment", CrgRule::used},   {"reference_line_end_phi", CrgRule::unused},
-    {"reference_line_start_lon", CrgRule::unused}, {"reference_line_start_lat", CrgRule::unused},
-    {"reference_line_start_alt", CrgRule::unused}, {"reference_line_end_lon", CrgRule::unused},
-    {"reference_line_end_lat", CrgRule::unused},   {"reference_line_end_alt", CrgRule::unused},
-    {"reference_line_offset_x", CrgRule::zero},    {"reference_line_offset_y", CrgRule::zero},
-    {"reference_line_offset_z", CrgRule::zero},    {"reference_line_offset_phi", CrgRule::zero}};
+const CrgKeywords road_keywords{
+    {CrgRule::used,
+     {"reference_line_start_u", "reference_line_end_u", "reference_line_increment", "reference_line_start_x",
+      "reference_line_start_y", "reference_line_start_z", "reference_line_start_phi", "reference_line_end_x",
+      "reference_line_end_y", "reference_line_end_z", "reference_line_start_b", "reference_line_end_b",
+      "reference_line_start_s", "reference_line_end_s", "long_section_v_right", "long_section_v_left",
+      "long_section_v_increment"}},
+    {CrgRule::unused,
+     {"reference_line_end_phi", "reference_line_start_lon", "reference_line_start_lat", "reference_line_start_alt",
+      "reference_line_end_lon", "reference_line_end_lat", "reference_line_end_alt"}},
+    {CrgRule::zero,
+     {"reference_line_offset_x", "reference_line_offset_y", "reference_line_offset_z", "reference_line_offset_phi"}}};
 
-constexpr CrgKeyword option_keywords[] = {{"border_mode_u", CrgRule::zero_or_two},
-                                          {"border_mode_v", CrgRule::zero_or_two},
-                                          {"border_offset_u", CrgRule::zero},
-                                          {"border_offset_v", CrgRule::zero},
-                                          {"border_smooth_ubeg", CrgRule::zero},
-                                          {"border_smooth_uend", CrgRule::zero},
-                                          {"refline_continuation", CrgRule::zero},
-                                          {"refline_search_far", CrgRule::unused},
-                                          {"refline_search_close", CrgRule::unused},
-                                          {"refline_search_u", CrgRule::unused},
-                                          {"refline_search_ufrac", CrgRule::unused},
-                                          {"warn_msgs", CrgRule::unused},
-                                          {"warn_curv_local", CrgRule::unused},
-                                          {"warn_curv_global", CrgRule::unused},
-                                          {"log_msgs", CrgRule::unused},
-                                          {"log_eval", CrgRule::unused},
-                                          {"log_eval_freq", CrgRule::unused},
-                                          {"log_hist", CrgRule::unused},
-                                          {"log_hist_freq", CrgRule::unused},
-                                          {"log_stat", CrgRule::unused},
-                                          {"log_stat_freq", CrgRule::unused},
-                                          {"check_eps", CrgRule::unused},
-                                          {"check_inc", CrgRule::unused},
-                                          {"check_tol", CrgRule::unused},
-                                          {"check_pro", CrgRule::unused},
-                                          {"check_wgs", CrgRule::unused}};
+const CrgKeywords option_keywords{
+    {CrgRule::zero_or_two, {"border_mode_u", "border_mode_v"}},
+    {CrgRule::zero,
+     {"border_offset_u", "border_offset_v", "border_smooth_ubeg", "border_smooth_uend", "refline_continuation"}},
+    {CrgRule::unused,
+     {"refline_search_far", "refline_search_close", "refline_search_u", "refline_search_ufrac", "warn_msgs",
+      "warn_curv_local", "warn_curv_global", "log_msgs", "log_eval", "log_eval_freq", "log_hist", "log_hist_freq",
+      "log_stat", "log_stat_freq", "check_eps", "check_inc", "check_tol", "check_pro", "check_wgs"}}};
 
-constexpr CrgKeyword modifier_keywords[] = {{"scale_z_grid", CrgRule::one},
-                                            {"scale_slope", CrgRule::one},
-                                            {"scale_banking", CrgRule::one},
-                                            {"scale_length", CrgRule::one},
-                                            {"scale_width", CrgRule::one},
-                                            {"scale_curvature", CrgRule::one},
-                                            {"grid_nan_mode", CrgRule::zero_or_two},
-                                            {"grid_nan_offset", CrgRule::zero},
-                                            {"refline_rotcenter_x", CrgRule::unused},
-                                            {"refline_rotcenter_y", CrgRule::unused},
-                                            {"refline_offset_phi", CrgRule::zero},
-                                            {"refline_offset_x", CrgRule::zero},
-                                            {"refline_offset_y", CrgRule::zero},
-                                            {"refline_offset_z", CrgRule::zero},
-                                            {"refpoint_u_fraction", CrgRule::zero_moves},
-                                            {"refpoint_u_offset", CrgRule::zero_moves},
-                                            {"refpoint_u", CrgRule::zero_moves},
-                                            {"refpoint_v_fraction", CrgRule::zero_moves},
-                                            {"refpoint_v_offset", CrgRule::zero_moves},
-                                            {"refpoint_v", CrgRule::zero_moves},
-                                            {"refpoint_x", CrgRule::zero_moves},
-                                            {"refpoint_y", CrgRule::zero_moves},
-                                            {"refpoint_z", CrgRule::zero_moves},
-                                            {"refpoint_phi", CrgRule::zero_moves}};
+const CrgKeywords modifier_keywords{
+    {CrgRule::one, {"scale_z_grid", "scale_slope", "scale_banking", "scale_length", "scale_width", "scale_curvature"}},
+    {CrgRule::zero_or_two, {"grid_nan_mode"}},
+    {CrgRule::zero,
+     {"grid_nan_offset", "refline_offset_phi", "refline_offset_x", "refline_offset_y", "refline_offset_z"}},
+    {CrgRule::unused, {"refline_rotcenter_x", "refline_rotcenter_y"}},
+    {CrgRule::zero_moves,
+     {"refpoint_u_fraction", "refpoint_u_offset", "refpoint_u", "refpoint_v_fraction", "refpoint_v_offset",
+      "refpoint_v", "refpoint_x", "refpoint_y", "refpoint_z", "refpoint_phi"}}};
 
 std::string small_letters(std::string_view text) {
   std::string small(text);
@@ -189,25 +152,25 @@ class HeaderLines {
     return value;
   }
 
-  template <std::size_t N>
-  void read_parameter(std::string_view text, const CrgKeyword (&keywords)[N]) {
+  void read_parameter(std::string_view text, const CrgKeywords& keywords) {
     const std::size_t equals = text.find('=');
     const std::string name = small_letters(trimmed(text.substr(0, equals)));
-    const auto known = std::ranges::find(keywords, name, &CrgKeyword::name);
-    if (known == std::end(keywords)) {
+    const auto known = std::ranges::find_if(
+        keywords, [&](const auto& one) { return std::ranges::find(one.second, name) != one.second.end(); });
+    if (known == keywords.end()) {
       std::vector<std::string> names;
-      for (const CrgKeyword& keyword : keywords) names.emplace_back(keyword.name);
+      for (const auto& [rule, words] : keywords) names.insert(names.end(), words.begin(), words.end());
       const auto near = nearest(name.substr(0, 60), names);
       fail(fmt::format("the keyword '{}' is not known in ${}", printable_line(name, 60), section_),
            near ? fmt::format("did you mean '{}'?", *near) : "remove it");
     }
     if (equals == std::string_view::npos) fail(fmt::format("{}: no = and value follow", name), "");
     const double value = number(text.substr(equals + 1), name);
-    if (!allows(known->rule, value))
+    if (!allows(known->first, value))
       fail(fmt::format("{} = {:g} is not provided for: only the value that changes nothing is", name, value),
            "remove it (a road is placed by the pose in the scene and ends at its borders), or apply it to the data");
-    if (known->rule == CrgRule::zero_moves && header_.moved_at == 0) header_.moved_at = header_.line;
-    if (known->rule != CrgRule::used) return;
+    if (known->first == CrgRule::zero_moves && header_.moved_at == 0) header_.moved_at = header_.line;
+    if (known->first != CrgRule::used) return;
     if (!header_.parameters.emplace(name, CrgHeader::Parameter{value, header_.line}).second)
       fail(fmt::format("{} is given twice", name), "remove one");
   }
