@@ -22,6 +22,12 @@ using test_support::SecondOrderBody;
 using test_support::TemporaryFolder;
 using ::testing::HasSubstr;
 
+/// Gives the root of a file this attribute.
+template <class Value>
+auto with_attribute(const char* name, Value value) {
+  return [name, value](hid_t file) { hdf5::write_attribute({file, ""}, "/", name, value); };
+}
+
 const SecondOrderBody& network() {
   static const SecondOrderBody body = test_support::second_order_network(2, Eigen::Vector4d(0.1, 0.2, 0.3, 0.4));
   return body;
@@ -273,18 +279,9 @@ TEST(CompanionFile, RefusesForeignAndDamagedFiles) {
   };
   EXPECT_THAT(error_of([&] { static_cast<void>(read_companion(folder.file("none.h5"), network().element)); }),
               HasSubstr("none.h5"));
-  EXPECT_THAT(spoiled([](hid_t f) {
-                hdf5::write_attribute({f, ""}, "/", "format", "tisserand-superelement");
-              }),
-              HasSubstr("expected 'tisserand-companion'"));
-  EXPECT_THAT(spoiled([](hid_t f) {
-                hdf5::write_attribute({f, ""}, "/", "version", "2.0");
-              }),
-              HasSubstr("versions 1.x"));
-  EXPECT_THAT(spoiled([](hid_t f) {
-                hdf5::write_attribute({f, ""}, "/", "content_id", "0123");
-              }),
-              HasSubstr("changed after it was written"));
+  EXPECT_THAT(spoiled(with_attribute("format", "tisserand-superelement")), HasSubstr("expected 'tisserand-companion'"));
+  EXPECT_THAT(spoiled(with_attribute("version", "2.0")), HasSubstr("versions 1.x"));
+  EXPECT_THAT(spoiled(with_attribute("content_id", "0123")), HasSubstr("changed after it was written"));
   for (const char* dataset :
        {"/frame/reference_point", "/frame/weights", "/H", "/C", "/E", "/N", "/T", "/S0", "/S1", "/mass"})
     EXPECT_THAT(spoiled([dataset](hid_t f) { H5Ldelete(f, dataset, H5P_DEFAULT); }), HasSubstr(dataset)) << dataset;

@@ -22,6 +22,12 @@ using test_support::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
+/// Gives the root of a file this attribute.
+template <class Value>
+auto with_attribute(const char* name, Value value) {
+  return [name, value](hid_t file) { hdf5::write_attribute({file, ""}, "/", name, value); };
+}
+
 /// The rod of [GA00] 4.3 with six modes.
 ModalBody rod() {
   return test_support::modal_body(test_support::lumped_rod(test_support::paper_rod()), test_support::rod_conditions(8),
@@ -156,18 +162,10 @@ TEST(ModalBodyFile, RefusesForeignAndDamagedFiles) {
     return error_of([&] { static_cast<void>(read_modal_body(path)); });
   };
   EXPECT_THAT(error_of([&] { static_cast<void>(read_modal_body(folder.file("none.h5"))); }), HasSubstr("none.h5"));
-  EXPECT_THAT(spoiled([](hid_t f) {
-                hdf5::write_attribute({f, ""}, "/", "format", "tisserand-superelement");
-              }),
+  EXPECT_THAT(spoiled(with_attribute("format", "tisserand-superelement")),
               HasSubstr("expected 'tisserand-modal-body'"));
-  EXPECT_THAT(spoiled([](hid_t f) {
-                hdf5::write_attribute({f, ""}, "/", "version", "2.0");
-              }),
-              HasSubstr("versions 1.x"));
-  EXPECT_THAT(spoiled([](hid_t f) {
-                hdf5::write_attribute({f, ""}, "/", "reference", "nobody");
-              }),
-              HasSubstr("expected nodes or mean_axis"));
+  EXPECT_THAT(spoiled(with_attribute("version", "2.0")), HasSubstr("versions 1.x"));
+  EXPECT_THAT(spoiled(with_attribute("reference", "nobody")), HasSubstr("expected nodes or mean_axis"));
   for (const char* dataset : {"/frame/position", "/reference/node", "/nodes/name", "/nodes/inertia", "/modes/X",
                               "/modes/omega2", "/integrals/P2"})
     EXPECT_THAT(spoiled([dataset](hid_t f) { H5Ldelete(f, dataset, H5P_DEFAULT); }), HasSubstr(dataset)) << dataset;

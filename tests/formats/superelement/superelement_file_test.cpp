@@ -28,6 +28,12 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
+/// Gives the root of a file this attribute.
+template <class Value>
+auto with_attribute(const char* name, Value value) {
+  return [name, value](hid_t file) { hdf5::write_attribute({file, ""}, "/", name, value); };
+}
+
 std::string error_of(const std::string& path) {
   try {
     static_cast<void>(read_superelement(path));
@@ -206,47 +212,19 @@ std::vector<BadFile> bad_files() {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   return {
       {"Format",
-       [](hid_t f) {
-         hdf5::write_attribute({f, ""}, "/", "format", "tisserand-results");
-       },
+       with_attribute("format", "tisserand-results"),
        {"of the kind 'tisserand-results', expected 'tisserand-superelement'"}},
       {"NoFormat", [](hid_t f) { H5Adelete(f, "format"); }, {"not a superelement file"}},
-      {"FormatNumber",
-       [](hid_t f) {
-         hdf5::write_attribute({f, ""}, "/", "format", 3.0);
-       },
-       {"attribute 'format'", "expected a string"}},
-      {"MajorVersion",
-       [](hid_t f) {
-         hdf5::write_attribute({f, ""}, "/", "version", "2.0");
-       },
-       {"attribute 'version'", "is 2.0"}},
-      {"BadVersion",
-       [](hid_t f) {
-         hdf5::write_attribute({f, ""}, "/", "version", "one");
-       },
-       {"attribute 'version'", "'one'"}},
-      {"HalfVersion",
-       [](hid_t f) {
-         hdf5::write_attribute({f, ""}, "/", "version", "1.");
-       },
-       {"attribute 'version'", "'1.'"}},
+      {"FormatNumber", with_attribute("format", 3.0), {"attribute 'format'", "expected a string"}},
+      {"MajorVersion", with_attribute("version", "2.0"), {"attribute 'version'", "is 2.0"}},
+      {"BadVersion", with_attribute("version", "one"), {"attribute 'version'", "'one'"}},
+      {"HalfVersion", with_attribute("version", "1."), {"attribute 'version'", "'1.'"}},
       {"NoUnit", [](hid_t f) { H5Adelete(f, "mass_unit"); }, {"attribute 'mass_unit'", "is missing"}},
-      {"UnitText",
-       [](hid_t f) {
-         hdf5::write_attribute({f, ""}, "/", "mass_unit", "kg");
-       },
-       {"attribute 'mass_unit'", "expected a number"}},
+      {"UnitText", with_attribute("mass_unit", "kg"), {"attribute 'mass_unit'", "expected a number"}},
       {"NoLabel", [](hid_t f) { H5Adelete(f, "mass_unit_label"); }, {"attribute 'mass_unit_label'", "is missing"}},
-      {"LongName",
-       [](hid_t f) {
-         hdf5::write_attribute({f, ""}, "/", "name", std::string(300, 'x'));
-       },
-       {"attribute 'name'", "300 bytes"}},
+      {"LongName", with_attribute("name", std::string(300, 'x')), {"attribute 'name'", "300 bytes"}},
       {"ContentId",
-       [](hid_t f) {
-         hdf5::write_attribute({f, ""}, "/", "content_id", std::string(64, 'a'));
-       },
+       with_attribute("content_id", std::string(64, 'a')),
        {"attribute 'content_id'", "aaaaaaaaaaaa", "changed after it was written"}},
       {"NoStiffness", [](hid_t f) { H5Ldelete(f, "/stiffness", H5P_DEFAULT); }, {"/stiffness: is missing"}},
       {"NoBoundary", [](hid_t f) { H5Ldelete(f, "/boundary", H5P_DEFAULT); }, {"/boundary/name: is missing"}},
