@@ -2,7 +2,7 @@
 # here too: Eigen's alignment follows from them, so they must be the same in every translation unit.
 add_library(tisserand_options INTERFACE)
 target_compile_options(tisserand_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-                                                   -Woverloaded-virtual $<$<BOOL:${TISSERAND_WERROR}>:-Werror>)
+                                                   -Woverloaded-virtual -Wfloat-conversion -Wdouble-promotion $<$<BOOL:${TISSERAND_WERROR}>:-Werror>)
 # False alarms of GCC 12 stay off: undefined registers of its own avx512fintrin.h taken for uninitialised values (GCC bug
 # 105593), bounds of std::string when strings are joined (105329, 105651), and Eigen's vector loads of three numbers into
 # a register of four. Real faults of these kinds are what the sanitizers of the preset asan-ubsan find.
@@ -31,10 +31,7 @@ endif()
 if(TISSERAND_SANITIZE)
   target_compile_options(tisserand_options INTERFACE -fsanitize=${TISSERAND_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(tisserand_options INTERFACE -fsanitize=${TISSERAND_SANITIZE})
-  # As GCC defines it; clang does so from version 21 on.
-  if(TISSERAND_SANITIZE MATCHES address AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-    target_compile_definitions(tisserand_options INTERFACE __SANITIZE_ADDRESS__=1)
-  endif()
+  target_compile_definitions(tisserand_options INTERFACE TISSERAND_SANITIZED)
   # Checks of every pointer double the time to compile Eigen; the address sanitizer and Eigen's assertions see the same.
   # Alignment is checked: only this finds objects that lie where moves of a whole register fault.
   if(TISSERAND_SANITIZE MATCHES undefined)

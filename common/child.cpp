@@ -27,7 +27,6 @@
 #include "common/text.hpp"
 
 namespace tisserand {
-
 namespace {
 
 using Clock = std::chrono::steady_clock;

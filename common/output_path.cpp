@@ -15,7 +15,6 @@
 #include "common/text.hpp"
 
 namespace tisserand {
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,6 +52,12 @@ std::string ending_of(const std::string& path) {
 
 }  // namespace
 
+std::string without_ending(const std::string& path, const std::vector<std::string>& endings) {
+  for (const std::string& ending : endings)
+    if (path.size() > ending.size() && path.ends_with(ending)) return path.substr(0, path.size() - ending.size());
+  return path;
+}
+
 bool is_stream(const std::string& path) {
   if (path == "-") return true;
   if (path.starts_with("/dev/") && !path.starts_with("/dev/shm/")) return true;
@@ -77,7 +82,8 @@ void require_output(const std::string& path, const std::vector<std::string>& end
     if (fs::equivalent(input, path, ignored))
       throw Error("the output would replace its own input", path, "give -o another name");
   if (std::ranges::find(endings, ending_of(path)) == endings.end())
-    throw Error("does not end in " + join(endings, " or "), path, "give -o a name that does: other endings are those of another kind of file");
+    throw Error("does not end in " + join(endings, " or "), path,
+                "give -o a name that does: other endings are those of another kind of file");
   if (is_hdf5 && is_of_another_kind(path))
     throw Error("exists and is a file of another kind (not HDF5)", path,
                 "give -o another name, or remove that file first");

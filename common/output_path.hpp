@@ -13,6 +13,9 @@ namespace tisserand {
 void require_output(const std::string& path, const std::vector<std::string>& endings,
                     const std::vector<std::string>& inputs);
 
+/// `path` without the first of these endings that it has and more than that; the whole path if it has none.
+std::string without_ending(const std::string& path, const std::vector<std::string>& endings);
+
 /// Whether text written to `path` goes through it rather than into it: -, /dev/stdout, a device, a pipe.
 bool is_stream(const std::string& path);
 

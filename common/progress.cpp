@@ -11,7 +11,6 @@
 #include "common/clock.hpp"
 
 namespace tisserand {
-
 namespace {
 
 constexpr double first_after = 1.0;  // seconds

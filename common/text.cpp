@@ -20,7 +20,6 @@
 #include "common/temporaries.hpp"
 
 namespace tisserand {
-
 namespace {
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }

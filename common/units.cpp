@@ -10,7 +10,6 @@
 #include "common/text.hpp"
 
 namespace tisserand {
-
 namespace {
 
 struct KnownUnit {

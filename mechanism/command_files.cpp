@@ -4,29 +4,27 @@
 #include <variant>
 
 #include "common/error.hpp"
+#include "common/output_path.hpp"
 #include "formats/companion/companion.hpp"
 #include "formats/recovery/recovery.hpp"
 
 namespace tisserand::mechanism {
 namespace {
 
-std::string stem_of_results(std::string path) {
-  for (const char* known : {".part", ".h5", ".results"})
-    if (path.ends_with(known)) path.resize(path.size() - std::string(known).size());
+/// Without each of the endings in turn.
+std::string stem_of(std::string path, const std::vector<std::string>& endings) {
+  for (const std::string& ending : endings) path = without_ending(path, {ending});
   return path;
 }
 
 }  // namespace
 
 std::string default_results(const std::string& scene) {
-  std::string stem = scene;
-  for (const char* ending : {".yaml", ".yml", ".scene"})
-    if (stem.ends_with(ending)) stem.resize(stem.size() - std::string(ending).size());
-  return stem + ".results.h5";
+  return stem_of(scene, {".yaml", ".yml", ".scene"}) + ".results.h5";
 }
 
 std::string default_page(const std::vector<std::string>& results, const char* ending) {
-  return (results.empty() ? "run" : stem_of_results(results.front())) + ending;
+  return (results.empty() ? "run" : stem_of(results.front(), {".part", ".h5", ".results"})) + ending;
 }
 
 std::vector<std::string> inputs(const formats::Scene& scene) {
@@ -34,8 +32,7 @@ std::vector<std::string> inputs(const formats::Scene& scene) {
   files.push_back(scene.file);
   for (const formats::BodySpec& body : scene.bodies)
     if (const auto* spec = std::get_if<formats::SuperelementBodySpec>(&body))
-      files.insert(files.end(),
-                   {spec->file, formats::companion_path(spec->file), formats::recovery_path(spec->file)});
+      files.insert(files.end(), {spec->file, formats::companion_path(spec->file), formats::recovery_path(spec->file)});
     else if (const auto* modal = std::get_if<formats::ModalBodySpec>(&body))
       files.insert(files.end(), {modal->file, formats::recovery_path(modal->file)});
   return files;

@@ -10,18 +10,7 @@
 
 #include "common/temporaries.hpp"
 
-#if defined(__SANITIZE_ADDRESS__)
-#define TISSERAND_OWN_MMAP 0
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define TISSERAND_OWN_MMAP 0
-#endif
-#endif
-#ifndef TISSERAND_OWN_MMAP
-#define TISSERAND_OWN_MMAP 1
-#endif
-
-#if TISSERAND_OWN_MMAP
+#if !defined(TISSERAND_SANITIZED)
 
 namespace {
 

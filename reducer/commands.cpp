@@ -60,7 +60,7 @@ std::vector<formats::Override> overrides(const Arguments& arguments) {
 [[noreturn]] void ask_for_part(const std::string& file, MeshFileKind kind) {
   const std::string name = std::filesystem::path(file).filename().string();
   const bool deck = kind == MeshFileKind::nastran || kind == MeshFileKind::abaqus;
-  throw Error(fmt::format("this is a {}, not a part file", deck                  ? "deck"
+  throw Error(fmt::format("this is a {}, not a part file", deck                ? "deck"
                                                            : is_geometry(kind) ? "geometry"
                                                                                : "mesh"),
               file,
@@ -86,11 +86,9 @@ std::vector<std::string> inputs_of(const formats::Part& part, const Arguments& a
 
 /// The path of an input or output without the ending of its kind, plus `ending`.
 std::string beside(const std::string& input, const std::string& ending) {
-  for (const std::string known :
-       {".part.yaml", ".part.yml", ".yaml", ".yml", ".recovery.h5", ".superelement.h5", ".h5"})
-    if (input.size() > known.size() && input.ends_with(known))
-      return input.substr(0, input.size() - known.size()) + ending;
-  return input + ending;
+  return without_ending(input,
+                        {".part.yaml", ".part.yml", ".yaml", ".yml", ".recovery.h5", ".superelement.h5", ".h5"}) +
+         ending;
 }
 
 /// Tables and fields; the file takes its name with those of the superelement.
@@ -170,8 +168,7 @@ int run(const Arguments& arguments, std::optional<SolverSession>& session) {
     require_output(companion, {".companion.h5"}, inputs);
   const std::string modal_body = beside(output, ".modal.h5");
   if (part.modal_body) require_output(modal_body, {".modal.h5"}, inputs);
-  if (part.modal_body && part.recovery)
-    require_output(formats::recovery_path(modal_body), {".recovery.h5"}, inputs);
+  if (part.modal_body && part.recovery) require_output(formats::recovery_path(modal_body), {".recovery.h5"}, inputs);
   phases.begin("start solvers");
   session.emplace();
   std::map<std::string, std::unique_ptr<formats::RecoveryWriter>> recoveries;
@@ -302,16 +299,10 @@ std::string page(const Arguments& arguments) {
   return part_page(part);
 }
 
-/// bracket.part.html, bracket.recovery.html: pages of a part and of its recovery file lie beside one another.
-std::string page_path(const std::string& input) {
-  for (const std::string known : {".yaml", ".yml", ".h5"})
-    if (input.size() > known.size() && input.ends_with(known))
-      return input.substr(0, input.size() - known.size()) + ".html";
-  return input + ".html";
-}
-
+/// Pages of a part and of its recovery file lie beside one another: bracket.part.html, bracket.recovery.html.
 int view(const Arguments& arguments) {
-  const std::string output = arguments.output.empty() ? page_path(arguments.input) : arguments.output;
+  const std::string own = without_ending(arguments.input, {".yaml", ".yml", ".h5"}) + ".html";
+  const std::string output = arguments.output.empty() ? own : arguments.output;
   require_output(output, {".html"}, {arguments.input});
   const std::string text = page(arguments);
   write_text_file(output, text);

@@ -23,34 +23,33 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   System system = build_system(mesh, part.file, begin.share);
   const formats::RigidProperties rigid = require_mass(system, part.file);
   const Inside inside = reduce_inside(mesh, system, part, begin);
-  const BoundaryModes& boundary = inside.boundary;
-  const InternalModes& internal = inside.internal;
   const InternalProblem problem = problem_of(mesh, system, inside, part, begin);
   begin("projection");
-  Projection projection = project(part, problem, boundary, internal);
+  Projection projection = project(part, problem, inside.boundary, inside.internal);
 
   begin("certificate");
   Reduction result;
   result.superelement = std::move(projection.superelement);
+  const ReducedPart reduced{problem, inside.boundary, inside.internal, result.superelement};
   result.file = certify(result.superelement, formats::check(result.superelement, part.name));
-  result.model = describe(part, boundary, internal, projection.defects, result.superelement);
+  result.model = describe(part, reduced, projection.defects);
   describe_mesh(mesh, system, result.model);
   result.model.rigid = rigid;
   result.model.notes.insert(result.model.notes.begin(), inside.notes.begin(), inside.notes.end());
   result.model.warnings.insert(result.model.warnings.begin(), inside.warnings.begin(), inside.warnings.end());
   begin("lowest modes");
-  describe_lowest_modes(part, problem, boundary, internal, result.superelement, result.model);
+  describe_lowest_modes(part, reduced, result.model);
 
   const bool recovers = part.recovery && recover;
   std::optional<SecondOrderDisplacement> displacement;
   begin("second order");
-  result.companion = companion_if_asked(part, problem, boundary, internal, result.superelement, result.model,
-                                        recovers ? &displacement : nullptr);
+  result.companion = companion_if_asked(part, reduced, result.model, recovers ? &displacement : nullptr);
   if (recovers) {
     begin("recovery");
-    recover(recovery_source(problem, boundary, internal, result.superelement, std::move(displacement)));
+    recover(recovery_source(reduced, std::move(displacement)));
   }
-  result.modal_body = modal_body_if_asked(mesh, part, begin, recover, result.file, result.model);
+  if (part.modal_body) begin("modal body");
+  if (part.modal_body) result.modal_body = modal_body(mesh, part, result.file, recover, result.model);
   return result;
 }
 

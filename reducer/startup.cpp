@@ -100,12 +100,8 @@ void prepare_environment() {
 }
 
 bool may_leave_at_once() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(TISSERAND_SANITIZED)
   return false;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(undefined_behavior_sanitizer)
-  return false;
-#endif
 #endif
   const char* const folders = std::getenv(session_folders);
   return rank_of_launcher() == nullptr && folders != nullptr && std::string_view(folders) == "0";

@@ -11,7 +11,6 @@
 #include <cstddef>
 
 namespace tisserand {
-
 namespace {
 
 #if defined(__x86_64__)

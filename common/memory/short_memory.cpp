@@ -13,21 +13,14 @@
 
 #include "common/temporaries.hpp"
 
-// The address sanitizer has handlers and an allocator of its own.
-#if defined(__SANITIZE_ADDRESS__)
-#define TISSERAND_OWN_HANDLERS 0
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define TISSERAND_OWN_HANDLERS 0
-#endif
-#endif
-#ifndef TISSERAND_OWN_HANDLERS
-#define TISSERAND_OWN_HANDLERS 1
-#endif
-
 namespace tisserand {
 namespace {
 
+#if defined(TISSERAND_SANITIZED)
+constexpr bool own_handlers = false;  // sanitizers have handlers and an allocator of their own
+#else
+constexpr bool own_handlers = true;
+#endif
 constexpr std::size_t reserve_bytes = std::size_t{8} << 20U;
 void* reserve = nullptr;
 const char* name_of_program = "";
@@ -89,7 +82,7 @@ void require_addresses(std::size_t bytes) {
 bool is_memory_left() { return are_left(std::size_t{64} << 20U); }  // libraries that they open, stacks of threads
 
 void report_short_memory(const char* program) {
-  if (!TISSERAND_OWN_HANDLERS) return;
+  if (!own_handlers) return;
   name_of_program = program;
   own_process = ::getpid();
   reserve = std::malloc(reserve_bytes);

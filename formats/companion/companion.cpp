@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "common/error.hpp"
+#include "common/output_path.hpp"
 #include "common/sha256.hpp"
 #include "common/text.hpp"
 #include "formats/companion/arrays.hpp"
@@ -202,10 +203,7 @@ class Identity {
 }  // namespace
 
 std::string companion_path(const std::string& superelement_file) {
-  for (const std::string ending : {".superelement.h5", ".h5"})
-    if (superelement_file.size() > ending.size() && superelement_file.ends_with(ending))
-      return superelement_file.substr(0, superelement_file.size() - ending.size()) + ".companion.h5";
-  return superelement_file + ".companion.h5";
+  return without_ending(superelement_file, {".superelement.h5", ".h5"}) + ".companion.h5";
 }
 
 std::string companion_id(const Companion& c) {

@@ -14,25 +14,6 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-/// d_k of galilean_step(), 3 x n each, and P_k = R_Tᵀ C_k.
-struct GalileanDefect {
-  std::array<MatrixXd, 3> P, d;
-};
-
-GalileanDefect galilean_defect(const Companion& c, const MatrixXd& R) {
-  GalileanDefect defect;
-  for (int k = 0; k < 3; ++k) {
-    defect.P[k] = R.leftCols<3>().transpose() * c.C[k];
-    defect.d[k] = skew<double>(Vector3d::Unit(k)) * c.S1 - defect.P[k];
-  }
-  return defect;
-}
-
-void correct_coupling(Companion& c, const MatrixXd& mass, const MatrixXd& R, const GalileanDefect& defect) {
-  const MatrixXd momentum = mass * R.leftCols<3>() / c.mass;
-  for (int k = 0; k < 3; ++k) c.C[k] += momentum * defect.d[k];
-}
-
 /// Applies `change` to every matrix over coordinates but H that is there.
 template <class Change>
 void for_each_matrix(Companion& c, const Change& change) {
@@ -103,16 +84,16 @@ void drop_modes(Companion& c, const MatrixXd& mass, const MatrixXd& R, const std
 }
 
 void galilean_step(Companion& c, const MatrixXd& mass, const MatrixXd& R) {
-  correct_coupling(c, mass, R, galilean_defect(c, R));
-}
-
-void galilean_step_keeping_gram(Companion& c, const MatrixXd& mass, const MatrixXd& R) {
-  const GalileanDefect defect = galilean_defect(c, R);
-  correct_coupling(c, mass, R, defect);
+  const MatrixXd momentum = mass * R.leftCols<3>() / c.mass;
+  std::array<MatrixXd, 3> P, d;  // 3 x n each
+  for (int k = 0; k < 3; ++k) {
+    P[k] = R.leftCols<3>().transpose() * c.C[k];
+    d[k] = skew<double>(Vector3d::Unit(k)) * c.S1 - P[k];
+    c.C[k] += momentum * d[k];
+  }
   for (int pair = 0; pair < 6; ++pair) {
     const auto [j, k] = axis_pairs[pair];
-    const MatrixXd &P_j = defect.P[j], &P_k = defect.P[k], &d_j = defect.d[j], &d_k = defect.d[k];
-    const MatrixXd X = P_j.transpose() * d_k + d_j.transpose() * P_k + d_j.transpose() * d_k;
+    const MatrixXd X = P[j].transpose() * d[k] + d[j].transpose() * P[k] + d[j].transpose() * d[k];
     c.E[pair] += 0.5 / c.mass * (X + X.transpose());
   }
 }

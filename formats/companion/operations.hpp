@@ -22,14 +22,11 @@ namespace tisserand::formats {
 void drop_modes(Companion& companion, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& R,
                 const std::vector<int>& rows, const Eigen::VectorXd& omega_squared);
 
-/// C_k += (M̄ R_T/m) d_k with d_k = [e_k x] S1 − R_Tᵀ C_k: the momentum of a turned shape is that of S1 turned, so that
-/// equations do not depend on the velocity of the observer. d vanishes for masses that move alike in all directions and
-/// is O(h²) for beams with Hermite shapes. E is left as it is (as in the known answers).
+/// C_k += (M̄ R_T/m) d_k with d_k = [e_k x] S1 − P_k, P_k = R_Tᵀ C_k: the momentum of a turned shape is that of S1
+/// turned, so that equations do not depend on the velocity of the observer. d vanishes for masses that move alike in
+/// all directions and is O(h²) for beams with Hermite shapes. E_jk += ½(X_jk + X_jkᵀ)/m, X_jk = P_jᵀ d_k + d_jᵀ P_k +
+/// d_jᵀ d_k with P_k of before: [M̄ C; Cᵀ E] stays a Gram matrix.
 void galilean_step(Companion& companion, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& R);
-
-/// The same, and E_jk += ½(X_jk + X_jkᵀ)/m, X_jk = P_jᵀ d_k + d_jᵀ P_k + d_jᵀ d_k with P_k = R_Tᵀ C_k of before, so
-/// that [M̄ C; Cᵀ E] stays a Gram matrix.
-void galilean_step_keeping_gram(Companion& companion, const Eigen::MatrixXd& mass, const Eigen::MatrixXd& R);
 
 /// Moves the reference point to `point` (d = point − reference_point); the caller sets `weights`:
 ///   N_3+j −= Σ_a (e_j × d)_a N_a,  T_jk −= sym_jk Σ_ab (e_j × d)_a ε_akb N_b,  S0 −= m d

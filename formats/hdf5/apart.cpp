@@ -27,7 +27,6 @@
 #include "formats/hdf5/container.hpp"
 
 namespace tisserand::formats::hdf5 {
-
 namespace {
 
 constexpr double least_processor_seconds = 2.0, least_wall_seconds = 30.0;
@@ -215,6 +214,26 @@ void tell_unconfined() {
   told = true;
 }
 
+Place place_in(std::string& text, const std::string& path) {
+  return [&](std::uint64_t bytes) {
+    if (bytes > most_text)
+      throw Error(fmt::format("holds more than {} bytes of names", most_text), path,
+                  "compare it with its specification");
+    text.resize(bytes);
+    return text.data();
+  };
+}
+
+/// A request is the number of a file, what to do, and the question.
+std::string bytes_of(std::size_t file, char act, const std::string& question) {
+  Packer to;
+  to.value(file);
+  to.value(act);
+  return to.bytes + question;
+}
+
+std::weak_ptr<Apart> together;
+
 }  // namespace
 
 struct Apart::Impl {
@@ -327,30 +346,6 @@ void Apart::Impl::receive(const Place& place) {
   if (head.answer == Answer::opening_unconfined) tell_unconfined();
   if (head.answer == Answer::complaint) throw Unpacker(complaint, path, "HDF5 cannot read it").error();
 }
-
-namespace {
-
-Place place_in(std::string& text, const std::string& path) {
-  return [&](std::uint64_t bytes) {
-    if (bytes > most_text)
-      throw Error(fmt::format("holds more than {} bytes of names", most_text), path,
-                  "compare it with its specification");
-    text.resize(bytes);
-    return text.data();
-  };
-}
-
-/// A request is the number of a file, what to do, and the question.
-std::string bytes_of(std::size_t file, char act, const std::string& question) {
-  Packer to;
-  to.value(file);
-  to.value(act);
-  return to.bytes + question;
-}
-
-std::weak_ptr<Apart> together;
-
-}  // namespace
 
 std::optional<std::size_t> Apart::number_of(const std::string& path) const {
   const auto found = std::ranges::find(impl_->paths, path);

@@ -226,6 +226,14 @@ Id memory_type(ValuesRequest::Type type) {
                                                 : H5T_NATIVE_INT64;
 }
 
+/// Whether the signature stands where it may: at 0 or a power of two from 512 on.
+bool has_signature(const OpenFile& file) {
+  char bytes[8] = {};
+  for (off_t at = 0; ::pread(file.descriptor(), bytes, sizeof bytes, at) == sizeof bytes; at = at == 0 ? 512 : 2 * at)
+    if (std::memcmp(bytes, "\x89HDF\r\n\x1a\n", sizeof bytes) == 0) return true;
+  return false;
+}
+
 }  // namespace
 
 Handle::Handle(Handle&& other) noexcept : id_(other.id_), close_(other.close_) { other.id_ = -1; }
@@ -278,18 +286,6 @@ OpenFile::OpenFile(const std::string& path)
 }
 
 OpenFile::~OpenFile() { ::close(descriptor_); }
-
-namespace {
-
-/// Whether the signature stands where it may: at 0 or a power of two from 512 on.
-bool has_signature(const OpenFile& file) {
-  char bytes[8] = {};
-  for (off_t at = 0; ::pread(file.descriptor(), bytes, sizeof bytes, at) == sizeof bytes; at = at == 0 ? 512 : 2 * at)
-    if (std::memcmp(bytes, "\x89HDF\r\n\x1a\n", sizeof bytes) == 0) return true;
-  return false;
-}
-
-}  // namespace
 
 Container::Container(const OpenFile& file, Completeness completeness) : path_(file.path()) {
   silence();

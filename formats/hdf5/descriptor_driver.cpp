@@ -12,7 +12,6 @@
 #include <vector>
 
 namespace tisserand::formats::hdf5 {
-
 namespace {
 
 struct OpenedFile {

@@ -6,7 +6,6 @@
 #include "formats/hdf5/container.hpp"
 
 namespace tisserand::formats::hdf5 {
-
 namespace {
 
 enum class Question : std::uint8_t { entry, texts, values };
@@ -87,6 +86,42 @@ ValuesRequest unpack_values_request(Unpacker& from) {
   return request;
 }
 
+std::string packed_texts(const std::vector<std::string>& texts) {
+  Packer to;
+  for (const std::string& text : texts) to.text(text);
+  return to.bytes;
+}
+
+/// All values of a small dataset that cannot grow, so that files which are read whole take one request; else nothing.
+std::string whole_of(const Container& container, const ObjectEntry& entry) {
+  const DatasetInfo& info = entry.info;
+  std::uint64_t count = 1;
+  for (const std::uint64_t extent : info.shape)
+    count = std::max(count, extent) > most_small_values ? 0 : count * extent;
+  const bool is_wanted =
+      info.kind == ElementKind::float64 || info.kind == ElementKind::integer || info.kind == ElementKind::text;
+  if (entry.state != ObjectState::dataset || !entry.problem.message.empty() || !info.written || !is_wanted ||
+      count == 0 || count > most_small_values || !container.is_fixed_and_below(entry.name, 8 * most_small_values))
+    return "";
+  std::string whole;
+  try {
+    if (info.kind == ElementKind::text)
+      whole = packed_texts(container.read_texts(entry.name, count));
+    else
+      container.read(
+          {.dataset = entry.name,
+           .type = info.kind == ElementKind::integer ? ValuesRequest::Type::int64 : ValuesRequest::Type::float64,
+           .values = count},
+          [&whole](std::uint64_t bytes) {
+            whole.resize(bytes);
+            return whole.data();
+          });
+  } catch (const Error&) {
+    return "";  // met again where it is asked for
+  }
+  return whole.size() <= 16 * most_small_values ? whole : "";
+}
+
 }  // namespace
 
 void pack(Packer& to, const ObjectEntry& entry) {
@@ -141,46 +176,6 @@ std::string values_request(const ValuesRequest& request) {
   for (const std::uint64_t number : {request.first, request.count, request.column, request.values}) to.value(number);
   return to.bytes;
 }
-
-namespace {
-
-std::string packed_texts(const std::vector<std::string>& texts) {
-  Packer to;
-  for (const std::string& text : texts) to.text(text);
-  return to.bytes;
-}
-
-/// All values of a small dataset that cannot grow, so that files which are read whole take one request; else nothing.
-std::string whole_of(const Container& container, const ObjectEntry& entry) {
-  const DatasetInfo& info = entry.info;
-  std::uint64_t count = 1;
-  for (const std::uint64_t extent : info.shape)
-    count = std::max(count, extent) > most_small_values ? 0 : count * extent;
-  const bool is_wanted =
-      info.kind == ElementKind::float64 || info.kind == ElementKind::integer || info.kind == ElementKind::text;
-  if (entry.state != ObjectState::dataset || !entry.problem.message.empty() || !info.written || !is_wanted ||
-      count == 0 || count > most_small_values || !container.is_fixed_and_below(entry.name, 8 * most_small_values))
-    return "";
-  std::string whole;
-  try {
-    if (info.kind == ElementKind::text)
-      whole = packed_texts(container.read_texts(entry.name, count));
-    else
-      container.read(
-          {.dataset = entry.name,
-           .type = info.kind == ElementKind::integer ? ValuesRequest::Type::int64 : ValuesRequest::Type::float64,
-           .values = count},
-          [&whole](std::uint64_t bytes) {
-            whole.resize(bytes);
-            return whole.data();
-          });
-  } catch (const Error&) {
-    return "";  // met again where it is asked for
-  }
-  return whole.size() <= 16 * most_small_values ? whole : "";
-}
-
-}  // namespace
 
 std::string opening_of(const Container& container) {
   Packer to;

@@ -8,7 +8,6 @@
 #include "formats/hdf5/apart.hpp"
 
 namespace tisserand::formats::hdf5 {
-
 namespace {
 
 std::string kind_in_words(ElementKind kind) {
@@ -39,6 +38,12 @@ Unpacker unpack(const std::string& bytes, const std::string& path) { return {byt
 bool denies(const ObjectEntry& group, const std::string& member) {
   return group.state == ObjectState::group && group.problem.message.empty() && group.members.size() < max_members &&
          std::ranges::find(group.members, member) == group.members.end();
+}
+
+std::uint64_t product(const Shape& shape, std::size_t first_axis = 0) {
+  std::uint64_t count = 1;
+  for (std::size_t axis = first_axis; axis < shape.size(); ++axis) count *= shape[axis];
+  return count;
 }
 
 }  // namespace
@@ -171,16 +176,6 @@ void InputFile::require(const std::string& dataset, ElementKind kind, const Shap
   if (!found.written)
     throw Error("was created, but not all of its values were written", place(dataset), "write the file again");
 }
-
-namespace {
-
-std::uint64_t product(const Shape& shape, std::size_t first_axis = 0) {
-  std::uint64_t count = 1;
-  for (std::size_t axis = first_axis; axis < shape.size(); ++axis) count *= shape[axis];
-  return count;
-}
-
-}  // namespace
 
 void InputFile::values(const ValuesRequest& request, void* values) const {
   const std::uint64_t bytes = request.values * (request.type == ValuesRequest::Type::float32 ? 4 : 8);

@@ -48,10 +48,6 @@ void check_unit(const Units& units, const Unit& unit, const std::string& name, U
         place, "correct the number or the label");
 }
 
-}  // namespace
-
-namespace {
-
 struct Version {
   int major = -1, minor = -1;
 };

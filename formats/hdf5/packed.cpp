@@ -9,7 +9,6 @@
 #include "common/text.hpp"
 
 namespace tisserand::formats::hdf5 {
-
 namespace {
 
 constexpr const char* packed_remedy = "free some space, or choose another place for the file";

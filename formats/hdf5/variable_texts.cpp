@@ -11,7 +11,6 @@
 #include "common/text.hpp"
 
 namespace tisserand::formats::hdf5 {
-
 namespace {
 
 constexpr std::uint64_t most_collection = 1u << 27;

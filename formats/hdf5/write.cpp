@@ -9,7 +9,6 @@
 #include "formats/hdf5/file.hpp"
 
 namespace tisserand::formats::hdf5 {
-
 namespace {
 
 constexpr const char* remedy = "free some space, or choose another place for the file";

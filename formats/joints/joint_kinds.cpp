@@ -4,7 +4,6 @@
 #include "common/error.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr std::array<double, 3> y_reversed{1.0, -1.0, 1.0}, all_reversed{-1.0, -1.0, -1.0};
@@ -106,7 +105,7 @@ constexpr std::array rows{
                  .key = JointKey::hold}};
 
 constexpr bool in_order() {
-  for (int k = 0; k < static_cast<int>(rows.size()); ++k)
+  for (int k = 0; k < std::ssize(rows); ++k)
     if (rows[k].kind != static_cast<JointKind>(k)) return false;
   return true;
 }

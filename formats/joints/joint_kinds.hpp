@@ -1,5 +1,5 @@
 // The kinds of joints as scene.yaml knows them: one row with all that a scene may say of a kind. What a kind means in
-// equations is the affair of the mechanism. A new kind is a new enumerator here and a row in joint_kinds.cpp.
+// equations is the affair of the mechanism. Where a new kind goes is told in mechanism/MAP.md.
 #pragma once
 
 #include <array>

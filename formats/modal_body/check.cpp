@@ -265,6 +265,29 @@ void check_against_nodes(const ModalBody& b, const FilePlace& place) {
                    "normalise the modes with the masses and inertias of the nodes");
 }
 
+/// Indices, sizes, symmetry.
+void check_residual(const ModalBody& body, const FilePlace& place) {
+  const ModalResidual& r = body.residual;
+  const char* const remedy = "write the answers of formats/MODAL_BODY.md";
+  const auto f = static_cast<Index>(r.node.size());
+  if (r.component.size() != r.node.size() || r.flexibility.rows() != f || r.flexibility.cols() != f ||
+      r.mass.rows() != f || r.mass.cols() != f || r.coupling.cols() != f || (f > 0 && r.coupling.rows() != 6))
+    place.fail("/residual", "its datasets differ in length", remedy);
+  for (std::size_t k = 0; k < r.node.size(); ++k) {
+    if (r.node[k] < 0 || r.node[k] >= static_cast<int>(body.node_name.size()))
+      place.fail(fmt::format("/residual/node[{}]", k), fmt::format("is {}, no row of /nodes/name", r.node[k]), remedy);
+    if (r.component[k] < 0 || r.component[k] > 5)
+      place.fail(fmt::format("/residual/component[{}]", k), fmt::format("is {}, expected 0 to 5", r.component[k]),
+                 remedy);
+  }
+  for (const auto& [matrix, name] : {std::pair{&r.flexibility, "/residual/flexibility"}, {&r.mass, "/residual/mass"}}) {
+    const double largest = f > 0 ? matrix->cwiseAbs().maxCoeff() : 0.0;
+    if (f > 0 && ((*matrix - matrix->transpose()).cwiseAbs().maxCoeff() > integral_tolerance * largest ||
+                  matrix->diagonal().minCoeff() < -integral_tolerance * largest))
+      place.fail(name, "is not symmetric with a positive diagonal", remedy);
+  }
+}
+
 }  // namespace
 
 ModalIntegrals integrals_of(const ModalBody& b) {
@@ -292,33 +315,6 @@ ModalIntegrals integrals_of(const ModalBody& b) {
   }
   return s;
 }
-
-namespace {
-
-/// Indices, sizes, symmetry.
-void check_residual(const ModalBody& body, const FilePlace& place) {
-  const ModalResidual& r = body.residual;
-  const char* const remedy = "write the answers of formats/MODAL_BODY.md";
-  const auto f = static_cast<Index>(r.node.size());
-  if (r.component.size() != r.node.size() || r.flexibility.rows() != f || r.flexibility.cols() != f ||
-      r.mass.rows() != f || r.mass.cols() != f || r.coupling.cols() != f || (f > 0 && r.coupling.rows() != 6))
-    place.fail("/residual", "its datasets differ in length", remedy);
-  for (std::size_t k = 0; k < r.node.size(); ++k) {
-    if (r.node[k] < 0 || r.node[k] >= static_cast<int>(body.node_name.size()))
-      place.fail(fmt::format("/residual/node[{}]", k), fmt::format("is {}, no row of /nodes/name", r.node[k]), remedy);
-    if (r.component[k] < 0 || r.component[k] > 5)
-      place.fail(fmt::format("/residual/component[{}]", k), fmt::format("is {}, expected 0 to 5", r.component[k]),
-                 remedy);
-  }
-  for (const auto& [matrix, name] : {std::pair{&r.flexibility, "/residual/flexibility"}, {&r.mass, "/residual/mass"}}) {
-    const double largest = f > 0 ? matrix->cwiseAbs().maxCoeff() : 0.0;
-    if (f > 0 && ((*matrix - matrix->transpose()).cwiseAbs().maxCoeff() > integral_tolerance * largest ||
-                  matrix->diagonal().minCoeff() < -integral_tolerance * largest))
-      place.fail(name, "is not symmetric with a positive diagonal", remedy);
-  }
-}
-
-}  // namespace
 
 std::vector<std::string> check(const ModalBody& body, const std::string& where) {
   const FilePlace place{where};

@@ -114,15 +114,6 @@ Json PageBlocks::add_positions(const PageRows& values) {
   return array;
 }
 
-PageRows quantised_positions(const PageRows& values) {
-  const std::vector<Range> ranges = ranges_of(values);
-  PageRows read = values;
-  for (Eigen::Index r = 0; r < values.rows(); ++r)
-    for (Eigen::Index c = 0; c < values.cols(); ++c)
-      read(r, c) = ranges[c].middle + ranges[c].step * std::rint((values(r, c) - ranges[c].middle) / ranges[c].step);
-  return read;
-}
-
 Json PageBlocks::add_rotations(const PageRows& all) {
   const PageRows values = moving_rows(all);
   std::vector<std::uint16_t> words;

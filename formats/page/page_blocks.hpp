@@ -50,7 +50,4 @@ class PageBlocks {
   std::vector<std::pair<std::size_t, std::size_t>> extents_;
 };
 
-/// What add_positions() stores and the page reads.
-PageRows quantised_positions(const PageRows& values);
-
 }  // namespace tisserand::formats

@@ -69,17 +69,6 @@ void add_beams(const Recovery& recovery, Skin& skin) {
   }
 }
 
-}  // namespace
-
-Skin skin_of(const Recovery& recovery) {
-  Skin skin;
-  add_faces(recovery, skin);
-  add_beams(recovery, skin);
-  return skin;
-}
-
-namespace {
-
 enum class Fields { coordinates, loads, second_order };
 
 /// Fields of coordinates, of loads, or of shapes of second order.
@@ -226,6 +215,13 @@ MatrixXd stresses_of(const FieldSource& source, const std::vector<SkinCarrier>& 
 }
 
 }  // namespace
+
+Skin skin_of(const Recovery& recovery) {
+  Skin skin;
+  add_faces(recovery, skin);
+  add_beams(recovery, skin);
+  return skin;
+}
 
 MatrixXd shapes_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers) {
   return shapes_of({reader, Fields::coordinates}, carriers);

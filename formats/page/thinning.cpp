@@ -46,10 +46,10 @@ std::vector<int> middle_vertices(const std::vector<Vector3d>& vertices, const Cl
     ++size[clusters.of[i]];
   }
   std::vector<double> distance(clusters.count, std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
+  for (int i = 0; i < std::ssize(vertices); ++i) {
     const int c = clusters.of[i];
     const double d = (vertices[i] - mean[c] / size[c]).squaredNorm();
-    if (d < distance[c]) distance[c] = d, middle[c] = static_cast<int>(i);
+    if (d < distance[c]) distance[c] = d, middle[c] = i;
   }
   return middle;
 }

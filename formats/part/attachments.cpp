@@ -6,7 +6,6 @@
 #include "formats/yaml/geometry.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr Choice<BeamTheory> theories[] = {{"timoshenko", BeamTheory::timoshenko},

@@ -11,7 +11,6 @@
 #include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 /// Nothing for nodes of a mesh file, spiders and names that do not exist.

@@ -5,7 +5,6 @@
 #include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 /// Place of a load or support: it must be a node that is there, so no centroid.

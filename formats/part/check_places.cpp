@@ -9,7 +9,6 @@
 #include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 bool is_positive(double value) { return value > 0.0 && std::isfinite(value); }

@@ -8,7 +8,6 @@
 #include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 /// Positive constants, and a positive definite plane stress stiffness: nu12² < E1/E2.

@@ -8,7 +8,6 @@
 #include "formats/yaml/geometry.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr unsigned translation_bits = 0b000111, rotation_bits = 0b111000;

@@ -14,7 +14,6 @@
 #include "formats/yaml/units_reader.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr Choice<SecondOrder> second_order_words[] = {{"yes", SecondOrder::yes}, {"no", SecondOrder::no}};

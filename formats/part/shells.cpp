@@ -10,7 +10,6 @@
 #include "formats/yaml/geometry.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 std::vector<Ply> read_plies(const MapReader& map) {

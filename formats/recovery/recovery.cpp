@@ -4,13 +4,12 @@
 #include <algorithm>
 
 #include "common/error.hpp"
+#include "common/output_path.hpp"
 #include "common/text.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 constexpr std::uint64_t field_chunk_bytes = 1u << 20;
-constexpr const char* superelement_ending = ".superelement.h5";
 }  // namespace
 
 int node_count(ElementShape shape) {
@@ -61,12 +60,7 @@ int chunk_items(const Recovery& recovery, RecoveryField field) {
 }
 
 std::string recovery_path(const std::string& superelement_file) {
-  std::string stem = superelement_file;
-  if (stem.ends_with(superelement_ending))
-    stem.resize(stem.size() - std::string(superelement_ending).size());
-  else if (stem.ends_with(".h5"))
-    stem.resize(stem.size() - 3);
-  return stem + ".recovery.h5";
+  return without_ending(superelement_file, {".superelement.h5", ".h5"}) + ".recovery.h5";
 }
 
 Eigen::Vector3d require_same_superelement(const Recovery& recovery, const std::string& content_id,

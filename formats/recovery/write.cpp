@@ -7,7 +7,6 @@
 #include "formats/recovery/field_sets.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 using Numbers = std::vector<double>;

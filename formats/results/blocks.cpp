@@ -8,7 +8,6 @@
 #include "common/text.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 const std::vector<std::string> xyz{"x", "y", "z"};
@@ -111,7 +110,7 @@ std::vector<std::string> owned(const std::vector<std::string>& owners, const std
                                const std::vector<std::string>& own) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i + 1 < offset.size() && i < owners.size(); ++i)
-    for (int k = offset[i]; k < offset[i + 1] && k < static_cast<int>(own.size()); ++k)
+    for (int k = offset[i]; k < offset[i + 1] && k < std::ssize(own); ++k)
       names.push_back(owners[i] + "/" + own[static_cast<std::size_t>(k)]);
   return names;
 }

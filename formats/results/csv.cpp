@@ -6,7 +6,6 @@
 #include "formats/results/results.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr std::size_t values_per_block = 1u << 19;

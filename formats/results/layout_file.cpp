@@ -9,7 +9,6 @@
 #include "formats/results/simulated_scene_file.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr std::uint64_t max_names = 10'000'000;

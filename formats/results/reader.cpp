@@ -15,7 +15,6 @@
 #include "formats/results/layout_file.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr std::uint64_t max_rows = std::uint64_t{1} << 40;
@@ -54,6 +53,17 @@ std::uint64_t rows_of(const hdf5::InputFile& file, const Block& block) {
   const std::uint64_t stored = info.stored_bytes / (8 * block.width());
   if (stored < expected[0] && file.closed_properly()) refuse_rows(file, block.dataset, stored, expected[0]);
   return std::min(expected[0], stored);
+}
+
+/// The names and all that they begin with: "nodes/position/a/x" also gives "nodes", "nodes/position",
+/// "nodes/position/a".
+std::vector<std::string> with_groups(std::vector<std::string> names) {
+  std::set<std::string> groups;
+  for (const std::string& name : names)
+    for (std::size_t slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1))
+      groups.insert(name.substr(0, slash));
+  names.insert(names.end(), groups.begin(), groups.end());
+  return names;
 }
 
 }  // namespace
@@ -247,21 +257,6 @@ Eigen::MatrixXd ResultsReader::read_dataset(const std::string& dataset, const st
   }
   return values;
 }
-
-namespace {
-
-/// The names and all that they begin with: "nodes/position/a/x" also gives "nodes", "nodes/position",
-/// "nodes/position/a".
-std::vector<std::string> with_groups(std::vector<std::string> names) {
-  std::set<std::string> groups;
-  for (const std::string& name : names)
-    for (std::size_t slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1))
-      groups.insert(name.substr(0, slash));
-  names.insert(names.end(), groups.begin(), groups.end());
-  return names;
-}
-
-}  // namespace
 
 std::vector<Channel> select_channels(const std::vector<Channel>& channels, const std::vector<std::string>& selection,
                                      const std::string& where) {

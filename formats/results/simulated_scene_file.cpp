@@ -7,7 +7,6 @@
 #include "common/text.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr std::uint64_t most_items = 10'000'000;

@@ -29,7 +29,6 @@
 #include "formats/results/simulated_scene_file.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 using Clock = std::chrono::steady_clock;

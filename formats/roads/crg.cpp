@@ -11,7 +11,6 @@
 #include "formats/tables/text_cells.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 using Eigen::Vector2d;

@@ -12,7 +12,6 @@
 #include "formats/tables/text_cells.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 /// What a keyword may say here.

@@ -6,7 +6,6 @@
 #include "formats/tables/text_cells.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 using Cells = std::vector<std::string_view>;

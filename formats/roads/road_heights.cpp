@@ -11,7 +11,6 @@
 #include "formats/tables/text_cells.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr std::uint64_t most_road_bytes = std::uint64_t{1} << 30;

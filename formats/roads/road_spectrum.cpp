@@ -10,7 +10,6 @@
 #include <Eigen/Core>
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr double first_wave = 0.011, last_wave = 2.83, reference_wave = 0.1;  // per metre

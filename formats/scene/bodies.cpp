@@ -10,7 +10,6 @@
 #include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr Choice<bool> uses[] = {{"flexible", false}, {"rigid", true}};
@@ -327,7 +326,8 @@ std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& 
       bodies.emplace_back(unreadable_body(context, *node));
       continue;
     }
-    switch (read_word(context, *type, "type", {"superelement", "rigid", "beam", "virtual", "modal"}).value_or(5)) {
+    const auto kind = read_word(context, *type, "type", {"superelement", "rigid", "beam", "virtual", "modal"});
+    switch (kind.value_or(-1)) {
       case 0:
         bodies.emplace_back(read_superelement(MapReader(context, *node, "body_superelement"), definitions));
         break;

@@ -11,7 +11,6 @@
 #include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr Choice<ChannelKind> channel_kinds[] = {

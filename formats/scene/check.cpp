@@ -17,7 +17,6 @@
 #include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr int most_elements = 100'000;  ///< of one beam
@@ -212,51 +211,6 @@ void check_effects(const Scene& scene, Faults& faults) {
   }
 }
 
-}  // namespace
-
-void check_marker(const SceneIndex& scene, const MarkerSpec& marker, const std::string& key, const Subject& subject) {
-  const bool at_ground = marker.node == "ground";
-  if (at_ground && key == "at") subject.add(key, "acts on the ground", "name a node of a body");
-  if (!at_ground) check_node(scene, marker, key, subject);
-  if (marker.position && !marker.position->allFinite())
-    subject.add(key + ".position", fmt::format("{}: position must be finite", key));
-  if (marker.orientation && !(std::abs(marker.orientation->norm() - 1.0) < 1e-9))
-    subject.add(key + ".orientation", fmt::format("{}: the quaternion of the orientation has length {:g}, not 1", key,
-                                                  marker.orientation->norm()));
-}
-
-void check_marker_pair(const SceneIndex& scene, const MarkerPairSpec& pair, const Subject& subject) {
-  check_marker(scene, pair.a, "a", subject);
-  check_marker(scene, pair.b, "b", subject);
-  if (pair.a.node == pair.b.node)
-    subject.add("b", fmt::format("joins '{}' to itself", pair.a.node), "name two different nodes");
-  if (pair.position) subject.finite("position", *pair.position);
-  if (pair.axis && subject.finite("axis", *pair.axis) && pair.axis->stableNorm() == 0.0)
-    subject.add("axis", "axis has zero length", "give a direction, for example [0, 0, 1]");
-  if (pair.position && pair.a.position && pair.b.position)
-    subject.add("position", "position has no effect, since both a and b have one",
-                "remove it, or the position of a or b");
-  if (pair.axis && pair.a.orientation && pair.b.orientation)
-    subject.add("axis", "axis has no effect, since both a and b have an orientation",
-                "remove it, or the orientation of a or b");
-  if (pair.x_axis && !pair.axis)
-    subject.add("x_axis", "x_axis has no effect without axis", "give axis too, or an orientation to a or b");
-  if (pair.x_axis && pair.axis &&
-      !(pair.axis->cross(*pair.x_axis).stableNorm() > 1e-6 * pair.axis->stableNorm() * pair.x_axis->stableNorm()))
-    subject.add("x_axis", "x_axis is zero or parallel to axis", "give a direction across the axis");
-}
-
-void check_coordinate(const CoordinateRef& coordinate, const SceneIndex& scene, const std::string& key,
-                      const Subject& subject) {
-  const std::string joint = coordinate.name.substr(0, coordinate.name.rfind('/'));
-  if (scene.joints.contains(coordinate.name) || scene.joints.contains(joint)) return;
-  subject.add(key, fmt::format("there is no joint '{}'", joint),
-              did_you_mean(joint, texts_of(scene.scene.joints, &JointSpec::name),
-                           "name a joint, or joint/coordinate as in slide/z"));
-}
-
-namespace {
-
 void check_joint(const SceneIndex& scene, const JointSpec& joint, const Subject& subject) {
   const JointKindRow& kind = joint_kind(joint.kind);
   check_marker_pair(scene, joint, subject);
@@ -316,6 +270,47 @@ void check_motion(const SceneIndex& scene, const MotionSpec& motion, bool dynami
 }
 
 }  // namespace
+
+void check_marker(const SceneIndex& scene, const MarkerSpec& marker, const std::string& key, const Subject& subject) {
+  const bool at_ground = marker.node == "ground";
+  if (at_ground && key == "at") subject.add(key, "acts on the ground", "name a node of a body");
+  if (!at_ground) check_node(scene, marker, key, subject);
+  if (marker.position && !marker.position->allFinite())
+    subject.add(key + ".position", fmt::format("{}: position must be finite", key));
+  if (marker.orientation && !(std::abs(marker.orientation->norm() - 1.0) < 1e-9))
+    subject.add(key + ".orientation", fmt::format("{}: the quaternion of the orientation has length {:g}, not 1", key,
+                                                  marker.orientation->norm()));
+}
+
+void check_marker_pair(const SceneIndex& scene, const MarkerPairSpec& pair, const Subject& subject) {
+  check_marker(scene, pair.a, "a", subject);
+  check_marker(scene, pair.b, "b", subject);
+  if (pair.a.node == pair.b.node)
+    subject.add("b", fmt::format("joins '{}' to itself", pair.a.node), "name two different nodes");
+  if (pair.position) subject.finite("position", *pair.position);
+  if (pair.axis && subject.finite("axis", *pair.axis) && pair.axis->stableNorm() == 0.0)
+    subject.add("axis", "axis has zero length", "give a direction, for example [0, 0, 1]");
+  if (pair.position && pair.a.position && pair.b.position)
+    subject.add("position", "position has no effect, since both a and b have one",
+                "remove it, or the position of a or b");
+  if (pair.axis && pair.a.orientation && pair.b.orientation)
+    subject.add("axis", "axis has no effect, since both a and b have an orientation",
+                "remove it, or the orientation of a or b");
+  if (pair.x_axis && !pair.axis)
+    subject.add("x_axis", "x_axis has no effect without axis", "give axis too, or an orientation to a or b");
+  if (pair.x_axis && pair.axis &&
+      !(pair.axis->cross(*pair.x_axis).stableNorm() > 1e-6 * pair.axis->stableNorm() * pair.x_axis->stableNorm()))
+    subject.add("x_axis", "x_axis is zero or parallel to axis", "give a direction across the axis");
+}
+
+void check_coordinate(const CoordinateRef& coordinate, const SceneIndex& scene, const std::string& key,
+                      const Subject& subject) {
+  const std::string joint = coordinate.name.substr(0, coordinate.name.rfind('/'));
+  if (scene.joints.contains(coordinate.name) || scene.joints.contains(joint)) return;
+  subject.add(key, fmt::format("there is no joint '{}'", joint),
+              did_you_mean(joint, texts_of(scene.scene.joints, &JointSpec::name),
+                           "name a joint, or joint/coordinate as in slide/z"));
+}
 
 void check_definitions(const std::vector<Material>& materials, const std::vector<Section>& sections, Faults& faults) {
   std::vector<std::string> names;

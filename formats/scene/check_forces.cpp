@@ -11,7 +11,6 @@
 #include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 void check_law(const LawSpec& law, const std::string& key, const Subject& subject) {

@@ -9,7 +9,6 @@
 #include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr Choice<Effect> effect_words[] = {{"flexibility", Effect::flexibility},

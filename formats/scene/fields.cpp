@@ -9,7 +9,6 @@
 #include "formats/sections/reader.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 /// What an assembly has in common with a scene: maps from names.

@@ -5,7 +5,6 @@
 #include "formats/yaml/geometry.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr Choice<SpringKind> spring_kinds[] = {{"line", SpringKind::line}, {"torsion", SpringKind::torsion}};

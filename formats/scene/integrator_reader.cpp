@@ -6,7 +6,6 @@
 #include "formats/yaml/fields.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr Choice<Method> methods[] = {{"generalised_alpha", Method::generalised_alpha},

@@ -5,7 +5,6 @@
 #include "formats/scene/reader.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 /// An axis of a grid written in the scene.

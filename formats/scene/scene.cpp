@@ -15,7 +15,6 @@
 #include "formats/yaml/units_reader.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr Choice<VirtualBodies> virtual_body_ways[] = {{"keep", VirtualBodies::keep},

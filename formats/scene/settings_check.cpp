@@ -8,7 +8,6 @@
 #include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 /// A group of settings of the scene or one analysis: "integrator".

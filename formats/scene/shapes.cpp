@@ -9,7 +9,6 @@
 #include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr std::size_t most_points = 100'000;

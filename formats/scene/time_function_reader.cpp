@@ -7,7 +7,6 @@
 #include "formats/yaml/fields.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 TimeTable read_table(const Context& context, const YamlNode& node) {

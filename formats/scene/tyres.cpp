@@ -13,7 +13,6 @@
 #include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr Choice<RoadKind> road_kinds[] = {

@@ -10,7 +10,6 @@
 #include <Eigen/LU>
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();

@@ -7,7 +7,6 @@
 #include "formats/sections/profiles.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 using Eigen::Vector2d;

@@ -9,7 +9,6 @@
 #include "formats/sections/flow.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 using Eigen::Vector2d;

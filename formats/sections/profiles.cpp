@@ -10,7 +10,6 @@
 #include "formats/sections/shapes.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 Ring rectangle(double left, double bottom, double right, double top) {

@@ -7,7 +7,6 @@
 #include "formats/yaml/fields.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 /// Two numbers of the key `key`, [y, z]; both stay as they are without the key.

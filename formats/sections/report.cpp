@@ -8,7 +8,6 @@
 #include "formats/sections/monosymmetry.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 std::string line(const std::string& words, const std::string& symbol, double value, const std::string& unit) {

@@ -11,7 +11,6 @@
 #include "formats/yaml/fields.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 const std::vector<std::string>& shape_words() {

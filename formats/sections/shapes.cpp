@@ -5,7 +5,6 @@
 #include <cmath>
 
 namespace tisserand::formats {
-
 namespace {
 
 double tube_shear_factor(double m) {

@@ -10,7 +10,6 @@
 #include <Eigen/LU>
 
 namespace tisserand::formats {
-
 namespace {
 
 using Eigen::Matrix2d;

@@ -8,7 +8,6 @@
 #include "formats/specification/specification.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 using Json = nlohmann::ordered_json;

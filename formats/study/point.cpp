@@ -4,7 +4,6 @@
 #include "formats/yaml/emit.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 /// $axis and ${formula} in one value.

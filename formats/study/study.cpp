@@ -11,7 +11,6 @@
 #include "formats/yaml/reader.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr Choice<StudyTiming> timings[] = {{"alone", StudyTiming::alone}, {"together", StudyTiming::together}};

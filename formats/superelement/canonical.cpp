@@ -7,7 +7,6 @@
 #include "common/error.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 /// S_II scaled to a unit diagonal must have no eigenvalue below this: the congruence divides by it.

@@ -16,7 +16,6 @@
 #include "formats/superelement/scaling.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr double symmetry_tolerance = 1e-9;  // of scaled entries: a hundred times what double sums of 1e5 terms lose

@@ -9,7 +9,6 @@
 #include "formats/superelement/scaling.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 Eigen::Vector3d mean_of_nodes(const Superelement& element) {

@@ -14,7 +14,6 @@
 #include <Eigen/QR>
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr int chosen_digits = 4;           // at most: numbers that somebody chose, such as 12.5

@@ -15,7 +15,6 @@
 #include "formats/superelement/scaling.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "content_id is defined on little-endian bytes");

@@ -4,7 +4,6 @@
 #include <Eigen/SVD>
 
 namespace tisserand::formats {
-
 namespace {
 
 Eigen::VectorXd truncated_solution(const Eigen::JacobiSVD<Eigen::MatrixXd>& svd, const Eigen::Vector3d& c,

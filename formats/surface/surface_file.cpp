@@ -16,7 +16,6 @@
 #include "common/text.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;

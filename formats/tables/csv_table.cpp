@@ -8,7 +8,6 @@
 #include "formats/tables/text_cells.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 struct Cell {

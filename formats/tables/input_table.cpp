@@ -12,7 +12,6 @@
 #include "formats/tables/text_cells.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr std::size_t most_points = 10'000'000;

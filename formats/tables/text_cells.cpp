@@ -12,7 +12,6 @@
 #include "common/text.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr std::string_view blanks = " \t\r";

@@ -4,7 +4,6 @@
 #include <yaml-cpp/yaml.h>
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr int block_levels = 2;

@@ -6,7 +6,6 @@
 #include <limits>
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr double slack = 1e-6;  ///< of unit norm and orthonormality of what a user types with rounded digits

@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr double smallest_angle = 1e-8;  ///< directions closer than this [rad] are parallel in double precision

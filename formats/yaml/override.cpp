@@ -11,7 +11,6 @@
 #include "formats/yaml/tree.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 std::string where_of(const Override& change) { return fmt::format("--set {}={}", change.path, change.value); }

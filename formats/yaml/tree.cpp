@@ -18,7 +18,6 @@
 #include "common/error.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr std::size_t largest_depth = 100;
@@ -224,6 +223,8 @@ void check_only_one(YAML::Parser& parser, const std::string& text, const std::st
               "keep one document per file");
 }
 
+
+
 }  // namespace
 
 std::string YamlDocument::where(const YamlPlace& place) const {
@@ -268,10 +269,6 @@ YamlDocument load_yaml(const std::string& path) {
   if (stream.bad()) throw Error(fmt::format("cannot read the file: {}", std::strerror(errno)), path, "");
   return parse_yaml(text, path);
 }
-
-namespace {
-
-}  // namespace
 
 void mark_source(YamlNode& node, int source) {
   node.place.source = source;

@@ -2,7 +2,6 @@
 #include "formats/yaml/units_reader.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 Unit read_unit(const MapReader& map, std::string_view key, Unit (*by_label)(const std::string&)) {

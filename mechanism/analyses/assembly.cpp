@@ -7,7 +7,6 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <random>
 
 #include <fmt/format.h>
@@ -19,7 +18,7 @@
 #include "mechanism/equations/constraint_rows.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/terms.hpp"
-#include "mechanism/model/bodies.hpp"
+#include "mechanism/model/connected_bodies.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
@@ -35,68 +34,54 @@ constexpr double largest_step = 0.5;
 constexpr int most_iterations = 200;  ///< per fresh start
 constexpr int most_fresh_starts = 4;
 
-/// Nodes that move as one body.
-struct Bodies {
+/// The bodies of a state, each with all its nodes, moved as if they were rigid.
+struct RigidBodies {
+  const Model& model;
+  State& state;
   std::vector<int> of_node;
   std::vector<Vector3d> center;  ///< about which a body turns
-};
 
-Bodies find_bodies(const Model& model, const State& state) {
-  std::vector<int> parent(model.nodes.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](int node) {
-    while (parent[node] != node) node = parent[node];
-    return node;
-  };
-  const auto join_all = [&](const auto& nodes) {
-    for (const int node : nodes) parent[root(node)] = root(nodes[0]);
-  };
-  for_each_body(model, [&](const auto& body) { join_all(attached_nodes(model, body)); });
-  Bodies bodies;
-  bodies.of_node.assign(model.nodes.size(), -1);
-  std::vector<int> number(model.nodes.size(), -1), count;
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    int& at = number[root(static_cast<int>(i))];
-    if (at < 0) {
-      at = static_cast<int>(bodies.center.size());
-      bodies.center.push_back(Vector3d::Zero());
-      count.push_back(0);
+  RigidBodies(const Model& moved, State& moving) : model(moved), state(moving) {
+    const Parts parts = find_parts(model);
+    of_node = parts.of_node;
+    center.resize(static_cast<std::size_t>(parts.count()));
+    find_centers();
+  }
+
+  void find_centers() {
+    std::ranges::fill(center, Vector3d::Zero());
+    std::vector<int> count(center.size(), 0);
+    for (std::size_t i = 0; i < of_node.size(); ++i) {
+      if (model.nodes[i].modal >= 0) continue;  // follows the frame of its body
+      center[of_node[i]] += state.x().col(static_cast<Eigen::Index>(i));
+      ++count[of_node[i]];
     }
-    bodies.of_node[i] = at;
-    if (model.nodes[i].modal >= 0) continue;  // follows the frame of its body
-    bodies.center[at] += state.x().col(i);
-    ++count[at];
+    for (std::size_t k = 0; k < center.size(); ++k) center[k] /= count[k];
   }
-  for (std::size_t k = 0; k < bodies.center.size(); ++k) bodies.center[k] /= count[k];
-  return bodies;
-}
 
-/// [t/L; θ] per body, applied as whole rotations.
-void move(const Model& model, const VectorXd& d, Bodies& bodies, State& state) {
-  const auto quaternion = [&d](int body) {
-    const Vector3d turn = d.segment<3>(6 * body + 3);
-    return Eigen::Quaterniond(exp_so3<double>(turn));
-  };
-  const auto turned = [](const Eigen::Quaterniond& q, const Eigen::Vector4d& Q) {
-    return wxyz((q * Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3])).normalized());
-  };
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    const int body = bodies.of_node[i];
-    const Vector3d& c = bodies.center[body];
-    const Eigen::Quaterniond q = quaternion(body);
-    const auto column = static_cast<Eigen::Index>(i);
-    const Vector3d arm = state.x().col(column) - c;
-    state.x().col(column) = c + model.length * d.segment<3>(6 * body) + q * arm;
-    if (model.nodes[i].rotation >= 0) state.Q().col(column) = turned(q, state.Q().col(column));
+  Eigen::Index motions() const { return 6 * static_cast<Eigen::Index>(center.size()); }
+
+  /// [t/L; θ] per body, applied as whole rotations.
+  void move(const VectorXd& d) {
+    const auto turn_of = [&d](int body) {
+      const Vector3d turn = d.segment<3>(6 * body + 3);
+      return Eigen::Quaterniond(exp_so3<double>(turn));
+    };
+    const auto turn = [](const Eigen::Quaterniond& q, auto Q) { Q = wxyz((q * quaternion(Q)).normalized()); };
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+      const int body = of_node[i];
+      const Eigen::Quaterniond q = turn_of(body);
+      const auto column = static_cast<Eigen::Index>(i);
+      const Vector3d arm = state.x().col(column) - center[body];
+      state.x().col(column) = center[body] + model.length * d.segment<3>(6 * body) + q * arm;
+      if (model.nodes[i].rotation >= 0) turn(q, state.Q().col(column));
+    }
+    for (std::size_t i = 0; i < model.superelements.size(); ++i)
+      turn(turn_of(of_node[model.superelements[i].nodes.front()]), state.frames().col(static_cast<Eigen::Index>(i)));
+    for (std::size_t k = 0; k < center.size(); ++k)
+      center[k] += model.length * d.segment<3>(6 * static_cast<Eigen::Index>(k));
   }
-  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    const int body = bodies.of_node[model.superelements[i].nodes.front()];
-    const auto column = static_cast<Eigen::Index>(i);
-    state.frames().col(column) = turned(quaternion(body), state.frames().col(column));
-  }
-  for (std::size_t k = 0; k < bodies.center.size(); ++k)
-    bodies.center[k] += model.length * d.segment<3>(6 * static_cast<Eigen::Index>(k));
-}
+};
 
 double row_scale(const Model& model, int row) { return model.length_row[row] ? 1.0 / model.length : 1.0; }
 
@@ -119,7 +104,8 @@ double row_scale(const Model& model, const AskedRow& row) {
 }
 
 /// ∂(scaled Φ)/∂[t/L; θ] at the last evaluate().
-Sparse jacobian(const Model& model, const AskedRows& asked, const Bodies& bodies, const Evaluation& evaluation) {
+Sparse jacobian(const AskedRows& asked, const RigidBodies& bodies, const Evaluation& evaluation) {
+  const Model& model = bodies.model;
   std::vector<Eigen::Triplet<double>> entries;
   const int constraints = model.sizes.constraints;
   const auto add_side = [&](int row, int node, const Eigen::Matrix<double, 1, 6>& B) {
@@ -141,11 +127,11 @@ Sparse jacobian(const Model& model, const AskedRows& asked, const Bodies& bodies
     add_side(row, pair.b.node, B.tail<6>());
   };
   for_each_row(model, evaluation, add);
-  for (std::size_t i = 0; i < asked.size(); ++i) {
+  for (int i = 0; i < std::ssize(asked); ++i) {
     const int at = asked[i].entry->coordinate;
-    add(constraints + static_cast<int>(i), nullptr, model.coordinates[at], evaluation.coordinates[at].G);
+    add(constraints + i, nullptr, model.coordinates[at], evaluation.coordinates[at].G);
   }
-  Sparse J(constraints + static_cast<Eigen::Index>(asked.size()), 6 * static_cast<Eigen::Index>(bodies.center.size()));
+  Sparse J(constraints + static_cast<Eigen::Index>(asked.size()), bodies.motions());
   J.setFromTriplets(entries.begin(), entries.end());
   return J;
 }
@@ -190,22 +176,24 @@ VectorXd gaps(const Model& model, const AskedRows& asked, State& state, Evaluati
 double largest(const VectorXd& f) { return f.size() > 0 ? f.cwiseAbs().maxCoeff() : 0.0; }
 
 /// Damped steps until the gaps are closed as far as round-off lets them, or no step helps any more.
-void close_gaps(const Model& model, const AskedRows& asked, const std::function<bool()>& interrupted, Bodies& bodies,
-                State& state, Evaluation& evaluation, AssemblyReport& report) {
+void close_gaps(const AskedRows& asked, const std::function<bool()>& interrupted, RigidBodies& bodies,
+                Evaluation& evaluation, AssemblyReport& report) {
+  const Model& model = bodies.model;
+  State& state = bodies.state;
   VectorXd f = gaps(model, asked, state, evaluation);
   double mu = 1e-3;
   while (largest(f) > 1e-15 && report.iterations < most_iterations) {
     report.interrupted = interrupted && interrupted();
     if (report.interrupted) return;
     ++report.iterations;
-    const Sparse J = jacobian(model, asked, bodies, evaluation);
+    const Sparse J = jacobian(asked, bodies, evaluation);
     VectorXd d = damped_step(J, f, mu);
     if (!d.allFinite()) return;
     const double size = d.cwiseAbs().maxCoeff();
     if (size > largest_step) d *= largest_step / size;
     const State before = state;
     const std::vector<Vector3d> center = bodies.center;
-    move(model, d, bodies, state);
+    bodies.move(d);
     const VectorXd next = gaps(model, asked, state, evaluation);
     if (next.norm() < f.norm()) {
       const bool slow = next.norm() > (1.0 - 1e-6) * f.norm() && mu < 1e-9;
@@ -223,9 +211,9 @@ void close_gaps(const Model& model, const AskedRows& asked, const std::function<
 }
 
 /// Turns a body whose axis meets that of its joint the wrong way round; true if there was one.
-bool turn_over(const Model& model, Bodies& bodies, State& state, Evaluation& evaluation) {
-  evaluate(model, state, evaluation);
-  for (const Joint& joint : model.joints) {
+bool turn_over(RigidBodies& bodies, Evaluation& evaluation) {
+  evaluate(bodies.model, bodies.state, evaluation);
+  for (const Joint& joint : bodies.model.joints) {
     const NodeMotion &a = motion_of(evaluation, joint.a.node), &b = motion_of(evaluation, joint.b.node);
     const Matrix3d R_WA = marker_rotation(joint.a, a), R_WB = marker_rotation(joint.b, b);
     const Matrix3d R_AB = R_WA.transpose() * R_WB;
@@ -237,25 +225,25 @@ bool turn_over(const Model& model, Bodies& bodies, State& state, Evaluation& eva
     const bool moves_b = joint.b.node >= 0;
     const Marker& marker = moves_b ? joint.b : joint.a;
     const int body = bodies.of_node[marker.node];
-    VectorXd d = VectorXd::Zero(6 * static_cast<Eigen::Index>(bodies.center.size()));
+    VectorXd d = VectorXd::Zero(bodies.motions());
     const Vector3d theta = moves_b ? turn : Vector3d(-turn);
     const Vector3d arm = marker_position(marker, moves_b ? b : a) - bodies.center[body];
     d.segment<3>(6 * body + 3) = theta;
-    d.segment<3>(6 * body) = (arm - exp_so3<double>(theta) * arm) / model.length;
-    move(model, d, bodies, state);
+    d.segment<3>(6 * body) = (arm - exp_so3<double>(theta) * arm) / bodies.model.length;
+    bodies.move(d);
     return true;
   }
   return false;
 }
 
 /// Small turns of all bodies, the same in every run.
-void disturb(const Model& model, int attempt, Bodies& bodies, State& state) {
+void disturb(int attempt, RigidBodies& bodies) {
   std::mt19937 random(static_cast<unsigned>(attempt + 1));
   std::uniform_real_distribution<double> uniform(-0.3, 0.3);
-  VectorXd d = VectorXd::Zero(6 * static_cast<Eigen::Index>(bodies.center.size()));
+  VectorXd d = VectorXd::Zero(bodies.motions());
   for (Eigen::Index k = 0; k < d.size(); ++k)
-    if (k % 6 >= (model.planar ? 5 : 3)) d[k] = uniform(random);
-  move(model, d, bodies, state);
+    if (k % 6 >= (bodies.model.planar ? 5 : 3)) d[k] = uniform(random);
+  bodies.move(d);
 }
 
 /// Whether a joint keeps a distance of markers that stand at one place: the direction in which they part is round-off.
@@ -270,15 +258,16 @@ bool is_folded(const Model& model, const State& state, Evaluation& evaluation) {
 }
 
 /// The rigid motion [ẋ_c/L; ω] of each body that its nodes have, as far as they have one.
-VectorXd rigid_velocities(const Model& model, const Bodies& bodies, const State& state) {
-  VectorXd w = VectorXd::Zero(6 * static_cast<Eigen::Index>(bodies.center.size()));
+VectorXd rigid_velocities(const RigidBodies& bodies) {
+  const Model& model = bodies.model;
+  const State& state = bodies.state;
+  VectorXd w = VectorXd::Zero(bodies.motions());
   std::vector<bool> turning(bodies.center.size(), false), moving(bodies.center.size(), false);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const auto body = static_cast<std::size_t>(bodies.of_node[i]);
     if (model.nodes[i].rotation < 0 || turning[body]) continue;
-    const Eigen::Vector4d Q = state.Q().col(i);
     const Vector3d Omega = rotation_at(model, state.v(), model.nodes[i].rotation);
-    w.segment<3>(6 * static_cast<Eigen::Index>(body) + 3) = Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]) * Omega;
+    w.segment<3>(6 * static_cast<Eigen::Index>(body) + 3) = quaternion(state.Q().col(i)) * Omega;
     turning[body] = true;
   }
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
@@ -293,7 +282,9 @@ VectorXd rigid_velocities(const Model& model, const Bodies& bodies, const State&
   return w;
 }
 
-void set_velocities(const Model& model, const Bodies& bodies, const VectorXd& w, State& state) {
+void set_rigid_velocities(const VectorXd& w, RigidBodies& bodies) {
+  const Model& model = bodies.model;
+  State& state = bodies.state;
   state.v().setZero();
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Eigen::Index at = 6 * bodies.of_node[i];
@@ -302,27 +293,26 @@ void set_velocities(const Model& model, const Bodies& bodies, const VectorXd& w,
     const Vector3d arm = state.x().col(column) - bodies.center[bodies.of_node[i]];
     if (model.nodes[i].translation >= 0)
       set_translation(model, model.length * w.segment<3>(at) + omega.cross(arm), model.nodes[i].translation, state.v());
-    if (model.nodes[i].rotation >= 0) {
-      const Eigen::Vector4d Q = state.Q().col(column);
-      set_rotation(model, Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]).conjugate() * omega, model.nodes[i].rotation,
-                   state.v());
-    }
+    if (model.nodes[i].rotation >= 0)
+      set_rotation(model, quaternion(state.Q().col(column)).conjugate() * omega, model.nodes[i].rotation, state.v());
   }
 }
 
-/// The smallest change of w with B v = −Φ_t, in repeated damped steps: each leaves μ/(σ² + μ) of the error.
-void close_velocities(const Model& model, const AskedRows& asked, const Bodies& bodies, const VectorXd& given,
-                      State& state, Evaluation& evaluation, AssemblyReport& report) {
-  VectorXd w = given;
+/// The smallest change of w with B v = −Φ_t, in repeated damped steps: each leaves μ/(σ² + μ) of the error. Returns the
+/// largest gap relative to the largest velocity.
+double close_velocities(const AskedRows& asked, VectorXd w, RigidBodies& bodies, Evaluation& evaluation) {
+  double gap = 0.0;
   for (int pass = 0; pass < 20; ++pass) {
-    set_velocities(model, bodies, w, state);
-    evaluate_rows(model, asked, state, evaluation);
-    const VectorXd rate = scaled_rows(model, asked, evaluation.constraint_rate, &CoordinateTerms::rate, evaluation);
+    set_rigid_velocities(w, bodies);
+    evaluate_rows(bodies.model, asked, bodies.state, evaluation);
+    const VectorXd rate =
+        scaled_rows(bodies.model, asked, evaluation.constraint_rate, &CoordinateTerms::rate, evaluation);
     const double size = std::max(largest(w), largest(rate));
-    report.velocity_gap = size > 0.0 ? largest(rate) / size : 0.0;
-    if (report.velocity_gap < 1e-14) return;
-    w += damped_step(jacobian(model, asked, bodies, evaluation), rate, 1e-9);
+    gap = size > 0.0 ? largest(rate) / size : 0.0;
+    if (gap < 1e-14) break;
+    w += damped_step(jacobian(asked, bodies, evaluation), rate, 1e-9);
   }
+  return gap;
 }
 
 std::vector<JointGap> open_joints(const Model& model, const AskedRows& asked, const Evaluation& evaluation,
@@ -357,29 +347,23 @@ std::string vector_text(const Eigen::Ref<const VectorXd>& v) {
 
 }  // namespace
 
-AssemblyReport assemble(const Model& model, double tolerance, const std::function<bool()>& interrupted, State& state,
-                        Evaluation& evaluation) {
-  return assemble(model, {}, tolerance, interrupted, state, evaluation);
-}
-
-AssemblyReport assemble(const Model& model, const std::vector<CoordinateStart>& initial, double tolerance,
-                        const std::function<bool()>& interrupted, State& state, Evaluation& evaluation) {
-  const AskedRows values = asked_rows(initial, &CoordinateStart::value);
-  const AskedRows rates = asked_rows(initial, &CoordinateStart::rate);
+AssemblyReport assemble(const Model& model, const AssemblyOptions& options, State& state, Evaluation& evaluation) {
+  const AskedRows values = asked_rows(options.initial, &CoordinateStart::value);
+  const AskedRows rates = asked_rows(options.initial, &CoordinateStart::rate);
   AssemblyReport report;
-  Bodies bodies = find_bodies(model, state);
-  const VectorXd given = rigid_velocities(model, bodies, state);
+  RigidBodies bodies(model, state);
+  const VectorXd given = rigid_velocities(bodies);
   state.v().setZero();
   state.vdot().setZero();
   state.lambda().setZero();
-  if (is_folded(model, state, evaluation)) disturb(model, most_fresh_starts, bodies, state);
+  if (is_folded(model, state, evaluation)) disturb(most_fresh_starts, bodies);
   State best = state;
   double best_gap = std::numeric_limits<double>::infinity();
   for (int attempt = 0; attempt < most_fresh_starts && !report.interrupted; ++attempt) {
     AssemblyReport round;
     for (std::size_t turned = 0; turned <= model.joints.size(); ++turned) {
-      close_gaps(model, values, interrupted, bodies, state, evaluation, round);
-      if (round.interrupted || !turn_over(model, bodies, state, evaluation)) break;
+      close_gaps(values, options.interrupted, bodies, evaluation, round);
+      if (round.interrupted || !turn_over(bodies, evaluation)) break;
     }
     report.iterations += round.iterations;
     report.interrupted = round.interrupted;
@@ -388,16 +372,16 @@ AssemblyReport assemble(const Model& model, const std::vector<CoordinateStart>& 
       best_gap = gap;
       best = state;
     }
-    if (best_gap <= tolerance) break;
-    disturb(model, attempt, bodies, state);
+    if (best_gap <= options.tolerance) break;
+    disturb(attempt, bodies);
   }
   state = best;
-  bodies.center = find_bodies(model, state).center;
-  close_velocities(model, rates, bodies, given, state, evaluation, report);
+  bodies.find_centers();
+  report.velocity_gap = close_velocities(rates, given, bodies, evaluation);
   evaluate_rows(model, values, state, evaluation);
   report.gap = best_gap;
-  report.closed = best_gap <= tolerance;
-  report.open = open_joints(model, values, evaluation, tolerance);
+  report.closed = best_gap <= options.tolerance;
+  report.open = open_joints(model, values, evaluation, options.tolerance);
   return report;
 }
 
@@ -414,11 +398,9 @@ std::vector<std::string> body_poses(const formats::Scene& scene, const Model& mo
       const Node& node = model.nodes[i];
       if ((node.name != name && !node.name.starts_with(name + "/")) || node.rotation < 0) continue;
       const auto column = static_cast<Eigen::Index>(i);
-      const Eigen::Vector4d Q = state.Q().col(column), Q_start = at_start.Q().col(column);
-      const Eigen::Quaterniond q(Q[0], Q[1], Q[2], Q[3]);
+      const Eigen::Quaterniond q = quaternion(state.Q().col(column));
       const Eigen::Quaterniond axes(to_world(model, Eigen::Matrix3d(Eigen::Matrix3d::Identity())));
-      const Eigen::Quaterniond turn =
-          axes * q * Eigen::Quaterniond(Q_start[0], Q_start[1], Q_start[2], Q_start[3]).conjugate() * axes.conjugate();
+      const Eigen::Quaterniond turn = axes * q * quaternion(at_start.Q().col(column)).conjugate() * axes.conjugate();
       const Eigen::Quaterniond orientation = (turn * start.pose.orientation).normalized();
       const Vector3d position = to_world(model, Vector3d(state.x().col(column))),
                      arm = turn *

@@ -61,13 +61,8 @@ StepOutcome close_gaps(const Model& model, const formats::IntegratorSpec& option
   }
 }
 
-void find_active_rows(const Model& model, State& state, Workspace& workspace) {
-  state.active().setOnes();
-  for (const int row : count_mobility(model, state, workspace.now).redundant) state.active()[row] = 0.0;
-}
-
-}  // namespace
-
+/// The joint coordinate that moves most in a motion d (velocity coordinates, after evaluate_coordinates()), or the
+/// node.
 std::string name_of_motion(const Model& model, const Evaluation& evaluation, const Eigen::VectorXd& d) {
   double largest = 0.0;
   std::string name;
@@ -87,6 +82,13 @@ std::string name_of_motion(const Model& model, const Evaluation& evaluation, con
   return coordinate_name(model, static_cast<int>(at));
 }
 
+void find_active_rows(const Model& model, State& state, Workspace& workspace) {
+  state.active().setOnes();
+  for (const int row : count_mobility(model, state, workspace.now).redundant) state.active()[row] = 0.0;
+}
+
+}  // namespace
+
 std::string name_of_direction(const Model& model, const State& state, const Eigen::VectorXd& xi,
                               Evaluation& evaluation) {
   evaluate_coordinates(model, state, evaluation);
@@ -104,8 +106,7 @@ void require_determined(const Model& model, const Mobility& mobility, const std:
   if (!flexible.empty())
     throw Error(fmt::format("{} is flexible: its deformation is no matter of kinematics", flexible), where,
                 "write `effects: {flexibility: off}`, take superelements with `use: rigid`, modal bodies with `modes: "
-                "0` and rigid "
-                "bodies in place of beams, or run dynamics");
+                "0` and rigid bodies in place of beams, or run dynamics");
   if (mobility.degrees_of_freedom == 0) return;
   std::vector<std::string> names;
   if (model.sizes.velocities() <= most_linearised) {

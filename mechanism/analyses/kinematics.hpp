@@ -13,11 +13,7 @@
 
 namespace tisserand::mechanism {
 
-/// The joint coordinate that moves most in a motion d (velocity coordinates, after evaluate_coordinates()), or the
-/// node.
-std::string name_of_motion(const Model& model, const Evaluation& evaluation, const Eigen::VectorXd& d);
-
-/// name_of_motion() of ξ of a linearisation, whose turns have world axes.
+/// The joint coordinate that moves most in a motion ξ of a linearisation, or the node.
 std::string name_of_direction(const Model& model, const State& state, const Eigen::VectorXd& xi,
                               Evaluation& evaluation);
 

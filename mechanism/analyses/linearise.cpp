@@ -53,32 +53,35 @@ void add_internal_loads(const Model& model, const State& state, const TangentCoe
 /// c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q; `matrix` receives the values of the pattern.
 MatrixXd exact_matrix(const Model& model, const State& state, const TangentCoefficients& c, Evaluation& evaluation,
                       MatrixValues& matrix) {
-  const SparsePattern& pattern = *model.pattern;
   const int n = model.sizes.velocities(), boundary = model.sizes.boundary;
   MatrixXd A = MatrixXd::Zero(n, n);
   evaluate_tangent_without_superelements(model, state, {c, TangentKind::exact, {}}, evaluation, matrix);
   for (int j = 0; j < boundary; ++j)
-    for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
-      const int i = pattern.rows()[at];
-      if (i < boundary) A(i, j) = matrix.scale * matrix.values[pattern.slot(i, j)];
-    }
+    model.pattern->for_each_in(j, [&](int i, int slot) {
+      if (i < boundary) A(i, j) = matrix.scale * matrix.values[slot];
+    });
   for (std::size_t i = 0; i < model.superelements.size(); ++i) add_superelement(model, i, c, evaluation, A);
   add_internal_loads(model, state, c, evaluation, A);
   return A;
 }
 
+/// Constraints that are active: the rows of B.
+std::vector<int> active_rows(const State& state) {
+  std::vector<int> kept;
+  for (int row = 0; row < std::ssize(state.active()); ++row)
+    if (state.active()[row] != 0.0) kept.push_back(row);
+  return kept;
+}
+
 /// B from the values of a tangent.
 MatrixXd jacobian(const Model& model, const State& state, const MatrixValues& matrix) {
-  const SparsePattern& pattern = *model.pattern;
-  const std::vector<int> kept = active_rows(state);
   const int boundary = model.sizes.boundary;
-  MatrixXd B = MatrixXd::Zero(kept.empty() ? 0 : static_cast<int>(state.active().sum()), model.sizes.velocities());
+  MatrixXd B = MatrixXd::Zero(model.sizes.constraints, model.sizes.velocities());
   for (int j = 0; j < boundary; ++j)
-    for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
-      const int i = pattern.rows()[at];
-      if (i >= boundary && kept[i - boundary] >= 0) B(kept[i - boundary], j) = matrix.values[pattern.slot(i, j)];
-    }
-  return B;
+    model.pattern->for_each_in(j, [&](int i, int slot) {
+      if (i >= boundary) B(i - boundary, j) = matrix.values[slot];
+    });
+  return B(active_rows(state), Eigen::all);
 }
 
 /// Replaces the columns of a node's translations or rotations in each matrix: those of r(q, v, v̇) by those of (ξ, ξ',
@@ -112,11 +115,8 @@ Linearisation begin(const Model& model, const State& state, Evaluation& evaluati
         model.name, "use fewer elements, or superelements in place of beams");
   evaluate(model, state, evaluation);
   Linearisation l;
-  l.r.setZero(n);
-  l.r.head(model.sizes.boundary) = evaluation.residual;
-  for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    l.r.segment(model.sizes.boundary + model.internal_offset[i], body_of(model, i).modes) =
-        evaluation.superelements[i].forces.r_I;
+  l.r.resize(n);
+  gather_residual(model, evaluation, l.r);
   return l;
 }
 
@@ -129,12 +129,14 @@ MatrixXd active_jacobian(const Model& model, const State& state, Evaluation& eva
   return jacobian(model, state, matrix);
 }
 
-std::vector<int> active_rows(const State& state) {
-  std::vector<int> kept;
-  int next = 0;
-  for (Eigen::Index row = 0; row < state.active().size(); ++row)
-    kept.push_back(state.active()[row] != 0.0 ? next++ : -1);
-  return kept;
+Eigen::VectorXd active_part(const State& state, const Eigen::Ref<const Eigen::VectorXd>& of_constraints) {
+  return of_constraints(active_rows(state));
+}
+
+void add_to_multipliers(const Eigen::VectorXd& values, State& state) {
+  const std::vector<int> rows = active_rows(state);
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    state.lambda()[rows[row]] += values[static_cast<Eigen::Index>(row)];
 }
 
 Linearisation linearise(const Model& model, const State& state, const Vector3d& omega, Evaluation& evaluation) {
@@ -184,9 +186,7 @@ void move_by(const Model& model, const Eigen::VectorXd& xi, const Eigen::VectorX
              const Evaluation& evaluation, State& state) {
   const State before = state;
   retract(model, before, material_increment(model, evaluation, xi), state);
-  const std::vector<int> rows = active_rows(state);
-  for (std::size_t row = 0; row < rows.size(); ++row)
-    if (rows[row] >= 0) state.lambda()[static_cast<Eigen::Index>(row)] += multipliers[rows[row]];
+  add_to_multipliers(multipliers, state);
 }
 
 }  // namespace tisserand::mechanism

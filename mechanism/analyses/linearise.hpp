@@ -1,8 +1,6 @@
 // Linearisation of a mechanism about a state: mass, damping and stiffness with all coordinates, and the constraints.
 #pragma once
 
-#include <vector>
-
 #include <Eigen/Core>
 
 #include "mechanism/equations/evaluation.hpp"
@@ -44,7 +42,10 @@ void move_by(const Model& model, const Eigen::VectorXd& xi, const Eigen::VectorX
 /// B of the active constraints for material rotation increments, at `state`, which it evaluates.
 Eigen::MatrixXd active_jacobian(const Model& model, const State& state, Evaluation& evaluation);
 
-/// Rows of the constraints that are active: the row of B of each, −1 if left out.
-std::vector<int> active_rows(const State& state);
+/// The entries of active constraints, in the order of the rows of B.
+Eigen::VectorXd active_part(const State& state, const Eigen::Ref<const Eigen::VectorXd>& of_constraints);
+
+/// Adds values in the order of the rows of B to the multipliers of active constraints.
+void add_to_multipliers(const Eigen::VectorXd& values, State& state);
 
 }  // namespace tisserand::mechanism

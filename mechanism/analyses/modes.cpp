@@ -29,12 +29,25 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
+/// The linearised scene, its coordinates ξ = Z T q, and the problem of q.
+struct Problem {
+  Linearisation l;
+  MatrixXd Z, T;
+  QuadraticProblem reduced;
+  double shift = 0.0;
+
+  VectorXcd shape(const VectorXcd& q) const { return Z.cast<Complex>() * (T.cast<Complex>() * q); }
+  VectorXd spread(const VectorXcd& q) const { return Z.cwiseAbs() * (T.cast<Complex>() * q).cwiseAbs(); }
+};
+
 /// Whether forces of inertia and damping of the shape Z q with |λ| = `size` are below the round-off of those of
 /// stiffness and of loads that turn with it: nothing tells it from a rigid motion. `spread`: |Z||q|. Componentwise,
 /// spreadᵀ|K|spread times 2√n ε for the two products in ZᵀKZ, of n terms each ([HM19]: errors of sums grow as √n), so
 /// that what no stiff body is tied to keeps its own.
-bool drowns(const Model& model, const Linearisation& l, const Evaluation& evaluation, double size,
-            const VectorXcd& shape, const VectorXd& spread) {
+bool drowns(const Model& model, const Evaluation& evaluation, const Problem& problem, double size, const VectorXcd& q) {
+  const Linearisation& l = problem.l;
+  const VectorXcd shape = problem.shape(q);
+  const VectorXd spread = problem.spread(q);
   const int n = model.sizes.boundary;
   const double lengths = (spread.head(n).array() / model.equation_scale.head(n)).square().sum();
   const double forces = spread.dot(l.K.cwiseAbs() * spread) + force_size(model, evaluation) / model.length * lengths;
@@ -98,41 +111,6 @@ std::string moves_most(const Model& model, const VectorXcd& shape) {
   return name;
 }
 
-}  // namespace
-
-MatrixXd null_space(const Model& model, const MatrixXd& B) {
-  VectorXd scale = VectorXd::Ones(B.cols());
-  for (const Node& node : model.nodes)
-    if (node.rotation >= 0) scale.segment(node.rotation, rotations_of(model)).setConstant(1.0 / model.length);
-  if (B.rows() == 0) return scale.asDiagonal();
-  MatrixXd BT = scale.asDiagonal() * B.transpose();
-  for (Eigen::Index row = 0; row < BT.cols(); ++row) {
-    const double norm = BT.col(row).norm();
-    if (norm > 0.0) BT.col(row) /= norm;
-  }
-  Eigen::ColPivHouseholderQR<MatrixXd> qr;
-  qr.setThreshold(rank_tolerance);
-  qr.compute(BT);
-  const Eigen::Index rank = qr.rank(), free = B.cols() - rank;
-  MatrixXd Z = MatrixXd::Zero(B.cols(), free);
-  Z.bottomRows(free).setIdentity();
-  Z.applyOnTheLeft(qr.householderQ());
-  return scale.asDiagonal() * Z;
-}
-
-namespace {
-
-/// The linearised scene, its coordinates ξ = Z T q, and the problem of q.
-struct Problem {
-  Linearisation l;
-  MatrixXd Z, T;
-  QuadraticProblem reduced;
-  double shift = 0.0;
-
-  VectorXcd shape(const VectorXcd& q) const { return Z.cast<Complex>() * (T.cast<Complex>() * q); }
-  VectorXd spread(const VectorXcd& q) const { return Z.cwiseAbs() * (T.cast<Complex>() * q).cwiseAbs(); }
-};
-
 /// Whether a mode grows by more than round-off. What the shifted inverse says of modes above the shift has lost digits:
 /// those that seem to grow slowly are found again by inverse iteration. Round-off of yᴴP(λ)x is that of its products
 /// with the matrices of the scene, componentwise as in drowns().
@@ -189,8 +167,7 @@ void collect(const Model& model, const Evaluation& evaluation, const Problem& pr
     const VectorXcd q = spectrum.vectors.col(k);
     Mode mode{spectrum.values[k], problem.shape(q)};
     const double size = std::abs(mode.eigenvalue);
-    const bool rigid = size < rigid_tolerance * problem.shift ||
-                       drowns(model, problem.l, evaluation, size, mode.shape, problem.spread(q));
+    const bool rigid = size < rigid_tolerance * problem.shift || drowns(model, evaluation, problem, size, q);
     if (rigid && ++zeros % 2 == 0) continue;  // position and velocity of one rigid motion
     if (!rigid && mode.eigenvalue.imag() < 0.0) continue;
     if (rigid) mode.eigenvalue = 0.0;
@@ -217,7 +194,44 @@ void collect(const Model& model, const Evaluation& evaluation, const Problem& pr
   }
 }
 
+/// [δx; δθ] of a node in a mode, world axes: its own coordinates, or through T of the modal body that it follows.
+Eigen::Vector<Complex, 6> motion_of_node(const Model& model, const Evaluation& evaluation, int node,
+                                         const VectorXcd& shape) {
+  std::vector<int> coordinates;
+  append_carrier(model, node, coordinates);
+  VectorXcd own(coordinates.size());
+  for (std::size_t k = 0; k < coordinates.size(); ++k)
+    own[static_cast<Eigen::Index>(k)] = coordinates[k] < 0 ? Complex(0.0) : shape[coordinates[k]];
+  const int modal = modal_node(model, node);
+  if (modal < 0) return own;
+  const Eigen::Matrix3d& frame = motion_of(evaluation, modal_body_of(model, modal).node).R;
+  own.segment<3>(3) = (frame.transpose().cast<Complex>() * own.segment<3>(3)).eval();  // T takes body axes
+  Eigen::Vector<Complex, 6> motion = evaluation.modal_nodes[modal].T.cast<Complex>() * own;
+  motion.tail<3>() = (motion_of(evaluation, node).R.cast<Complex>() * motion.tail<3>()).eval();
+  return motion;
+}
+
 }  // namespace
+
+MatrixXd null_space(const Model& model, const MatrixXd& B) {
+  VectorXd scale = VectorXd::Ones(B.cols());
+  for (const Node& node : model.nodes)
+    if (node.rotation >= 0) scale.segment(node.rotation, rotations_of(model)).setConstant(1.0 / model.length);
+  if (B.rows() == 0) return scale.asDiagonal();
+  MatrixXd BT = scale.asDiagonal() * B.transpose();
+  for (Eigen::Index row = 0; row < BT.cols(); ++row) {
+    const double norm = BT.col(row).norm();
+    if (norm > 0.0) BT.col(row) /= norm;
+  }
+  Eigen::ColPivHouseholderQR<MatrixXd> qr;
+  qr.setThreshold(rank_tolerance);
+  qr.compute(BT);
+  const Eigen::Index rank = qr.rank(), free = B.cols() - rank;
+  MatrixXd Z = MatrixXd::Zero(B.cols(), free);
+  Z.bottomRows(free).setIdentity();
+  Z.applyOnTheLeft(qr.householderQ());
+  return scale.asDiagonal() * Z;
+}
 
 ModesReport solve_modes(const Model& model, const State& state, const formats::ModesSpec& spec,
                         Evaluation& evaluation) {
@@ -242,7 +256,7 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
   SteadyLinearisation steady;
   if (!(fastest.spin.norm() > slow * problem.shift)) fastest = {};
   if (std::max(omega.norm(), fastest.spin.norm()) > slow * problem.shift) {
-    steady = linearise_steady(model, state, omega, fastest, std::move(problem.l), evaluation);
+    steady = linearise_steady(model, state, omega, std::move(problem.l), evaluation);
     problem.l = std::move(steady.now);
     free = in_basis(problem.Z, {problem.l.M, problem.l.C, problem.l.K});
     problem.shift = choose_shift(free);
@@ -268,27 +282,6 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
                                     : std::numeric_limits<double>::quiet_NaN();
   return report;
 }
-
-namespace {
-
-/// [δx; δθ] of a node in a mode, world axes: its own coordinates, or through T of the modal body that it follows.
-Eigen::Vector<Complex, 6> motion_of_node(const Model& model, const Evaluation& evaluation, int node,
-                                         const VectorXcd& shape) {
-  std::vector<int> coordinates;
-  append_carrier(model, node, coordinates);
-  VectorXcd own(coordinates.size());
-  for (std::size_t k = 0; k < coordinates.size(); ++k)
-    own[static_cast<Eigen::Index>(k)] = coordinates[k] < 0 ? Complex(0.0) : shape[coordinates[k]];
-  const int modal = modal_node(model, node);
-  if (modal < 0) return own;
-  const Eigen::Matrix3d& frame = motion_of(evaluation, modal_body_of(model, modal).node).R;
-  own.segment<3>(3) = (frame.transpose().cast<Complex>() * own.segment<3>(3)).eval();  // T takes body axes
-  Eigen::Vector<Complex, 6> motion = evaluation.modal_nodes[modal].T.cast<Complex>() * own;
-  motion.tail<3>() = (motion_of(evaluation, node).R.cast<Complex>() * motion.tail<3>()).eval();
-  return motion;
-}
-
-}  // namespace
 
 formats::ModesTable modes_table(const Model& model, const Evaluation& evaluation, const ModesReport& report) {
   const auto modes = static_cast<Eigen::Index>(report.modes.size());

@@ -14,6 +14,7 @@
 
 #include "common/text.hpp"
 #include "formats/sections/substance.hpp"
+#include "mechanism/model/forces.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -27,8 +28,8 @@ constexpr double most_damping = 2.0;                          // dampers in cars
 constexpr double most_gyration = 100.0;  // of the extents of body and scene: a flywheel on a short bearing has some 20
 constexpr double most_section = 5.0;     // radius of gyration of a section, over the length of the beam
 constexpr double most_free_length = 100.0;  // of a spring, over its length at the start
-/// A uniform rod has its ends at 1.73 radii of gyration. A ball on a thin rod has them further away, the lighter the rod:
-/// at 5 radii it weighs an eighth. A compact body is taken for a weight on an arm without mass.
+/// A uniform rod has its ends at 1.73 radii of gyration. A ball on a thin rod has them further away, the lighter the
+/// rod: at 5 radii it weighs an eighth. A compact body is taken for a weight on an arm without mass.
 constexpr double most_reach = 5.0;
 constexpr double most_slender = 0.1;  // least over largest principal moment of inertia
 
@@ -160,8 +161,8 @@ void doubt_times(const formats::Scene& scene, Doubts& doubts) {
     if (spring.force) function(fmt::format("spring '{}'", spring.name), *spring.force);
   for (const formats::InputSpec& input : scene.inputs) table(fmt::format("input '{}'", input.name), input.table);
   if (const auto interval = scene.output.interval; interval && *interval > end - start)
-    doubts.add("`output: {{interval: {:g}}}` is longer than the run of {:g}{}: only the ends of the run are stored", *interval,
-               end - start, second);
+    doubts.add("`output: {{interval: {:g}}}` is longer than the run of {:g}{}: only the ends of the run are stored",
+               *interval, end - start, second);
 }
 
 void doubt_free_lengths(const Model& model, const Evaluation& now, Doubts& doubts) {
@@ -191,8 +192,10 @@ std::string far_centres(const Model& model) {
   hold_both(model.joints);
   hold_both(model.ties);
   hold_both(model.coordinates);
-  hold_both(model.bushings);
-  for (const Tyre& tyre : model.tyres) hold(tyre.wheel);
+  for_each_force(model, [&](auto traits, const auto& force) {
+    for (const auto marker : traits.markers)
+      if (traits.connects) hold(force.*marker);
+  });
   std::vector<std::string> texts;
   for (const RigidBody& body : model.rigid_bodies) {
     const double distance = nearest[body.node];

@@ -11,6 +11,7 @@
 
 #include "common/text.hpp"
 #include "mechanism/equations/tangent.hpp"
+#include "mechanism/model/forces.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
@@ -49,10 +50,12 @@ std::vector<std::vector<int>> massless_groups(const Model& model) {
   };
   for (const Joint& joint : model.joints) connect(joint.a, joint.b);
   for (const Coordinate& c : model.coordinates) connect(c.a, c.b);
-  for (const Bushing& bushing : model.bushings) connect(bushing.a, bushing.b);
+  for_each_force(model, [&](auto traits, const auto& force) {
+    if constexpr (traits.markers.size() == 2) connect(force.*traits.markers[0], force.*traits.markers[1]);
+  });
   std::vector<std::vector<int>> groups;
   std::vector<bool> seen(model.nodes.size(), false);
-  for (int start = 0; start < static_cast<int>(model.nodes.size()); ++start) {
+  for (int start = 0; start < std::ssize(model.nodes); ++start) {
     if (seen[start] || !parts.is_massless(start)) continue;
     std::vector<int> group{start};
     seen[start] = true;
@@ -69,7 +72,6 @@ std::vector<std::vector<int>> massless_groups(const Model& model) {
 
 /// CᵀC of the columns of the group in the scaled iteration matrix.
 MatrixXd column_products(const Model& model, const std::vector<int>& group, const MatrixValues& matrix) {
-  const SparsePattern& pattern = *model.pattern;
   std::map<int, std::vector<std::pair<int, double>>> rows;
   int column = 0;
   for (const int node : group)
@@ -79,12 +81,10 @@ MatrixXd column_products(const Model& model, const std::vector<int>& group, cons
         rows[-1 - column].emplace_back(column, 1.0);
         continue;
       }
-      for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
-        const int i = pattern.rows()[at];
-        const int slot = pattern.slot(i, j);
+      model.pattern->for_each_in(j, [&](int i, int slot) {
         const double value = matrix.values[slot] * model.value_scale[slot];
         if (value != 0.0) rows[i].emplace_back(column, value);
-      }
+      });
     }
   MatrixXd products = MatrixXd::Zero(column, column);
   for (const auto& [row, entries] : rows)
@@ -142,10 +142,17 @@ std::string groups_text(const std::vector<std::vector<std::string>>& groups) {
 
 }  // namespace
 
-std::vector<MarkerGap> marker_gaps(const Model& model, const Evaluation& evaluation) {
-  std::vector<MarkerGap> gaps;
+std::string gaps_text(const std::vector<JointGap>& gaps, const std::string& unit) {
+  std::vector<std::string> texts;
+  for (const JointGap& gap : gaps)
+    texts.push_back(fmt::format("'{}' by {:.3g}{} and {:.3g} rad", gap.joint, gap.length, unit, gap.angle));
+  return listed(texts);
+}
+
+std::vector<JointGap> marker_gaps(const Model& model, const Evaluation& evaluation) {
+  std::vector<JointGap> gaps;
   const auto add = [&](const std::string& name, int first, int size) {
-    MarkerGap gap{name, 0.0, 0.0};
+    JointGap gap{name, 0.0, 0.0};
     double square = 0.0;
     for (int row = first; row < first + size; ++row) {
       const double value = evaluation.constraint[row];
@@ -192,11 +199,8 @@ std::vector<std::string> undetermined_motions(const Model& model, const State& s
 std::vector<PreflightLine> preflight_doubts(const Preflight& preflight, const Units& units) {
   std::vector<PreflightLine> lines;
   if (preflight.groups.size() > 1) lines.push_back({"connections", groups_text(preflight.groups)});
-  std::vector<std::string> gaps;
-  for (const MarkerGap& gap : preflight.gaps)
-    gaps.push_back(fmt::format("'{}' by {:.3g}{} and {:.3g} rad", gap.joint, gap.length,
-                               after_number(unit_label(units, 1, 0, 0)), gap.angle));
-  if (!gaps.empty()) lines.push_back({"open joints", listed(gaps)});
+  if (!preflight.gaps.empty())
+    lines.push_back({"open joints", gaps_text(preflight.gaps, after_number(unit_label(units, 1, 0, 0)))});
   for (const std::string& doubt : preflight.doubts) lines.push_back({"doubtful", doubt});
   return lines;
 }

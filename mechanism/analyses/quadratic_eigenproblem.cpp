@@ -83,6 +83,38 @@ double away_from_eigenvalues(const QuadraticProblem& m, double s) {
   return best;
 }
 
+/// The finite eigenvalues as the inverse with one shift gives them, ascending |λ|.
+Spectrum of_one_shift(const QuadraticProblem& m, double s) {
+  const Spectrum inverse = eigen(shifted_inverse(m, s), Vectors::right);
+  const double infinite = 1e-13 * inverse.values.cwiseAbs().maxCoeff();
+  std::vector<Eigen::Index> finite;
+  for (Eigen::Index k = 0; k < inverse.values.size(); ++k)
+    if (std::abs(inverse.values[k]) > infinite) finite.push_back(k);  // the others: directions without mass
+  const auto value = [&](Eigen::Index k) { return s + 1.0 / inverse.values[k]; };
+  sort_stably(finite, {}, [&](Eigen::Index k) { return std::abs(value(k)); });
+  Spectrum sorted{VectorXcd(finite.size()), MatrixXcd(m.M.rows(), finite.size())};
+  Eigen::Index count = 0;
+  for (const Eigen::Index k : finite) {
+    sorted.values[count] = value(k);
+    sorted.vectors.col(count++) = inverse.vectors.col(k).head(m.M.rows());
+  }
+  return sorted;
+}
+
+/// How many of the ascending eigenvalues one shift gives well: up to the widest gap below `reach` s.
+Eigen::Index well_found(const VectorXcd& values, double reach) {
+  Eigen::Index count = 0;
+  double widest = 0.0;
+  for (Eigen::Index k = 0; k < values.size() && std::abs(values[k]) <= reach; ++k) {
+    if (std::abs(values[k]) < 0.3 * reach) widest = 0.0;
+    const double gap = k + 1 < values.size() ? std::abs(values[k + 1]) - std::abs(values[k]) : reach;
+    if (gap < widest) continue;
+    widest = gap;
+    count = k + 1;
+  }
+  return count;
+}
+
 }  // namespace
 
 QuadraticProblem in_basis(const MatrixXd& T, const QuadraticProblem& m) {
@@ -122,42 +154,6 @@ double choose_shift(const QuadraticProblem& m) {
   }
   return s;
 }
-
-namespace {
-
-/// The finite eigenvalues as the inverse with one shift gives them, ascending |λ|.
-Spectrum of_one_shift(const QuadraticProblem& m, double s) {
-  const Spectrum inverse = eigen(shifted_inverse(m, s), Vectors::right);
-  const double infinite = 1e-13 * inverse.values.cwiseAbs().maxCoeff();
-  std::vector<Eigen::Index> finite;
-  for (Eigen::Index k = 0; k < inverse.values.size(); ++k)
-    if (std::abs(inverse.values[k]) > infinite) finite.push_back(k);  // the others: directions without mass
-  const auto value = [&](Eigen::Index k) { return s + 1.0 / inverse.values[k]; };
-  sort_stably(finite, {}, [&](Eigen::Index k) { return std::abs(value(k)); });
-  Spectrum sorted{VectorXcd(finite.size()), MatrixXcd(m.M.rows(), finite.size())};
-  Eigen::Index count = 0;
-  for (const Eigen::Index k : finite) {
-    sorted.values[count] = value(k);
-    sorted.vectors.col(count++) = inverse.vectors.col(k).head(m.M.rows());
-  }
-  return sorted;
-}
-
-/// How many of the ascending eigenvalues one shift gives well: up to the widest gap below `reach` s.
-Eigen::Index well_found(const VectorXcd& values, double reach) {
-  Eigen::Index count = 0;
-  double widest = 0.0;
-  for (Eigen::Index k = 0; k < values.size() && std::abs(values[k]) <= reach; ++k) {
-    if (std::abs(values[k]) < 0.3 * reach) widest = 0.0;
-    const double gap = k + 1 < values.size() ? std::abs(values[k + 1]) - std::abs(values[k]) : reach;
-    if (gap < widest) continue;
-    widest = gap;
-    count = k + 1;
-  }
-  return count;
-}
-
-}  // namespace
 
 Spectrum eigenpairs(const QuadraticProblem& m, double s, int count) {
   constexpr double reach = 30.0;  // the errors grow with the fourth power of |λ|/s: 1e-10 at 30

@@ -81,6 +81,7 @@ double load_of(const Evaluation& evaluation, double length) {
 /// The symmetric part of K and B in scaled coordinates: rotations times the characteristic length, K over its largest
 /// entry.
 struct Scaled {
+  const Model& model;
   MatrixXd K, B;
   VectorXd scale;          ///< of coordinates
   VectorXd row_scale;      ///< of the active constraint rows
@@ -88,14 +89,10 @@ struct Scaled {
   double asymmetry = 0.0;  ///< largest entry of (K − Kᵀ)/2
 
   /// `load`: of the state, whose ratio to the length is the stiffness where bodies have none.
-  Scaled(const Model& model, const State& state, const Linearisation& l, double load)
-      : scale(VectorXd::Ones(l.K.rows())) {
-    const Eigen::Index boundary = model.sizes.boundary;
-    scale.head(boundary) = model.equation_scale.head(boundary).matrix();
-    row_scale.setOnes(l.B.rows());
-    const std::vector<int> rows = active_rows(state);
-    for (std::size_t row = 0; row < rows.size(); ++row)
-      if (rows[row] >= 0) row_scale[rows[row]] = model.equation_scale[boundary + static_cast<Eigen::Index>(row)];
+  Scaled(const Model& scaled, const State& state, const Linearisation& l, double load)
+      : model(scaled), scale(VectorXd::Ones(l.K.rows())) {
+    scale.head(model.sizes.boundary) = model.equation_scale.head(model.sizes.boundary).matrix();
+    row_scale = active_part(state, model.equation_scale.matrix().tail(model.sizes.constraints));
     K = scale.asDiagonal() * l.K * scale.asDiagonal();
     B = row_scale.asDiagonal() * l.B * scale.asDiagonal();
     stiffness = std::max(K.size() > 0 ? K.cwiseAbs().maxCoeff() : 0.0, load / model.length);
@@ -113,13 +110,18 @@ struct Scaled {
     A.topRightCorner(n, m) = B.transpose();
     return A;
   }
+  /// Largest translation over the characteristic length, and turn, of scaled ξ.
+  double size_of_move(const VectorXd& xi) const {
+    const Eigen::Index n = model.sizes.boundary;
+    return n > 0 ? xi.head(n).cwiseAbs().maxCoeff() / model.length : 0.0;
+  }
 };
 
 /// The eigenvector of the least eigenvalue of ZᵀKZ, in coordinates of a linearisation. Of several of this eigenvalue,
 /// the one that moves the coordinate most that they move most: their own basis is round-off.
-VectorXd lowest_direction(const Model& model, const Linearisation& l, const Scaled& s) {
+VectorXd lowest_direction(const Linearisation& l, const Scaled& s) {
   constexpr double equal = 1e-6, as_large = 0.9;
-  const MatrixXd Z = s.scale.cwiseInverse().asDiagonal() * null_space(model, l.B);
+  const MatrixXd Z = s.scale.cwiseInverse().asDiagonal() * null_space(s.model, l.B);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(Z.transpose() * s.K * Z);
   const VectorXd& lambda = eigen.eigenvalues();
   const double close = equal * std::abs(lambda[0]) + zero_pivot * lambda.cwiseAbs().maxCoeff();
@@ -131,29 +133,15 @@ VectorXd lowest_direction(const Model& model, const Linearisation& l, const Scal
   return s.scale.asDiagonal() * (V * V.row(most).transpose());
 }
 
-Stability count(const Model& model, const Scaled& s, const Evaluation& evaluation) {
+Stability count(const Scaled& s, const Evaluation& evaluation) {
   Stability result;
   const SymmetricFactors factors(s.saddle());
   result.counted = true;
   result.unstable = std::max(0, factors.negative() - static_cast<int>(s.B.rows()));
   result.neutral = factors.zero();
-  const double load = load_of(evaluation, model.length) / model.length;
+  const double load = load_of(evaluation, s.model.length) / s.model.length;
   result.symmetric = s.asymmetry * s.stiffness <= most_asymmetry * load + zero_pivot * s.stiffness;
   return result;
-}
-
-/// Largest translation over the characteristic length, and turn, of ξ.
-double size_of_move(const Model& model, const Scaled& s, const VectorXd& xi) {
-  const Eigen::Index n = model.sizes.boundary;
-  return n > 0 ? xi.head(n).cwiseQuotient(s.scale.head(n)).cwiseAbs().maxCoeff() / model.length : 0.0;
-}
-
-VectorXd violations(const State& state, const Evaluation& evaluation, Eigen::Index count) {
-  VectorXd open(count);
-  const std::vector<int> rows = active_rows(state);
-  for (std::size_t row = 0; row < rows.size(); ++row)
-    if (rows[row] >= 0) open[rows[row]] = evaluation.constraint[static_cast<Eigen::Index>(row)];
-  return open;
 }
 
 constexpr double farthest_move = 0.1;  ///< of the characteristic length, or radians
@@ -190,8 +178,8 @@ struct DownhillStep {
   VectorXd xi, multipliers;
   double damping, decrease;  ///< μ, and Σ (v·r)²/(|λ| + μ)
 
-  DownhillStep(const Model& model, const Scaled& s, const StiffnessSpectrum& spectrum, const VectorXd& r,
-               const VectorXd& open, double least)
+  DownhillStep(const Scaled& s, const StiffnessSpectrum& spectrum, const VectorXd& r, const VectorXd& open,
+               double least)
       : damping(least) {
     const VectorXd closing = -(spectrum.Y * spectrum.R.transpose().triangularView<Eigen::Lower>().solve(open));
     const VectorXd force = spectrum.V.transpose() * (r + s.K * closing);
@@ -199,7 +187,7 @@ struct DownhillStep {
       const VectorXd q = force.cwiseQuotient((spectrum.lambda.cwiseAbs().array() + damping).matrix());
       xi = closing - spectrum.V * q;
       decrease = force.dot(q);
-      if (damping > most_damping || !(size_of_move(model, s, s.scale.cwiseProduct(xi)) > farthest_move)) break;
+      if (damping > most_damping || !(s.size_of_move(xi) > farthest_move)) break;
     }
     multipliers = spectrum.R.triangularView<Eigen::Upper>().solve(VectorXd(-(spectrum.Y.transpose() * (r + s.K * xi))));
   }
@@ -209,18 +197,15 @@ struct DownhillStep {
 
 /// r·ξ at the last evaluate(), with turns of ξ in world axes.
 double work_along(const Model& model, const Evaluation& evaluation, const VectorXd& xi) {
-  const VectorXd d = material_increment(model, evaluation, xi);
-  double work = evaluation.residual.dot(d.head(model.sizes.boundary));
-  for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    work += evaluation.superelements[i].forces.r_I.dot(
-        d.segment(model.sizes.boundary + model.internal_offset[i], body_of(model, i).modes));
-  return work;
+  VectorXd r(xi.size());
+  gather_residual(model, evaluation, r);
+  return r.dot(material_increment(model, evaluation, xi));
 }
 
 /// The eigenvector of the most negative eigenvalue, as long as the first push, downhill.
-VectorXd push(const Model& model, const Scaled& s, const StiffnessSpectrum& spectrum, const VectorXd& r) {
+VectorXd push(const Scaled& s, const StiffnessSpectrum& spectrum, const VectorXd& r) {
   VectorXd xi = s.scale.cwiseProduct(spectrum.V.col(0));
-  xi *= first_push / size_of_move(model, s, xi);
+  xi *= first_push / s.size_of_move(spectrum.V.col(0));
   Eigen::Index most = 0;
   xi.cwiseAbs().maxCoeff(&most);
   const double work = r.dot(xi.cwiseQuotient(s.scale));
@@ -228,10 +213,18 @@ VectorXd push(const Model& model, const Scaled& s, const StiffnessSpectrum& spec
   return xi;
 }
 
+struct Descent {
+  const Model& model;
+  const Balanced &balanced, &interrupted;
+  State& state;
+  Evaluation& evaluation;
+
+  DescentReport go(bool cautious) const;
+};
+
 /// Steps with Newton's corrections in stiff directions, however far they overshoot: they follow curved valleys quickly.
 /// Or `cautious`: a step is shorter where the forces along it change sign.
-DescentReport descend(const Model& model, const Balanced& balanced, const Balanced& interrupted, bool cautious,
-                      State& state, Evaluation& evaluation) {
+DescentReport Descent::go(bool cautious) const {
   DescentReport report;
   VectorXd moved;
   double damping = least_damping;
@@ -253,14 +246,14 @@ DescentReport descend(const Model& model, const Balanced& balanced, const Balanc
     }
     const VectorXd r = s.scale.cwiseProduct(l.r) / s.stiffness, none = VectorXd::Zero(l.B.rows());
     if (done) {
-      moved = push(model, s, spectrum, r);
+      moved = push(s, spectrum, r);
       move_by(model, moved, none, evaluation, state);
       continue;
     }
     const State before = state;
-    const VectorXd open = s.row_scale.cwiseProduct(violations(state, evaluation, l.B.rows()));
+    const VectorXd open = s.row_scale.cwiseProduct(active_part(state, evaluation.constraint));
     for (;;) {
-      const DownhillStep step(model, s, spectrum, r, open, damping);
+      const DownhillStep step(s, spectrum, r, open, damping);
       if (!step.xi.allFinite()) return report;
       moved = s.scale.cwiseProduct(step.xi);
       move_by(model, moved, s.stiffness * s.row_scale.cwiseProduct(step.multipliers), evaluation, state);
@@ -286,9 +279,9 @@ Stability stability_of(const Model& model, const State& state, Evaluation& evalu
   if (model.sizes.velocities() > most_linearised) return {};
   const Linearisation l = linearise_stiffness(model, state, evaluation);
   const Scaled s(model, state, l, load_of(evaluation, model.length));
-  Stability result = count(model, s, evaluation);
+  Stability result = count(s, evaluation);
   if (name && result.unstable + result.neutral > 0 && l.K.rows() <= most_resolved)
-    result.direction = name_of_direction(model, state, lowest_direction(model, l, s), evaluation);
+    result.direction = name_of_direction(model, state, lowest_direction(l, s), evaluation);
   return result;
 }
 
@@ -298,9 +291,10 @@ DescentReport descend(const Model& model, const Balanced& balanced, const Balanc
   const State begin = state;
   DescentReport report;
   int iterations = 0;
+  const Descent descent{model, balanced, interrupted, state, evaluation};
   for (const bool cautious : {false, true}) {
     state.block() = begin.block();
-    report = descend(model, balanced, interrupted, cautious, state, evaluation);
+    report = descent.go(cautious);
     iterations += report.iterations;
     if (report.found || (interrupted && interrupted())) break;
   }

@@ -41,6 +41,11 @@ double largest_velocity(const Model& model, const State& state) {
   return largest;
 }
 
+/// Of combinations of mass, damping and stiffness.
+TangentRequest weighted(double mass, double damping, double stiffness) {
+  return {{mass, damping, stiffness}, TangentKind::step, {}};
+}
+
 void require_factors(const Model& model, const FactorReport& factors, const std::string& where) {
   if (factors.regular && factors.reciprocal_condition > 1e-300) return;
   std::string name = "a direction of the scene";
@@ -70,24 +75,17 @@ void require_facing(const Model& model, const std::string& where, const Workspac
   }
 }
 
-/// All open joints, the largest gaps first, in one message.
-std::string gaps_text(const std::vector<MarkerGap>& gaps) {
-  std::vector<std::string> texts;
-  for (const MarkerGap& gap : gaps)
-    texts.push_back(fmt::format("'{}' by {:.3g} and {:.3g} rad", gap.joint, gap.length, gap.angle));
-  return "Open joints: " + listed(texts);
-}
-
 /// Throws Error for the largest gap of joints and drives at the start, with all others.
-void require_met(const Model& model, const Violation& worst, double tolerance, const std::string& where,
-                 const Workspace& workspace) {
-  if (worst.value <= tolerance) return;
-  throw Error(fmt::format("joint '{}' is not met at the start: off by {:.3g} {} (initial_tolerance allows {:.3g}). {}",
-                          constraint_name(model, worst.row), worst.value, "of the characteristic length or radians",
-                          tolerance, gaps_text(marker_gaps(model, workspace.now))),
-              where,
-              "correct poses or markers; `initial: {<coordinate>: {value: ..}}` moves closed joints to a position, "
-              "`analysis: assembly` closes open ones; or raise initial_tolerance to let the program move the bodies");
+void require_met(const Model& model, const formats::Scene& scene, const Violation& worst, const Workspace& workspace) {
+  if (worst.value <= scene.initial_tolerance) return;
+  throw Error(
+      fmt::format(
+          "joint '{}' is not met at the start: off by {:.3g} {} (initial_tolerance allows {:.3g}). Open joints: {}",
+          constraint_name(model, worst.row), worst.value, "of the characteristic length or radians",
+          scene.initial_tolerance, gaps_text(marker_gaps(model, workspace.now), "")),
+      scene.file,
+      "correct poses or markers; `initial: {<coordinate>: {value: ..}}` moves closed joints to a position, "
+      "`analysis: assembly` closes open ones; or raise initial_tolerance to let the program move the bodies");
 }
 
 /// Massless bodies that nothing moves have no equation.
@@ -109,17 +107,14 @@ double move_to_values(const formats::Scene& scene, BuiltModel& built, Workspace&
   Eigen::VectorXd undriven = workspace.now.constraint;
   for (const Coupling& coupling : model.couplings)
     if (coupling.motion >= 0) undriven[coupling.row] = 0.0;
-  require_met(model, largest_violation(model, undriven), scene.initial_tolerance, scene.file, workspace);
+  require_met(model, scene, largest_violation(model, undriven), workspace);
   const State before = state;
-  const AssemblyReport assembly = assemble(model, built.initial, value_tolerance, {}, state, workspace.now);
-  if (!assembly.closed) {
-    std::vector<std::string> open;
-    for (const JointGap& gap : assembly.open)
-      open.push_back(fmt::format("'{}' by {:.3g} and {:.3g} rad", gap.name, gap.length, gap.angle));
-    throw Error(fmt::format("no position of the bodies has the initial values: open stay {}", listed(open)), scene.file,
-                "give values that joints and drives allow, or fewer of them");
-  }
-  set_written_velocities(built, state);
+  const AssemblyReport assembly = assemble(model, {value_tolerance, built.initial}, state, workspace.now);
+  if (!assembly.closed)
+    throw Error(
+        fmt::format("no position of the bodies has the initial values: open stay {}", gaps_text(assembly.open, "")),
+        scene.file, "give values that joints and drives allow, or fewer of them");
+  set_written_velocities(built);
   return (state.x() - before.x()).colwise().norm().maxCoeff();
 }
 
@@ -145,22 +140,31 @@ double contradiction_limit(const formats::Scene& scene) {
   return driven && !rates ? std::numeric_limits<double>::infinity() : scene.initial_tolerance;
 }
 
-}  // namespace
+/// Regularises massless directions with its square times the stiffness; statics has no step of its own.
+double regularising_step(const formats::Scene& scene) {
+  return scene.analysis == formats::AnalysisKind::dynamics ? scene.integrator.step : 1e-3;
+}
 
-double project_initial_positions(const Model& model, double tolerance, double step, const std::string& where,
-                                 State& state, Workspace& workspace) {
+/// Factors the weights of a projection at the evaluated state.
+void factor_projection(const Model& model, const formats::Scene& scene, const State& state, Workspace& workspace) {
+  const double step = regularising_step(scene);
+  require_factors(model, workspace.matrix.factor(model, state, weighted(1.0, 0.0, step * step), workspace.now),
+                  scene.file);
+}
+
+/// Moves positions onto the constraints in the mass norm; returns what it corrected. Throws Error that names joint and
+/// equation if that is more than the tolerance of the scene.
+double project_positions(const Model& model, const formats::Scene& scene, State& state, Workspace& workspace) {
   double corrected = 0.0;
   for (int iteration = 0;; ++iteration) {
     evaluate(model, state, workspace.now);
     const Violation worst = largest_violation(model, workspace.now.constraint);
     if (iteration == 0) {
       corrected = worst.value;
-      require_met(model, worst, tolerance, where, workspace);
+      require_met(model, scene, worst, workspace);
     }
     if (worst.value <= 1e-14 || iteration == 20) break;
-    require_factors(
-        model, workspace.matrix.factor(model, state, {{1.0, 0.0, step * step}, TangentKind::step, {}}, workspace.now),
-        where);
+    factor_projection(model, scene, state, workspace);
     workspace.matrix.solve_projection(model, -workspace.now.constraint, workspace.now);
     const State before = state;
     retract(model, before, workspace.matrix.correction, state);
@@ -170,34 +174,30 @@ double project_initial_positions(const Model& model, double tolerance, double st
   if (!(left.value <= 1e-9))
     throw Error(fmt::format("the joints cannot be closed: '{}' stays open by {:.3g}", constraint_name(model, left.row),
                             left.value),
-                where, "correct the poses of the bodies");
-  require_facing(model, where, workspace);
+                scene.file, "correct the poses of the bodies");
+  require_facing(model, scene.file, workspace);
   return corrected;
 }
 
-double project_initial_velocities(const Model& model, double tolerance, double step, const std::string& where,
-                                  State& state, Workspace& workspace) {
+/// The same for velocities, at positions on the constraints.
+double project_velocities(const Model& model, const formats::Scene& scene, State& state, Workspace& workspace) {
   evaluate(model, state, workspace.now);
   const double velocity = largest_velocity(model, state);
   const Violation worst = largest_violation(model, workspace.now.constraint_rate);
   const double corrected = velocity > 0.0 ? worst.value / velocity : 0.0;
-  if (!(corrected <= tolerance))
+  if (!(corrected <= scene.initial_tolerance))
     throw Error(
         fmt::format(
             "initial velocities violate joint '{}': {:.3g} of the largest velocity (initial_tolerance allows {:.3g})",
-            constraint_name(model, worst.row), corrected, tolerance),
-        where, "give velocities that agree with the joints");
+            constraint_name(model, worst.row), corrected, scene.initial_tolerance),
+        scene.file, "give velocities that agree with the joints");
   if (worst.value > 0.0) {
-    require_factors(
-        model, workspace.matrix.factor(model, state, {{1.0, 0.0, step * step}, TangentKind::step, {}}, workspace.now),
-        where);
+    factor_projection(model, scene, state, workspace);
     workspace.matrix.solve_projection(model, -workspace.now.constraint_rate, workspace.now);
     state.v() += workspace.matrix.correction;
   }
   return corrected;
 }
-
-namespace {
 
 /// Norm of the multipliers of joints with friction: those that forces depend on.
 double rubbing_part(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& multipliers) {
@@ -209,6 +209,37 @@ double rubbing_part(const Model& model, const Eigen::Ref<const Eigen::VectorXd>&
   return std::sqrt(square);
 }
 
+/// a_0 = v̇_0 + (α_m − α_f) h v̈_0 with v̈_0 by differences along the motion [ABC15]: the start that gives multipliers of
+/// order 2. Needs consistent v̇.
+void start_algorithmic_acceleration(const Model& model, const formats::Scene& scene, State& state,
+                                    Workspace& workspace) {
+  const AlphaParameters alpha = alpha_parameters(scene.integrator);
+  const double step = scene.integrator.step, shift = alpha.alpha_m - alpha.alpha_f;
+  state.algorithmic() = state.vdot();
+  state.step() = step;
+  if (shift == 0.0) return;
+  double epsilon = 1e-3 * step;  // on this side of the next jump
+  if (const auto next = std::ranges::upper_bound(model.breakpoints, state.load_time()); next != model.breakpoints.end())
+    epsilon = std::min(epsilon, 0.5 * (*next - state.load_time()));
+  State ahead = state;
+  ahead.time() += epsilon;
+  ahead.load_time() += epsilon;
+  const Eigen::VectorXd d = epsilon * state.v() + 0.5 * epsilon * epsilon * state.vdot();
+  retract(model, state, d, ahead);
+  ahead.v() += epsilon * state.vdot();
+  evaluate(model, ahead, workspace.now);
+  evaluate_bias(model, workspace.now);
+  // With M + h/2 C + h²/4 K in place of M: equal to it up to O(h) where the step resolves the motion; elsewhere the
+  // rate of the acceleration would grow with the frequency squared and mean nothing.
+  const FactorReport factors =
+      workspace.matrix.factor(model, ahead, weighted(1.0, 0.5 * step, 0.25 * step * step), workspace.now);
+  require_factors(model, factors, scene.file);
+  apply_jacobian(model, workspace.now, ahead.vdot(), workspace.matrix.rows);
+  workspace.matrix.rows = -workspace.now.bias - workspace.matrix.rows;
+  workspace.matrix.solve_increment(model, workspace.matrix.rows, workspace.now);
+  state.algorithmic() += (shift * step / epsilon) * workspace.matrix.increment;
+}
+
 }  // namespace
 
 bool solve_accelerations(const Model& model, double step, const std::string& where, State& state,
@@ -216,10 +247,10 @@ bool solve_accelerations(const Model& model, double step, const std::string& whe
   state.vdot().setZero();
   state.lambda().setZero();
   evaluate(model, state, workspace.now);
-  FactorReport factors = workspace.matrix.factor(model, state, {{1.0, 0.0, 0.0}, TangentKind::step, {}}, workspace.now);
+  FactorReport factors = workspace.matrix.factor(model, state, weighted(1.0, 0.0, 0.0), workspace.now);
   const bool massless = !factors.regular || factors.reciprocal_condition < massless_condition;
   if (massless) {
-    factors = workspace.matrix.factor(model, state, {{1.0, 0.0, step * step}, TangentKind::step, {}}, workspace.now);
+    factors = workspace.matrix.factor(model, state, weighted(1.0, 0.0, step * step), workspace.now);
     require_factors(model, factors, where);
   }
   // With friction the forces depend on the multipliers: Newton's iteration, otherwise one refinement.
@@ -229,9 +260,7 @@ bool solve_accelerations(const Model& model, double step, const std::string& whe
     if (refinement > 0) evaluate(model, state, workspace.now);
     if (refinement > 0 && rubs)
       require_factors(
-          model,
-          workspace.matrix.factor(model, state, {{1.0, 0.0, massless ? step * step : 0.0}, TangentKind::step, {}},
-                                  workspace.now),
+          model, workspace.matrix.factor(model, state, weighted(1.0, 0.0, massless ? step * step : 0.0), workspace.now),
           where);
     evaluate_bias(model, workspace.now);
     apply_jacobian(model, workspace.now, state.vdot(), workspace.matrix.rows);
@@ -253,40 +282,11 @@ bool solve_accelerations(const Model& model, double step, const std::string& whe
   return massless;
 }
 
-void start_algorithmic_acceleration(const Model& model, double shift, double step, const std::string& where,
-                                    State& state, Workspace& workspace) {
-  state.algorithmic() = state.vdot();
-  state.step() = step;
-  if (shift == 0.0) return;
-  double epsilon = 1e-3 * step;  // on this side of the next jump
-  if (const auto next = std::ranges::upper_bound(model.breakpoints, state.load_time()); next != model.breakpoints.end())
-    epsilon = std::min(epsilon, 0.5 * (*next - state.load_time()));
-  State ahead = state;
-  ahead.time() += epsilon;
-  ahead.load_time() += epsilon;
-  const Eigen::VectorXd d = epsilon * state.v() + 0.5 * epsilon * epsilon * state.vdot();
-  retract(model, state, d, ahead);
-  ahead.v() += epsilon * state.vdot();
-  evaluate(model, ahead, workspace.now);
-  evaluate_bias(model, workspace.now);
-  // With M + h/2 C + h²/4 K in place of M: equal to it up to O(h) where the step resolves the motion; elsewhere the
-  // rate of the acceleration would grow with the frequency squared and mean nothing.
-  const FactorReport factors = workspace.matrix.factor(
-      model, ahead, {{1.0, 0.5 * step, 0.25 * step * step}, TangentKind::step, {}}, workspace.now);
-  require_factors(model, factors, where);
-  apply_jacobian(model, workspace.now, ahead.vdot(), workspace.matrix.rows);
-  workspace.matrix.rows = -workspace.now.bias - workspace.matrix.rows;
-  workspace.matrix.solve_increment(model, workspace.matrix.rows, workspace.now);
-  state.algorithmic() += (shift * step / epsilon) * workspace.matrix.increment;
-}
-
 StartReport start(const formats::Scene& scene, StartFrom from, BuiltModel& built, Workspace& workspace) {
   const Model& model = built.model;
   State& state = built.state;
   const std::string& where = scene.file;
   const bool dynamics = scene.analysis == formats::AnalysisKind::dynamics;
-  // Only regularises massless directions, where statics has no step of its own.
-  const double step = dynamics ? scene.integrator.step : 1e-3;
   StartReport report;
   if (from == StartFrom::poses) report.moved = move_to_values(scene, built, workspace);
   report.mobility = count_mobility(model, state, workspace.now);
@@ -294,20 +294,18 @@ StartReport start(const formats::Scene& scene, StartFrom from, BuiltModel& built
   std::ranges::move(number_doubts(scene, model, workspace.now), std::back_inserter(report.preflight.doubts));
   require_determined(model, where, state, workspace);
   for (const int row : report.mobility.redundant) state.active()[row] = 0.0;
-  report.projection.position = project_initial_positions(model, scene.initial_tolerance, step, where, state, workspace);
+  report.projection.position = project_positions(model, scene, state, workspace);
   if (scene.analysis == formats::AnalysisKind::statics) {  // at rest, or in a steady rotation of its own
     state.v().setZero();
     return report;
   }
-  report.velocities = derive_velocities(built, from, contradiction_limit(scene), where, state, workspace.now);
-  report.projection.velocity =
-      project_initial_velocities(model, scene.initial_tolerance, step, where, state, workspace);
-  if (from == StartFrom::poses) require_followers(built, scene.initial_tolerance, where, state, workspace.now);
+  report.velocities = derive_velocities(built, from, contradiction_limit(scene), where, workspace.now);
+  report.projection.velocity = project_velocities(model, scene, state, workspace);
+  if (from == StartFrom::poses) require_followers(built, scene.initial_tolerance, where, workspace.now);
   if (!dynamics) return report;
   settle_treads(model, state, workspace);
-  report.massless = solve_accelerations(model, step, where, state, workspace);
-  const AlphaParameters alpha = alpha_parameters(scene.integrator);
-  start_algorithmic_acceleration(model, alpha.alpha_m - alpha.alpha_f, step, where, state, workspace);
+  report.massless = solve_accelerations(model, scene.integrator.step, where, state, workspace);
+  start_algorithmic_acceleration(model, scene, state, workspace);
   begin(model, state, workspace);
   return report;
 }
@@ -343,10 +341,8 @@ void pass_breakpoint(const Model& model, const formats::Scene& scene, State& sta
   workspace.memory.predictor.forget();
   state.load_time() = state.time() + side;
   solve_accelerations(model, scene.integrator.step, scene.file, state, workspace);
-  const AlphaParameters alpha = alpha_parameters(scene.integrator);
   const double step = state.step();  // to which the velocities belong (index 3)
-  start_algorithmic_acceleration(model, alpha.alpha_m - alpha.alpha_f, scene.integrator.step, scene.file, state,
-                                 workspace);
+  start_algorithmic_acceleration(model, scene, state, workspace);
   rebuild_algorithmic_acceleration(step, state);
   evaluate(model, state, workspace.now);
   state.load_power() = workspace.now.load_power;

@@ -21,24 +21,10 @@ struct Projection {
   double velocity = 0.0;
 };
 
-/// Moves positions onto the constraints in the mass norm; returns what it corrected. Throws Error that names joint and
-/// equation if that is more than `tolerance`. `step`: regularises massless directions with step² times the stiffness.
-double project_initial_positions(const Model& model, double tolerance, double step, const std::string& where,
-                                 State& state, Workspace& workspace);
-
-/// The same for velocities, at positions on the constraints.
-double project_initial_velocities(const Model& model, double tolerance, double step, const std::string& where,
-                                  State& state, Workspace& workspace);
-
 /// v̇ and λ from [M Bᵀ; B 0][v̇; λ] = [F − G; −Ḃ v]. A singular mass matrix is regularised with step² times the stiffness
 /// (its massless directions are in static equilibrium then); returns whether it was. Throws Error that names a
 /// direction without mass, stiffness and constraint.
 bool solve_accelerations(const Model& model, double step, const std::string& where, State& state, Workspace& workspace);
-
-/// a_0 = v̇_0 + (α_m − α_f) h v̈_0 with v̈_0 by differences along the motion [ABC15]: the start that gives multipliers of
-/// order 2. Needs consistent v̇.
-void start_algorithmic_acceleration(const Model& model, double shift, double step, const std::string& where,
-                                    State& state, Workspace& workspace);
 
 struct StartReport {
   Mobility mobility;
@@ -49,8 +35,8 @@ struct StartReport {
   double moved = 0.0;     ///< largest displacement of a node by initial values
 };
 
-/// All of the above, with rows that others imply made inactive, for the analysis of the scene: initial values move the
-/// bodies rigidly, free velocities are derived (statics has none), then both are projected; dynamics: also the
+/// The start of a scene, with rows that others imply made inactive, for the analysis of the scene: initial values move
+/// the bodies rigidly, free velocities are derived (statics has none), then both are projected; dynamics: also the
 /// consistent start and energies counted from here. Initial values move `poses` alone.
 StartReport start(const formats::Scene& scene, StartFrom from, BuiltModel& built, Workspace& workspace);
 

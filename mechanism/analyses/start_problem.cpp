@@ -11,15 +11,13 @@
 namespace tisserand::mechanism {
 namespace {
 
-Eigen::Quaterniond quaternion_of(const Eigen::Vector4d& Q) { return {Q[0], Q[1], Q[2], Q[3]}; }
-
 /// How a body has turned, also where its first node owns no rotation.
 Eigen::Quaterniond body_rotation(const Model& model, const State& state, int node) {
   if (model.nodes[node].rotation < 0)
     for (std::size_t i = 0; i < model.superelements.size(); ++i)
       if (model.superelements[i].nodes.front() == node)
-        return quaternion_of(state.frames().col(static_cast<Eigen::Index>(i)));
-  return quaternion_of(state.Q().col(node));
+        return quaternion(state.frames().col(static_cast<Eigen::Index>(i)));
+  return quaternion(state.Q().col(node));
 }
 
 /// B at the state of the last evaluate(), with evaluate_coordinates().
@@ -31,10 +29,9 @@ StartMatrix start_rows(const StartProblem& problem, const Evaluation& evaluation
                    [&](int j, double value) { entries.emplace_back(row, j, start_row_scale(problem, row) * value); });
   };
   for_each_row(model, evaluation, add);
-  for (std::size_t i = 0; i < problem.rates.size(); ++i) {
+  for (int i = 0; i < std::ssize(problem.rates); ++i) {
     const int at = problem.rates[i]->coordinate;
-    add(model.sizes.constraints + static_cast<int>(i), model.coordinates.maps[at], nullptr,
-        evaluation.coordinates[at].G);
+    add(model.sizes.constraints + i, model.coordinates.maps[at], nullptr, evaluation.coordinates[at].G);
   }
   StartMatrix B(problem.rows(), model.sizes.boundary);
   B.setFromTriplets(entries.begin(), entries.end());
@@ -77,7 +74,7 @@ StartMatrix rigid_motions(const Model& model, const Parts& parts, const std::vec
     const auto at = static_cast<Eigen::Index>(i);
     const int part = parts.of_node[i];
     const Eigen::Matrix3d turn = -skew<double>(Eigen::Vector3d(state.x().col(at) - starts[part].point));
-    const Eigen::Matrix3d R = quaternion_of(state.Q().col(at)).toRotationMatrix();
+    const Eigen::Matrix3d R = quaternion(state.Q().col(at)).toRotationMatrix();
     for (int k = 0; k < 3; ++k) {
       const int moved = coordinate_of(model, node, k), turned = coordinate_of(model, node, 3 + k);
       if (moved >= 0) entries.emplace_back(moved, 6 * part + k, model.length);
@@ -93,15 +90,12 @@ StartMatrix rigid_motions(const Model& model, const Parts& parts, const std::vec
 }
 
 StartMatrix boundary_block(const Model& model, const MatrixValues& matrix) {
-  const SparsePattern& pattern = *model.pattern;
   StartTriplets entries;
   for (int j = 0; j < model.sizes.boundary; ++j)
-    for (int at = pattern.column_start()[j]; at < pattern.column_start()[j + 1]; ++at) {
-      const int i = pattern.rows()[at];
-      if (i >= model.sizes.boundary) continue;
-      const double value = matrix.values[pattern.slot(i, j)];
-      if (value != 0.0) entries.emplace_back(i, j, matrix.scale * value);
-    }
+    model.pattern->for_each_in(j, [&](int i, int slot) {
+      const double value = matrix.values[slot];
+      if (i < model.sizes.boundary && value != 0.0) entries.emplace_back(i, j, matrix.scale * value);
+    });
   StartMatrix block(model.sizes.boundary, model.sizes.boundary);
   block.setFromTriplets(entries.begin(), entries.end());
   return block;

@@ -62,9 +62,9 @@ double largest_entry(const Eigen::VectorXd& values) { return values.size() > 0 ?
 /// Components of w that may change.
 std::vector<int> free_motions(const StartProblem& problem) {
   std::vector<int> free;
-  for (std::size_t i = 0; i < problem.starts.size(); ++i)
+  for (int i = 0; i < std::ssize(problem.starts); ++i)
     for (int k = 0; k < 6; ++k)
-      if (!problem.starts[i].given[k]) free.push_back(6 * static_cast<int>(i) + k);
+      if (!problem.starts[i].given[k]) free.push_back(6 * i + k);
   return free;
 }
 
@@ -177,8 +177,8 @@ std::string differences_text(const StartProblem& problem, const StartSolution& n
   const double shown = 1e-6 * std::max(largest_entry(problem.w), largest_entry(problem.c));
   std::vector<std::string> texts;
   const Eigen::VectorXd rates = problem.J * nearest.w + problem.B * nearest.d;
-  for (std::size_t i = 0; i < problem.rates.size(); ++i) {
-    const int row = model.sizes.constraints + static_cast<int>(i);
+  for (int i = 0; i < std::ssize(problem.rates); ++i) {
+    const int row = model.sizes.constraints + i;
     const double gap = rates[row] - problem.c[row];
     if (std::abs(gap) > shown)
       texts.push_back(fmt::format("'{}' has the rate {:.6g}, not {:.6g}", problem.rates[i]->name,
@@ -267,7 +267,8 @@ StartVelocities told(const StartProblem& problem, const Deformations* deformatio
   return told;
 }
 
-void set_given_velocities(const BuiltModel& built, StartFrom from, State& state) {
+void set_given_velocities(StartFrom from, BuiltModel& built) {
+  State& state = built.state;
   const Parts parts = find_parts(built.model);
   const std::vector<PartStart> starts = part_starts(built, from, parts, state);
   Eigen::VectorXd w(6 * static_cast<Eigen::Index>(starts.size()));
@@ -278,14 +279,13 @@ void set_given_velocities(const BuiltModel& built, StartFrom from, State& state)
 
 }  // namespace
 
-void set_written_velocities(const BuiltModel& built, State& state) {
-  set_given_velocities(built, StartFrom::poses, state);
-}
+void set_written_velocities(BuiltModel& built) { set_given_velocities(StartFrom::poses, built); }
 
-StartVelocities derive_velocities(const BuiltModel& built, StartFrom from, double tolerance, const std::string& where,
-                                  State& state, Evaluation& evaluation) {
+StartVelocities derive_velocities(BuiltModel& built, StartFrom from, double tolerance, const std::string& where,
+                                  Evaluation& evaluation) {
+  State& state = built.state;
   if (from == StartFrom::motion) return {};
-  if (std::ranges::any_of(built.starts, &BodyStart::kept)) set_given_velocities(built, from, state);
+  if (std::ranges::any_of(built.starts, &BodyStart::kept)) set_given_velocities(from, built);
   const State rest = resting(built.model, state, evaluation);
   StartProblem problem = start_problem(built, from, rest, evaluation);
   const double scale = std::max(largest_entry(problem.w), largest_entry(problem.c));
@@ -309,11 +309,10 @@ StartVelocities derive_velocities(const BuiltModel& built, StartFrom from, doubl
   return told(problem, rigid ? nullptr : &deformations, solution);
 }
 
-void require_followers(const BuiltModel& built, double tolerance, const std::string& where, const State& state,
-                       Evaluation& evaluation) {
+void require_followers(const BuiltModel& built, double tolerance, const std::string& where, Evaluation& evaluation) {
   for (const BodyStart& body : built.starts) {
     if (!body.follows || (!body.velocity && !body.angular_velocity)) continue;
-    evaluate(built.model, state, evaluation);
+    evaluate(built.model, built.state, evaluation);
     update_modal_nodes(built.model, evaluation);
     const NodeMotion& carrier = motion_of(evaluation, body.origin.node);
     const Eigen::Vector3d omega = carrier.R * carrier.Omega;
@@ -321,8 +320,8 @@ void require_followers(const BuiltModel& built, double tolerance, const std::str
     const double gap = body.velocity ? (*body.velocity - velocity).norm() : 0.0;
     const double turn = body.angular_velocity ? (*body.angular_velocity - omega).norm() : 0.0;
     const double scale =
-        std::max({largest_entry(state.v()), velocity.norm(), omega.norm(), body.velocity.value_or(velocity).norm(),
-                  body.angular_velocity.value_or(omega).norm()});
+        std::max({largest_entry(built.state.v()), velocity.norm(), omega.norm(),
+                  body.velocity.value_or(velocity).norm(), body.angular_velocity.value_or(omega).norm()});
     if (std::max(gap, turn) <= std::max(tolerance, motion_found) * scale) continue;
     throw Error(fmt::format("virtual body '{}' is given velocities that differ by {:.3g} and {:.3g} rad per time from "
                             "those of what fixed joints tie it to",

@@ -25,8 +25,8 @@ struct StartVelocities {
   double deformation = 0.0;            ///< part of it in which bodies deform
 };
 
-/// State velocities of bodies as written, absent ones zero, at the present positions.
-void set_written_velocities(const BuiltModel& built, State& state);
+/// Sets the velocities of bodies as written, absent ones zero, at the present positions.
+void set_written_velocities(BuiltModel& built);
 
 /// Finds the free velocities. Bodies move as rigid ones [v of a point; ω], w, and
 ///   ½ (w − w₀)ᵀ M (w − w₀) is the least that agrees with B v = −Φ_t and the rates that `initial` gives;
@@ -39,11 +39,10 @@ void set_written_velocities(const BuiltModel& built, State& state);
 ///
 /// Throws Error, with the gap and the bodies and entries that it takes to close it, if given velocities, rates and
 /// drives contradict each other by more than `tolerance` of the largest velocity.
-StartVelocities derive_velocities(const BuiltModel& built, StartFrom from, double tolerance, const std::string& where,
-                                  State& state, Evaluation& evaluation);
+StartVelocities derive_velocities(BuiltModel& built, StartFrom from, double tolerance, const std::string& where,
+                                  Evaluation& evaluation);
 
 /// Throws Error where an eliminated virtual body is given a velocity that its carrier does not give it.
-void require_followers(const BuiltModel& built, double tolerance, const std::string& where, const State& state,
-                       Evaluation& evaluation);
+void require_followers(const BuiltModel& built, double tolerance, const std::string& where, Evaluation& evaluation);
 
 }  // namespace tisserand::mechanism

@@ -36,10 +36,14 @@ bool internal_balance(const Model& model, const Workspace& workspace, double lea
   return true;
 }
 
-/// While it lives tangents hold tyres where they stand.
+/// Brings a state to rest; while it lives tangents hold tyres where they stand.
 class Standing {
  public:
-  explicit Standing(Evaluation& evaluation) : evaluation_(evaluation) { evaluation_.standing = true; }
+  Standing(State& state, Evaluation& evaluation) : evaluation_(evaluation) {
+    state.v().setZero();
+    state.vdot().setZero();
+    evaluation_.standing = true;
+  }
   ~Standing() { evaluation_.standing = false; }
   Standing(const Standing&) = delete;
   Standing& operator=(const Standing&) = delete;
@@ -59,8 +63,8 @@ std::string free_direction(const Model& model, const State& state, Workspace& wo
 }
 
 /// Whether forces and constraints of the last evaluate() balance.
-bool in_balance(const Model& model, const formats::StaticsSpec& options, const State& state, const Workspace& workspace,
-                StaticsReport& report) {
+bool in_balance(EquilibriumSearch& search) {
+  auto& [model, options, interrupted, state, workspace, report] = search;
   report.residual = largest_residual(model, workspace);
   report.constraint = largest_of(workspace.now.constraint);
   const double internal =
@@ -71,11 +75,11 @@ bool in_balance(const Model& model, const formats::StaticsSpec& options, const S
 }
 
 /// Newton's iteration for one load factor.
-StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
-                        State& state, Workspace& workspace, StaticsReport& report) {
+StepOutcome equilibrate(EquilibriumSearch& search) {
+  auto& [model, options, interrupted, state, workspace, report] = search;
   for (int iteration = 0;; ++iteration) {
     evaluate(model, state, workspace.now);
-    const bool balanced = in_balance(model, options, state, workspace, report);
+    const bool balanced = in_balance(search);
     if (iteration > 0 && balanced) return StepOutcome::accepted;
     if (!std::isfinite(report.residual)) return StepOutcome::diverged;
     report.interrupted = interrupted && interrupted();
@@ -124,34 +128,45 @@ void judge(const Model& model, const State& state, Evaluation& evaluation, Stati
 }
 
 /// From the present state to an equilibrium without negative directions, under the whole load.
-bool descend(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted, State& state,
-             Workspace& workspace, StaticsReport& report, std::string& direction) {
-  workspace.now.load_factor = 1.0;
+DescentReport descend(EquilibriumSearch& search) {
+  search.workspace.now.load_factor = 1.0;
   const DescentReport descent = descend(
-      model, [&] { return in_balance(model, options, state, workspace, report); }, interrupted, state, workspace.now);
-  report.descents += descent.iterations;
-  report.iterations += descent.iterations;
-  direction = descent.direction;
-  return descent.found;
+      search.model, [&] { return in_balance(search); }, search.interrupted, search.state, search.workspace.now);
+  search.report.descents += descent.iterations;
+  search.report.iterations += descent.iterations;
+  return descent;
 }
 
-}  // namespace
-
-Settled settle_under_load(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
-                          State& state, Workspace& workspace) {
-  const std::string free = free_motion(model, options, state, workspace);
-  if (free.empty() || options.rotation) return {free};
-  const Standing standing(workspace.now);
-  state.v().setZero();
-  state.vdot().setZero();
-  const State begin = state;
-  StaticsReport report;
-  std::string direction;
-  if (descend(model, options, interrupted, state, workspace, report, direction)) return {{}, report.descents};
-  state.block() = begin.block();
-  return {direction.empty() ? free : direction};
+/// From zero to the whole of loads and gravity (the evaluation's load factor) in load steps, which are halved where no
+/// equilibrium is found; an outcome other than accepted is explained in the report. Ends with a load factor of one.
+void ramp_loads(EquilibriumSearch& search) {
+  auto& [model, options, interrupted, state, workspace, report] = search;
+  double reached = 0.0;
+  double size = 1.0 / std::max(1, options.load_steps);
+  int halvings = 0;
+  constexpr int most_halvings = 12;
+  constexpr double round_off = 1e-12;  // of a sum of load steps: ten of 0.1 are less than 1
+  while (reached < 1.0) {
+    const State before = state;
+    workspace.now.load_factor = reached + size < 1.0 - round_off ? reached + size : 1.0;
+    report.outcome = options.rotation ? balance_turning(search) : equilibrate(search);
+    if (report.outcome == StepOutcome::accepted) {
+      reached = workspace.now.load_factor;
+      accept_equilibrium(model, state, workspace.now);
+      ++report.load_steps;
+      if (!options.rotation) judge(model, state, workspace.now, report);
+      continue;
+    }
+    state = before;
+    if (report.interrupted || report.outcome == StepOutcome::singular || ++halvings > most_halvings) break;
+    size *= 0.5;
+  }
+  workspace.now.load_factor = 1.0;
+  explain_statics(reached, size, report);
 }
 
+/// The joint coordinate, or the node, that moves most in a motion of the state that nothing holds, or empty: of the
+/// state at rest, or in the steady rotation of the options, in which centrifugal forces hold too.
 std::string free_motion(const Model& model, const formats::StaticsSpec& options, State state, Workspace& workspace) {
   // Dense matrices: larger scenes are told by the equation at which the sparse factors fail, or while they are solved.
   constexpr int most_named = 600;
@@ -160,9 +175,7 @@ std::string free_motion(const Model& model, const formats::StaticsSpec& options,
     const std::string turn = free_turn_name(model, *options.rotation, state, workspace.now);
     return turn.empty() && small ? free_motion_name(model, *options.rotation, state, workspace.now) : turn;
   }
-  const Standing standing(workspace.now);
-  state.v().setZero();
-  state.vdot().setZero();
+  const Standing standing(state, workspace.now);
   evaluate(model, state, workspace.now);
   const std::string direction = free_direction(model, state, workspace);
   if (direction.empty() || !small) return direction;
@@ -170,52 +183,37 @@ std::string free_motion(const Model& model, const formats::StaticsSpec& options,
   return name.empty() ? direction : name;
 }
 
-void ramp_loads(const Model& model, const formats::StaticsSpec& options, State& state, Evaluation& evaluation,
-                StaticsReport& report, const std::function<StepOutcome()>& solve) {
-  double reached = 0.0;
-  double size = 1.0 / std::max(1, options.load_steps);
-  int halvings = 0;
-  constexpr double round_off = 1e-12;  // of a sum of load steps: ten of 0.1 are less than 1
-  while (reached < 1.0) {
-    const State before = state;
-    evaluation.load_factor = reached + size < 1.0 - round_off ? reached + size : 1.0;
-    report.outcome = solve();
-    if (report.outcome == StepOutcome::accepted) {
-      reached = evaluation.load_factor;
-      accept_equilibrium(model, state, evaluation);
-      ++report.load_steps;
-      if (!options.rotation) judge(model, state, evaluation, report);
-      continue;
-    }
-    state = before;
-    if (report.interrupted || report.outcome == StepOutcome::singular || ++halvings > most_halvings) break;
-    size *= 0.5;
-  }
-  evaluation.load_factor = 1.0;
-  explain_statics(reached, size, report);
-}
+}  // namespace
 
-StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, State& state,
-                            Workspace& workspace) {
-  return solve_statics(model, options, {}, state, workspace);
+Settled settle_under_load(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
+                          State& state, Workspace& workspace) {
+  const std::string free = free_motion(model, options, state, workspace);
+  if (free.empty() || options.rotation) return {free};
+  const Standing standing(state, workspace.now);
+  const State begin = state;
+  EquilibriumSearch search{model, options, interrupted, state, workspace};
+  const DescentReport descent = descend(search);
+  if (descent.found) return {{}, descent.iterations};
+  state.block() = begin.block();
+  return {descent.direction.empty() ? free : descent.direction};
 }
 
 StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
                             State& state, Workspace& workspace) {
-  if (options.rotation) return solve_steady_rotation(model, options, interrupted, state, workspace.now);
-  StaticsReport report;
-  const Standing standing(workspace.now);
-  state.v().setZero();
-  state.vdot().setZero();
-  ramp_loads(model, options, state, workspace.now, report,
-             [&] { return equilibrate(model, options, interrupted, state, workspace, report); });
+  EquilibriumSearch search{model, options, interrupted, state, workspace};
+  StaticsReport& report = search.report;
+  if (options.rotation) {
+    ramp_loads(search);
+    return report;
+  }
+  const Standing standing(state, workspace.now);
+  ramp_loads(search);
   const bool failed = report.outcome == StepOutcome::diverged || report.outcome == StepOutcome::too_many_iterations;
   // Where Newton's iteration finds none, as from a slack cable, or the equilibrium is to be stable.
   // Singular on the way: load steps were halved until no load was left that holds the scene.
   const bool lost = failed || (report.outcome == StepOutcome::singular && report.iterations > 0);
   if (!report.interrupted && (lost || (options.stable && report.stability.unstable > 0))) {
-    std::string direction;
-    if (descend(model, options, interrupted, state, workspace, report, direction)) {
+    if (descend(search).found) {
       accept_equilibrium(model, state, workspace.now);
       report.outcome = StepOutcome::accepted;
       report.load_steps += lost;

@@ -18,9 +18,6 @@ using Interrupt = std::function<bool()>;
 
 /// A stiffness matrix with a smaller reciprocal condition (after scaling) leaves a rigid motion free.
 inline constexpr double free_motion_condition = 1e-14;
-/// Of a load step.
-inline constexpr int most_halvings = 12;
-
 struct StaticsReport {
   StepOutcome outcome = StepOutcome::accepted;
   int iterations = 0;
@@ -35,9 +32,15 @@ struct StaticsReport {
   std::string explanation;     ///< of a failure: equation and likely cause
 };
 
-/// The joint coordinate, or the node, that moves most in a motion of the state that nothing holds, or empty: of the
-/// state at rest, or in the steady rotation of the options, in which centrifugal forces hold too.
-std::string free_motion(const Model& model, const formats::StaticsSpec& options, State state, Workspace& workspace);
+/// A search for equilibrium: of what, how, and what came of it.
+struct EquilibriumSearch {
+  const Model& model;
+  const formats::StaticsSpec& options;
+  const Interrupt& interrupted;
+  State& state;
+  Workspace& workspace;
+  StaticsReport report = {};
+};
 
 /// From a state that can move freely to the equilibrium in which the whole of loads and gravity holds it, as a pendulum
 /// hangs.
@@ -53,13 +56,5 @@ Settled settle_under_load(const Model& model, const formats::StaticsSpec& option
 /// freely is an outcome `singular` that names the direction.
 [[nodiscard]] StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options,
                                           const Interrupt& interrupted, State& state, Workspace& workspace);
-[[nodiscard]] StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, State& state,
-                                          Workspace& workspace);
-
-/// From zero to the whole of loads and gravity (the evaluation's load factor) in load steps: `solve` brings the state
-/// to equilibrium under the present factor. Load steps are halved where it fails; an outcome other than accepted is
-/// explained in the report. Ends with a load factor of one.
-void ramp_loads(const Model& model, const formats::StaticsSpec& options, State& state, Evaluation& evaluation,
-                StaticsReport& report, const std::function<StepOutcome()>& solve);
 
 }  // namespace tisserand::mechanism

@@ -43,43 +43,43 @@ Vector3d spin_of(const Evaluation& evaluation, int node, const Vector3d& omega) 
 
 std::vector<Internal> internal_coordinates(const Model& model, const Evaluation& evaluation, const Vector3d& omega) {
   std::vector<Internal> list;
-  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+  for (int i = 0; i < std::ssize(model.superelements); ++i) {
     Internal body{model.superelements[i].name, model.sizes.boundary + model.internal_offset[i], body_of(model, i).S_II,
-                  Vector3d::Zero(), static_cast<int>(i)};
+                  Vector3d::Zero(), i};
     for (const int node : model.superelements[i].nodes)
       if (const Vector3d spin = spin_of(evaluation, node, omega);
           model.nodes[node].rotation >= 0 && spin.norm() > body.spin.norm())
         body.spin = spin;
     list.push_back(body);
   }
-  for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
+  for (int i = 0; i < std::ssize(model.modal_bodies); ++i) {
     const ModalBody& body = model.modal_bodies[i];
     list.push_back({body.name, model.sizes.first_modal() + body.offset, body.stiffness,
-                    spin_of(evaluation, body.node, omega), -1, static_cast<int>(i)});
+                    spin_of(evaluation, body.node, omega), -1, i});
   }
   return list;
 }
 
 /// `time` later, if the state is steady in axes that turn with ω: positions and velocities turn with the axes, and each
-/// node spins on about its own place.
+/// node spins on about its own place. Floating frames are as they were.
 State moved_on(const Model& model, const State& state, const Vector3d& omega, double time,
-               const std::vector<Internal>& internal, const Evaluation& evaluation) {
+               const Evaluation& evaluation) {
   const Vector3d turn = omega * time;
   const Matrix3d Q = exp_so3(turn), W = skew(turn);
   const AngleFunctions<double> f(turn.squaredNorm());
   const Matrix3d along = time * (Matrix3d::Identity() + f.c * W + f.d * W * W);  // ∫ exp(ω~s) ds
   VectorXd step = VectorXd::Zero(model.sizes.velocities());
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+  for (int i = 0; i < std::ssize(model.nodes); ++i) {
     const Node& node = model.nodes[i];
     const NodeMotion& m = evaluation.motion[i];
     if (node.translation >= 0) set_translation(model, along * m.xd, node.translation, step);
     if (node.rotation < 0) continue;
-    const Vector3d own = spin_of(evaluation, static_cast<int>(i), omega) * time;
+    const Vector3d own = spin_of(evaluation, i, omega) * time;
     set_rotation(model, m.R.transpose() * log_so3<double>(Q * exp_so3(own)), node.rotation, step);
   }
   State later = state;
   retract(model, state, step, later);
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+  for (int i = 0; i < std::ssize(model.nodes); ++i) {
     const Node& node = model.nodes[i];
     const NodeMotion& m = evaluation.motion[i];
     if (node.translation >= 0) {
@@ -87,17 +87,10 @@ State moved_on(const Model& model, const State& state, const Vector3d& omega, do
       set_translation(model, Q * m.xdd, node.translation, later.vdot());
     }
     if (node.rotation < 0) continue;
-    const Vector3d own = spin_of(evaluation, static_cast<int>(i), omega) * time;
+    const Vector3d own = spin_of(evaluation, i, omega) * time;
     const Matrix3d back = m.R.transpose() * exp_so3<double>(-own) * m.R;  // R₂ᵀ Q R
     set_rotation(model, back * m.Omega, node.rotation, later.v());
     set_rotation(model, back * m.Omegad, node.rotation, later.vdot());
-  }
-  for (const Internal& body : internal) {
-    if (body.superelement < 0) continue;
-    const Eigen::Vector4d q = later.frames().col(body.superelement);
-    const Eigen::Quaterniond before(q[0], q[1], q[2], q[3]);
-    const Vector3d own = body.spin * time;
-    later.frames().col(body.superelement) = wxyz((Eigen::Quaterniond(Q * exp_so3(own)) * before).normalized());
   }
   return later;
 }
@@ -105,10 +98,7 @@ State moved_on(const Model& model, const State& state, const Vector3d& omega, do
 /// The multipliers that leave the least residual: those of rows whose directions turned with a body are others.
 void balance(const Linearisation& l, State& state) {
   if (l.B.rows() == 0) return;
-  const VectorXd change = l.B.transpose().completeOrthogonalDecomposition().solve(-l.r);
-  const std::vector<int> rows = active_rows(state);
-  for (std::size_t row = 0; row < rows.size(); ++row)
-    if (rows[row] >= 0) state.lambda()[static_cast<Eigen::Index>(row)] += change[rows[row]];
+  add_to_multipliers(l.B.transpose().completeOrthogonalDecomposition().solve(-l.r), state);
 }
 
 /// From coordinates and equations in world axes to axes that are turned by Q.
@@ -145,8 +135,8 @@ MatrixXd coupling(const Model& model, const Internal& body, const Linearisation&
   rows.topRows(model.sizes.boundary).array().colwise() *= model.equation_scale.head(model.sizes.boundary);
   if (body.modal < 0) return rows;
   const ModalBody& modal = model.modal_bodies[body.modal];
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    const int follower = modal_node(model, static_cast<int>(i));
+  for (int i = 0; i < std::ssize(model.nodes); ++i) {
+    const int follower = modal_node(model, i);
     if (follower < 0 || model.modal_nodes[follower].body != body.modal || !model.modal_nodes[follower].active) continue;
     const NodeMotion& node = evaluation.motion[i];
     const NodeMotion& frame = motion_of(evaluation, modal.node);
@@ -201,25 +191,31 @@ void take_in_axes(const Internal& body, const MatrixXd& E, const MatrixXd& Gamma
 
 FastestSpin fastest_spin(const Model& model, const Vector3d& omega, const Evaluation& evaluation) {
   FastestSpin fastest;
-  for (std::size_t i = 0; i < model.nodes.size(); ++i)
-    if (const Vector3d spin = spin_of(evaluation, static_cast<int>(i), omega);
+  for (int i = 0; i < std::ssize(model.nodes); ++i)
+    if (const Vector3d spin = spin_of(evaluation, i, omega);
         model.nodes[i].rotation >= 0 && spin.norm() > (1.0 + 1e-9) * fastest.spin.norm())
-      fastest = {spin, static_cast<int>(i)};
+      fastest = {spin, i};
   return fastest;
 }
 
-SteadyLinearisation linearise_steady(const Model& model, const State& state, const Vector3d& omega,
-                                     const FastestSpin& of_nodes, Linearisation now, Evaluation& evaluation) {
+SteadyLinearisation linearise_steady(const Model& model, const State& state, const Vector3d& omega, Linearisation now,
+                                     Evaluation& evaluation) {
   SteadyLinearisation steady;
   steady.now = std::move(now);
-  const double fastest = std::max(omega.norm(), of_nodes.spin.norm());
+  const double fastest = std::max(omega.norm(), fastest_spin(model, omega, evaluation).spin.norm());
   const double time = turned_by / fastest;
   const std::vector<Internal> internal = internal_coordinates(model, evaluation, omega);
-  State moved = moved_on(model, state, omega, time, internal, evaluation);
+  const Matrix3d Q = exp_so3<double>(omega * time);
+  State moved = moved_on(model, state, omega, time, evaluation);
+  for (const Internal& body : internal)
+    if (body.superelement >= 0) {
+      auto frame = moved.frames().col(body.superelement);
+      const Vector3d own = body.spin * time;
+      frame = wxyz((Eigen::Quaterniond(Q * exp_so3(own)) * quaternion(frame)).normalized());
+    }
   std::vector<MatrixXd> couplings;
   for (const Internal& body : internal)
     couplings.push_back(coupling(model, body, steady.now, Matrix3d::Identity(), evaluation));
-  const Matrix3d Q = exp_so3<double>(omega * time);
   balance(linearise(model, moved, omega, evaluation), moved);
   Linearisation later = linearise(model, moved, omega, evaluation);
   turn_axes(model, Q, later);

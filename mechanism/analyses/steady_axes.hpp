@@ -40,7 +40,7 @@ FastestSpin fastest_spin(const Model& model, const Eigen::Vector3d& omega, const
 
 /// Of `now`, which linearise() gave at `state` in axes that turn with ω and in which something spins or turns with ω.
 SteadyLinearisation linearise_steady(const Model& model, const State& state, const Eigen::Vector3d& omega,
-                                     const FastestSpin& fastest, Linearisation now, Evaluation& evaluation);
+                                     Linearisation now, Evaluation& evaluation);
 
 /// Largest change of an entry of `later` against `now`, relative to the mode of its row and that of its column. Both in
 /// the basis of graded_basis for the shift `s`; its `count` columns of most mass, the low modes, are compared.

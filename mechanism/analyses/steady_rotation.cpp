@@ -41,8 +41,9 @@ double internal_scale(const Model& model, const Evaluation& evaluation) {
 }
 
 /// What the iteration tests: largest force (moments over the length) and internal force against their scales.
-bool balanced(const Model& model, const formats::StaticsSpec& options, const State& state, const Linearisation& l,
-              const Evaluation& evaluation, StaticsReport& report) {
+bool is_balanced(const Linearisation& l, EquilibriumSearch& search) {
+  auto& [model, options, interrupted, state, workspace, report] = search;
+  const Evaluation& evaluation = workspace.now;
   const auto boundary = l.r.head(model.sizes.boundary);
   const auto internal = l.r.tail(l.r.size() - model.sizes.boundary);
   report.residual = 0.0;
@@ -63,15 +64,18 @@ struct Saddle {
   double stiffness = 1.0;  ///< by which K was divided
 };
 
+/// Of boundary coordinates and their equations; one of internal ones.
+VectorXd scale_of(const Model& model) {
+  VectorXd scale = VectorXd::Ones(model.sizes.velocities());
+  scale.head(model.sizes.boundary) = model.equation_scale.head(model.sizes.boundary).matrix();
+  return scale;
+}
+
 Saddle saddle(const Model& model, const State& state, const Linearisation& l) {
   const Eigen::Index n = l.K.rows(), m = l.B.rows();
-  Saddle s{MatrixXd::Zero(n + m, n + m), VectorXd::Ones(n + m),
+  Saddle s{MatrixXd::Zero(n + m, n + m), VectorXd(n + m),
            std::max(l.K.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min())};
-  s.scale.head(model.sizes.boundary) = model.equation_scale.head(model.sizes.boundary).matrix();
-  const std::vector<int> rows = active_rows(state);
-  for (std::size_t row = 0; row < rows.size(); ++row)
-    if (rows[row] >= 0)
-      s.scale[n + rows[row]] = model.equation_scale[model.sizes.boundary + static_cast<Eigen::Index>(row)];
+  s.scale << scale_of(model), active_part(state, model.equation_scale.matrix().tail(model.sizes.constraints));
   s.A.topLeftCorner(n, n) = l.K / s.stiffness;
   s.A.topRightCorner(n, m) = l.B.transpose();
   s.A.bottomLeftCorner(m, n) = l.B;
@@ -89,136 +93,80 @@ std::string name_of_null_vector(const Model& model, const State& state, Saddle s
   return name_of_direction(model, state, s.scale.cwiseProduct(d).head(n), evaluation);
 }
 
-/// Solves [K Bᵀ; B 0][ξ; δλ] = [−r; −Φ]. False, with the name of the direction, if it is singular.
-bool solve(const Model& model, const State& state, const Linearisation& l, Evaluation& evaluation, VectorXd& xi,
-           VectorXd& multipliers, std::string& free) {
-  const Eigen::Index n = l.K.rows(), m = l.B.rows();
+/// Solves [K Bᵀ; B 0][ξ; δλ] = [−r; −Φ] and moves the state; returns ξ, empty, with the name of the direction in the
+/// report, if the matrix is singular.
+VectorXd improve(const Linearisation& l, EquilibriumSearch& search) {
+  auto& [model, options, interrupted, state, workspace, report] = search;
   const Saddle s = saddle(model, state, l);
   const Eigen::PartialPivLU<MatrixXd> factors(s.A);
   if (!(factors.rcond() > free_motion_condition)) {
-    free = name_of_null_vector(model, state, s, evaluation);
-    return false;
+    report.explanation = name_of_null_vector(model, state, s, workspace.now);
+    return {};
   }
-  VectorXd right(n + m);
-  right.head(n) = -l.r / s.stiffness;
-  const std::vector<int> rows = active_rows(state);
-  for (std::size_t row = 0; row < rows.size(); ++row)
-    if (rows[row] >= 0) right[n + rows[row]] = -evaluation.constraint[row];
+  VectorXd right(s.A.rows());
+  right << -l.r / s.stiffness, -active_part(state, workspace.now.constraint);
   const VectorXd d = s.scale.cwiseProduct(factors.solve(s.scale.cwiseProduct(right)));
-  xi = d.head(n);
-  multipliers = s.stiffness * d.tail(m);
-  return true;
+  const VectorXd xi = d.head(l.K.rows());
+  move_by(model, xi, s.stiffness * d.tail(l.B.rows()), workspace.now, state);
+  return xi;
+}
+
+/// The rotation about a fixed axis, in the axes of the model.
+struct SteadyTurn {
+  const Model& model;
+  Vector3d omega, about;  ///< ω and a point p of the axis
+
+  SteadyTurn(const Model& turning, const formats::RotationSpec& rotation)
+      : model(turning),
+        omega(to_axes(model, rotation.angular_velocity)),
+        about(to_axes(model, rotation.about - model.origin)) {}
+};
+
+/// ẋ = ω×(x − p), Ω = Rᵀω, ẍ = ω×ẋ, Ω̇ = 0, internal coordinates at rest.
+void set_velocities(const SteadyTurn& turn, State& state) {
+  state.v().setZero();
+  state.vdot().setZero();
+  for (std::size_t i = 0; i < turn.model.nodes.size(); ++i) {
+    const Node& node = turn.model.nodes[i];
+    const auto column = static_cast<Eigen::Index>(i);
+    if (node.translation >= 0) {
+      const Vector3d velocity = turn.omega.cross(state.x().col(column) - turn.about);
+      set_translation(turn.model, velocity, node.translation, state.v());
+      set_translation(turn.model, turn.omega.cross(velocity), node.translation, state.vdot());
+    }
+    if (node.rotation >= 0)
+      set_rotation(turn.model, quaternion(state.Q().col(column)).conjugate() * turn.omega, node.rotation, state.v());
+  }
 }
 
 /// The linearisation in the steady rotation. Where no reactions are known, those that balance it best come first: it is
 /// they that hold a blade on a hinge against flapping.
-Linearisation linearise_turning(const Model& model, const formats::RotationSpec& rotation, State& state,
-                                Evaluation& evaluation) {
-  turn_steadily(model, rotation, state);
-  Linearisation l = linearise(model, state, to_axes(model, rotation.angular_velocity), evaluation);
+Linearisation linearise_turning(const SteadyTurn& turn, State& state, Evaluation& evaluation) {
+  set_velocities(turn, state);
+  Linearisation l = linearise(turn.model, state, turn.omega, evaluation);
   if (l.B.rows() == 0 || !state.lambda().isZero(0.0) || !l.r.allFinite()) return l;
-  VectorXd scale = VectorXd::Ones(l.r.size());
-  scale.head(model.sizes.boundary) = model.equation_scale.head(model.sizes.boundary).matrix();
+  const VectorXd scale = scale_of(turn.model);
   const MatrixXd BT = scale.asDiagonal() * l.B.transpose();
-  const VectorXd multipliers = BT.colPivHouseholderQr().solve(-scale.cwiseProduct(l.r));
-  const std::vector<int> rows = active_rows(state);
-  for (std::size_t row = 0; row < rows.size(); ++row)
-    if (rows[row] >= 0) state.lambda()[row] = multipliers[rows[row]];
-  return linearise(model, state, to_axes(model, rotation.angular_velocity), evaluation);
+  add_to_multipliers(BT.colPivHouseholderQr().solve(-scale.cwiseProduct(l.r)), state);
+  return linearise(turn.model, state, turn.omega, evaluation);
 }
-
-StepOutcome balance(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted, State& state,
-                    Evaluation& evaluation, StaticsReport& report) {
-  formats::RotationSpec rotation = *options.rotation;
-  rotation.angular_velocity *= std::sqrt(evaluation.load_factor);
-  VectorXd xi, multipliers;
-  for (int iteration = 0;; ++iteration) {
-    const Linearisation l = linearise_turning(model, rotation, state, evaluation);
-    const bool done = balanced(model, options, state, l, evaluation, report);
-    if (iteration > 0 && (done || xi.cwiseAbs().maxCoeff() < turning_floor * model.length))
-      return StepOutcome::accepted;
-    if (!l.r.allFinite()) return StepOutcome::diverged;
-    report.interrupted = interrupted && interrupted();
-    if (iteration == options.max_iterations || report.interrupted) return StepOutcome::too_many_iterations;
-    if (!solve(model, state, l, evaluation, xi, multipliers, report.explanation))
-      return iteration == 0 ? StepOutcome::singular : StepOutcome::diverged;
-    move_by(model, xi, multipliers, evaluation, state);
-    ++report.iterations;
-  }
-}
-
-}  // namespace
-
-void turn_steadily(const Model& model, const formats::RotationSpec& rotation, State& state) {
-  const Vector3d omega = to_axes(model, rotation.angular_velocity),
-                 about = to_axes(model, rotation.about - model.origin);
-  state.v().setZero();
-  state.vdot().setZero();
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    const Node& node = model.nodes[i];
-    const auto column = static_cast<Eigen::Index>(i);
-    if (node.translation >= 0) {
-      const Vector3d velocity = omega.cross(state.x().col(column) - about);
-      set_translation(model, velocity, node.translation, state.v());
-      set_translation(model, omega.cross(velocity), node.translation, state.vdot());
-    }
-    if (node.rotation >= 0) {
-      const Eigen::Vector4d Q = state.Q().col(column);
-      set_rotation(model, Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]).conjugate() * omega, node.rotation, state.v());
-    }
-  }
-}
-
-std::string free_turn_name(const Model& model, const formats::RotationSpec& rotation, State state,
-                           Evaluation& evaluation) {
-  if (rotation.angular_velocity.isZero(0.0)) return {};
-  state.v().setZero();
-  state.vdot().setZero();
-  const Linearisation l = linearise(model, state, Vector3d::Zero(), evaluation);
-  const Vector3d axis = to_axes(model, rotation.angular_velocity.normalized()),
-                 about = to_axes(model, rotation.about - model.origin);
-  VectorXd turn = VectorXd::Zero(l.r.size());
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    const Node& node = model.nodes[i];
-    if (node.translation >= 0)
-      set_translation(model, axis.cross(state.x().col(static_cast<Eigen::Index>(i)) - about), node.translation, turn);
-    if (node.rotation >= 0) set_rotation(model, axis, node.rotation, turn);
-  }
-  const double motion = turn.cwiseAbs().maxCoeff();
-  const double gap = l.B.rows() > 0 ? (l.B * turn).cwiseAbs().maxCoeff() : 0.0;
-  const double force = (l.K * turn).cwiseAbs().maxCoeff();
-  if (gap > 1e-9 * motion || force > turn_resistance * l.K.cwiseAbs().maxCoeff() * motion) return {};
-  return name_of_direction(model, state, std::move(turn), evaluation);
-}
-
-std::string free_motion_name(const Model& model, const formats::RotationSpec& rotation, State state,
-                             Evaluation& evaluation) {
-  const Linearisation l = linearise_turning(model, rotation, state, evaluation);
-  const Saddle s = saddle(model, state, l);
-  if (Eigen::PartialPivLU<MatrixXd>(s.A).rcond() > free_motion_condition) return {};
-  return name_of_null_vector(model, state, s, evaluation);
-}
-
-namespace {
 
 /// What is open or has other forces once the scene has turned by a radian, in which `passed` of time passes.
-std::string change_by_turn(const Model& model, const formats::RotationSpec& rotation, double passed,
-                           const VectorXd& before, State& state, Evaluation& evaluation) {
+std::string change_by_turn(const SteadyTurn& steady, double passed, const VectorXd& before, State& state,
+                           Evaluation& evaluation) {
   constexpr double share = 1e-6;
-  const Vector3d about = to_axes(model, rotation.about - model.origin);
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(1.0, to_axes(model, rotation.angular_velocity).normalized()));
-  const auto turn_columns = [&](auto quaternions) {
-    for (Eigen::Index i = 0; i < quaternions.cols(); ++i) {
-      const Eigen::Vector4d Q = quaternions.col(i);
-      quaternions.col(i) = wxyz(turn * Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]));
-    }
+  const auto& [model, omega, about] = steady;
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(1.0, omega.normalized()));
+  const auto turn_columns = [&turn](auto quaternions) {
+    for (Eigen::Index i = 0; i < quaternions.cols(); ++i)
+      quaternions.col(i) = wxyz(turn * quaternion(quaternions.col(i)));
   };
   for (Eigen::Index i = 0; i < state.x().cols(); ++i) state.x().col(i) = about + turn * (state.x().col(i) - about);
   turn_columns(state.Q());
   turn_columns(state.frames());
   state.time() += passed;
   state.load_time() = state.time();
-  turn_steadily(model, rotation, state);
+  set_velocities(steady, state);
   evaluate(model, state, evaluation);
   for (int row = 0; row < model.sizes.constraints; ++row) {
     const bool drive = std::ranges::any_of(
@@ -247,12 +195,63 @@ std::string change_by_turn(const Model& model, const formats::RotationSpec& rota
 
 }  // namespace
 
+StepOutcome balance_turning(EquilibriumSearch& search) {
+  auto& [model, options, interrupted, state, workspace, report] = search;
+  formats::RotationSpec rotation = *options.rotation;
+  rotation.angular_velocity *= std::sqrt(workspace.now.load_factor);
+  const SteadyTurn turn(model, rotation);
+  VectorXd xi;
+  for (int iteration = 0;; ++iteration) {
+    const Linearisation l = linearise_turning(turn, state, workspace.now);
+    const bool done = is_balanced(l, search);
+    if (iteration > 0 && (done || xi.cwiseAbs().maxCoeff() < turning_floor * model.length))
+      return StepOutcome::accepted;
+    if (!l.r.allFinite()) return StepOutcome::diverged;
+    report.interrupted = interrupted && interrupted();
+    if (iteration == options.max_iterations || report.interrupted) return StepOutcome::too_many_iterations;
+    xi = improve(l, search);
+    if (xi.size() == 0) return iteration == 0 ? StepOutcome::singular : StepOutcome::diverged;
+    ++report.iterations;
+  }
+}
+
+std::string free_turn_name(const Model& model, const formats::RotationSpec& rotation, State state,
+                           Evaluation& evaluation) {
+  if (rotation.angular_velocity.isZero(0.0)) return {};
+  state.v().setZero();
+  state.vdot().setZero();
+  const Linearisation l = linearise(model, state, Vector3d::Zero(), evaluation);
+  const Vector3d axis = to_axes(model, rotation.angular_velocity.normalized()),
+                 about = to_axes(model, rotation.about - model.origin);
+  VectorXd turn = VectorXd::Zero(l.r.size());
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const Node& node = model.nodes[i];
+    if (node.translation >= 0)
+      set_translation(model, axis.cross(state.x().col(static_cast<Eigen::Index>(i)) - about), node.translation, turn);
+    if (node.rotation >= 0) set_rotation(model, axis, node.rotation, turn);
+  }
+  const double motion = turn.cwiseAbs().maxCoeff();
+  const double gap = l.B.rows() > 0 ? (l.B * turn).cwiseAbs().maxCoeff() : 0.0;
+  const double force = (l.K * turn).cwiseAbs().maxCoeff();
+  if (gap > 1e-9 * motion || force > turn_resistance * l.K.cwiseAbs().maxCoeff() * motion) return {};
+  return name_of_direction(model, state, std::move(turn), evaluation);
+}
+
+std::string free_motion_name(const Model& model, const formats::RotationSpec& rotation, State state,
+                             Evaluation& evaluation) {
+  const Linearisation l = linearise_turning(SteadyTurn(model, rotation), state, evaluation);
+  const Saddle s = saddle(model, state, l);
+  if (Eigen::PartialPivLU<MatrixXd>(s.A).rcond() > free_motion_condition) return {};
+  return name_of_null_vector(model, state, s, evaluation);
+}
+
 std::string what_does_not_turn(const Model& model, const formats::RotationSpec& rotation, State state,
                                Evaluation& evaluation) {
   constexpr double round_off = 1e-7;
   const double rate = rotation.angular_velocity.norm();
   if (rate == 0.0) return {};
-  turn_steadily(model, rotation, state);
+  const SteadyTurn turn(model, rotation);
+  set_velocities(turn, state);
   evaluate(model, state, evaluation);
   for (int row = 0; row < model.sizes.constraints; ++row)
     if (violation_of(model, evaluation.constraint_rate, row) > round_off * rate)
@@ -262,18 +261,10 @@ std::string what_does_not_turn(const Model& model, const formats::RotationSpec& 
   std::string found;
   for (const double passed : {1.0 / rate, 0.0}) {  // forces may turn by functions of time, or not depend on it
     state.block() = begin.block();
-    found = change_by_turn(model, rotation, passed, before, state, evaluation);
+    found = change_by_turn(turn, passed, before, state, evaluation);
     if (found.empty()) break;
   }
   return found;
-}
-
-StaticsReport solve_steady_rotation(const Model& model, const formats::StaticsSpec& options,
-                                    const Interrupt& interrupted, State& state, Evaluation& evaluation) {
-  StaticsReport report;
-  ramp_loads(model, options, state, evaluation, report,
-             [&] { return balance(model, options, interrupted, state, evaluation, report); });
-  return report;
 }
 
 }  // namespace tisserand::mechanism

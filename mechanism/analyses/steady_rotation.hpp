@@ -11,9 +11,6 @@
 
 namespace tisserand::mechanism {
 
-/// ẋ = ω×(x − p), Ω = Rᵀω, ẍ = ω×ẋ, Ω̇ = 0, internal coordinates at rest.
-void turn_steadily(const Model& model, const formats::RotationSpec& rotation, State& state);
-
 /// The joint coordinate, or the node, that moves most where the scene as a whole turns about the axis of the rotation,
 /// or empty: joints, drives or springs hold it. Away from equilibrium the stiffness does not show that nothing holds
 /// this turn.
@@ -31,10 +28,9 @@ std::string free_motion_name(const Model& model, const formats::RotationSpec& ro
 std::string what_does_not_turn(const Model& model, const formats::RotationSpec& rotation, State state,
                                Evaluation& evaluation);
 
-/// Equilibrium of loads, gravity and the inertia of a steady rotation, by Newton's iteration with the stiffness of
-/// `linearise` (dense, with the softening of the rotation); in load steps, in which the rate grows with the root of the
-/// load. The state ends with the velocities and accelerations of the rotation.
-[[nodiscard]] StaticsReport solve_steady_rotation(const Model& model, const formats::StaticsSpec& options,
-                                                  const Interrupt& interrupted, State& state, Evaluation& evaluation);
+/// Equilibrium of loads, gravity and the inertia of the steady rotation of the options under the present load factor,
+/// with whose root the rate grows; by Newton's iteration with the stiffness of `linearise` (dense, with the softening
+/// of the rotation). The state ends with the velocities and accelerations of the rotation.
+[[nodiscard]] StepOutcome balance_turning(EquilibriumSearch& search);
 
 }  // namespace tisserand::mechanism

@@ -27,6 +27,9 @@ constexpr int dense_limit = 400;
 /// Work and dissipation follow the motion without a say in its steps.
 constexpr double no_say = 1e30;
 
+/// Of a callback: the values of a vector.
+double* values_of(N_Vector vector) { return N_VGetArrayPointer(vector); }
+
 }  // namespace
 
 bool bdf_available() { return true; }
@@ -103,13 +106,6 @@ struct Bdf::Data {
     return value;
   }
 };
-
-namespace {
-
-/// Of a callback: the values of a vector.
-double* values_of(N_Vector vector) { return N_VGetArrayPointer(vector); }
-
-}  // namespace
 
 struct BdfCallbacks {
   template <class Data>

@@ -145,8 +145,7 @@ class BodyBuilder {
       add_place(name, {c_.model.modal_nodes.back().node, Vector3d::Zero(), part_axes});
     }
     if (!file.body.residual.node.empty())
-      c_.reference_models.push_back(
-          reference_model(file.body, built.body.modes, spec.name, built.body.node, units));
+      c_.reference_models.push_back(reference_model(file.body, built.body.modes, spec.name, built.body.node, units));
     c_.model.modal_bodies.push_back(std::move(built.body));
   }
 
@@ -174,12 +173,11 @@ class BodyBuilder {
       if (const std::string text = missing_turns_text(*companion.terms, element); !text.empty())
         c_.note_body(spec.name, text);
     } else if (may_use_companion(spec) && (body.modes > 0 || body.node.size() > 1)) {
-      c_.note_body(spec.name,
-                   companion.terms == nullptr
-                       ? "there is no companion file, so it is linear: no stiffening, no exact inertia "
-                         "(`second_order: off` at the body asks for that)"
-                       : "its companion file has load cases only, so it is linear: no stiffening, no exact inertia "
-                         "(`second_order: off` at the body asks for that)");
+      c_.note_body(spec.name, companion.terms == nullptr
+                                  ? "there is no companion file, so it is linear: no stiffening, no exact inertia "
+                                    "(`second_order: off` at the body asks for that)"
+                                  : "its companion file has load cases only, so it is linear: no stiffening, no exact "
+                                    "inertia (`second_order: off` at the body asks for that)");
     }
     for (const SuperelementNode& node : body.node) {
       const std::string name = spec.name + "/" + node.name;
@@ -372,12 +370,12 @@ Construction with_bodies(const formats::Scene& scene, const BodyFiles& files) {
   if (origin.isZero(0.0)) return c;
   Construction about = with_bodies(scene, files, origin);
   const double distance = origin.cwiseAbs().maxCoeff();
-  about.notes.push_back(fmt::format(
-      "the scene stands {:.3g} times its size from the origin: it is computed about [{:.9g}, {:.9g}, {:.9g}], "
-      "from where its potential energy counts too; stored positions count from the origin, where they are "
-      "rounded to {:.1e} {}",
-      distance / about.model.length, origin.x(), origin.y(), origin.z(),
-      distance * std::numeric_limits<double>::epsilon(), scene.units.length.label));
+  about.notes.push_back(
+      fmt::format("the scene stands {:.3g} times its size from the origin: it is computed about [{:.9g}, {:.9g}, "
+                  "{:.9g}], from where its potential energy counts too; stored positions count from the origin, where "
+                  "they are rounded to {:.1e} {}",
+                  distance / about.model.length, origin.x(), origin.y(), origin.z(),
+                  distance * std::numeric_limits<double>::epsilon(), scene.units.length.label));
   return about;
 }
 

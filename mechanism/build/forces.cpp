@@ -111,8 +111,7 @@ std::string JointBuilder::turned_at_start(const std::vector<formats::BushingSpec
   if (names.empty()) return "";
   return fmt::format(
       "{}: the bodies start turned against each other, and 'free' counts turns from there, since the markers have the "
-      "same "
-      "axes at the start. Give both markers an orientation if it counts from the axes of the bodies",
+      "same axes at the start. Give both markers an orientation if it counts from the axes of the bodies",
       listed(names));
 }
 
@@ -179,8 +178,8 @@ void JointBuilder::add(const formats::ChannelSpec& spec) {
 void note_function(const formats::TimeFunctionSpec& spec, ChannelUse use, Model& model, std::set<double>& breakpoints) {
   const TimeFunction function(spec, model.scope);
   breakpoints.insert(function.breakpoints().begin(), function.breakpoints().end());
-  for (std::size_t i = 0; i < function.channels().size(); ++i) {
-    use.argument = static_cast<int>(i);
+  for (int i = 0; i < std::ssize(function.channels()); ++i) {
+    use.argument = i;
     use.channel = function.channels()[i];
     model.channel_uses.push_back(use);
   }

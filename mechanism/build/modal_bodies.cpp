@@ -12,6 +12,7 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "mechanism/build/bodies.hpp"
+#include "mechanism/model/state.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -151,11 +152,10 @@ std::string too_stiff(const ReferenceModel& model, const MatrixXd& held, const H
                       const Units& units) {
   const double to_hertz = 1.0 / (2.0 * std::numbers::pi * model.units.time);
   const std::string what = beyond_reference(model, held), unit = unit_label(units, 0, 0, -1) == "s^-1" ? " Hz" : "";
-  const std::string by_modes =
-      std::isinf(found.by_modes)
-          ? fmt::format("cannot deform by its {} modes", model.omega2.size())
-          : fmt::format("has its first frequency at {:.4g}{} by its {} modes", found.by_modes * to_hertz, unit,
-                        model.omega2.size());
+  const std::string by_modes = std::isinf(found.by_modes)
+                                   ? fmt::format("cannot deform by its {} modes", model.omega2.size())
+                                   : fmt::format("has its first frequency at {:.4g}{} by its {} modes",
+                                                 found.by_modes * to_hertz, unit, model.omega2.size());
   return fmt::format(
       "modal body '{}' is too stiff: the scene holds it on the ground at {}, which the `reference` of its modes leaves "
       "free. The body alone, held like this, {}; with its static flexibility there it has {:.4g}{}. Take more modes, a "
@@ -185,8 +185,7 @@ BuiltModalBody build_modal_body(const formats::ModalBody& file, const formats::M
     built.nodes.push_back(std::move(node));
   }
   built.frame_position = units.length * file.frame_position;
-  const Eigen::Vector4d& q = file.frame_orientation;
-  built.frame_rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+  built.frame_rotation = quaternion(file.frame_orientation).normalized().toRotationMatrix();
   return built;
 }
 

@@ -80,11 +80,11 @@ void add_part_load(const formats::PartLoadSpec& spec, Construction& c) {
   load.name = spec.name;
   load.value = spec.value;
   load.where = spec.where;
-  for (std::size_t i = 0; i < c.model.superelements.size(); ++i) {
+  for (int i = 0; i < std::ssize(c.model.superelements); ++i) {
     if (c.model.superelements[i].name != spec.body) continue;
     const std::vector<BodyLoadCase>& cases = body_of(c.model, i).load_cases;
     const auto found = std::ranges::find(cases, spec.load_case, &BodyLoadCase::name);
-    load.superelement = static_cast<int>(i);
+    load.superelement = i;
     load.load_case = static_cast<int>(found - cases.begin());
     load.force = found->total;
   }

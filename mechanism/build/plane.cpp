@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "mechanism/build/planar.hpp"
+#include "mechanism/model/bodies.hpp"
+#include "mechanism/model/forces.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -73,12 +75,12 @@ void turn_markers(const PlaneTurn& turn, Construction& c) {
   };
   pairs(model.joints);
   pairs(model.coordinates);
-  pairs(model.bushings);
   pairs(model.ties);
   pairs(model.channels);
   for (Place& place : model.places) turn(place.marker);
-  for (Load& load : model.loads) turn(load.at);
-  for (Tyre& tyre : model.tyres) turn(tyre.wheel);
+  for_each_force(model, [&turn](auto traits, auto& force) {
+    for (const auto marker : traits.markers) turn(force.*marker);
+  });
   for (Road& road : model.roads) {
     turn(road.p);
     road.R = (model.axes.transpose() * road.R).eval();
@@ -104,14 +106,9 @@ void turn_bodies(const PlaneTurn& turn, Construction& c) {
     const int node = model.superelements[i].nodes.front();
     c.frames[i] = Eigen::Quaterniond(turn.orientation(c.frames[i].toRotationMatrix(), node));
   }
-  const auto gravity = [&turn](auto& pool) {
+  for_each_body_pool(model, [&turn](auto& pool) {
     for (auto& body : pool) turn(body.gravity);
-  };
-  gravity(model.superelements);
-  gravity(model.beams2);
-  gravity(model.beams3);
-  gravity(model.rigid_bodies);
-  gravity(model.modal_bodies);
+  });
 }
 
 void turn_forces(const PlaneTurn& turn, Construction& c) {
@@ -177,7 +174,7 @@ std::vector<Matrix3d> turn_into_plane(const Vector3d& normal, Construction& c) {
     if (start.velocity) turn(*start.velocity);
     if (start.angular_velocity) turn(*start.angular_velocity);
   }
-  for (std::size_t i = 0; i < c.markers.start.size(); ++i) turn(c.markers.start[i], static_cast<int>(i));
+  for (int i = 0; i < std::ssize(c.markers.start); ++i) turn(c.markers.start[i], i);
   return turn.own();
 }
 

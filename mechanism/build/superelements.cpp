@@ -6,7 +6,6 @@
 #include "common/error.hpp"
 
 namespace tisserand::mechanism {
-
 namespace {
 
 SuperelementOptions options_of(const formats::SuperelementBodySpec& spec, const CompanionUse& companion,

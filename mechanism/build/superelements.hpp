@@ -8,7 +8,7 @@
 #include "formats/companion/companion.hpp"
 #include "formats/scene/scene.hpp"
 #include "formats/superelement/superelement.hpp"
-#include "mechanism/bodies/superelement/body.hpp"
+#include "mechanism/bodies/superelement/constants/body.hpp"
 
 namespace tisserand::mechanism {
 

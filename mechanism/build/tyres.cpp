@@ -67,10 +67,10 @@ void check_tyre_start(const formats::TyreSpec& spec, const Tyre& tyre, Construct
   const Vector3d contact = road.R.transpose() * (terms.contact - road.p);
   if (const std::optional<RoadLack> lack = road.lack(contact.x(), contact.y()))
     throw Error(
-        lack->hole ? fmt::format("tyre '{}' starts in a hole of the road '{}'", spec.name, road.name)
-                   : fmt::format("tyre '{}' starts at {} = {:.6g}{} of the road '{}', which is there from "
-                                 "{:.6g} to {:.6g}",
-                                 spec.name, lack->axis, lack->at, unit, road.name, lack->begin, lack->end),
+        lack->hole
+            ? fmt::format("tyre '{}' starts in a hole of the road '{}'", spec.name, road.name)
+            : fmt::format("tyre '{}' starts at {} = {:.6g}{} of the road '{}', which is there from {:.6g} to {:.6g}",
+                          spec.name, lack->axis, lack->at, unit, road.name, lack->begin, lack->end),
         spec.where,
         road.surface ? "move the wheel, or the road by its pose" : "lengthen the curve of the road, or move the wheel");
   if (terms.penetration > deepest * tyre.radius)
@@ -101,11 +101,10 @@ void take_properties(const formats::TyreSpec& spec, Tyre& tyre, Construction& c)
   const double whole = p.VERTICAL_STIFFNESS * p.UNLOADED_RADIUS / p.FNOMIN;
   if (linear == 0.0) linear = std::sqrt(std::max(whole * whole - 4.0 * p.QFZ2, 0.0));
   if (!(linear > 0.0 && by_pressure > 0.0 && p.QFZ2 >= 0.0))
-    throw Error(
-        fmt::format("tyre '{}': its vertical spring softens or pulls (Q_FZ1 {:.4g}, Q_FZ2 {:.4g}, factor of the "
-                    "pressure {:.4g})",
-                    spec.name, linear, p.QFZ2, by_pressure),
-        spec.where, "correct Q_FZ1, Q_FZ2, PFZ1 of the file, or the pressure");
+    throw Error(fmt::format("tyre '{}': its vertical spring softens or pulls (Q_FZ1 {:.4g}, Q_FZ2 {:.4g}, factor of "
+                            "the pressure {:.4g})",
+                            spec.name, linear, p.QFZ2, by_pressure),
+                spec.where, "correct Q_FZ1, Q_FZ2, PFZ1 of the file, or the pressure");
   const bool has_curve = p.QFZ1 != 0.0 || p.QFZ2 != 0.0;
   const double slope = has_curve ? linear * p.FNOMIN / p.UNLOADED_RADIUS : p.VERTICAL_STIFFNESS;
   tyre.stiffness = by_pressure * slope;
@@ -141,11 +140,10 @@ void check_bends(const formats::RoadSpec& spec, const Construction& c) {
   const HeightGrid& grid = road.surface->grid;
   const double bend = road.surface->line->sharp_bend(grid.t_begin(), grid.t_end());
   if (std::isnan(bend)) return;
-  throw Error(
-      fmt::format("road '{}': its reference line bends so sharply at u = {:.6g}{} that the cuts across it cross "
-                  "within its width",
-                  spec.name, bend, after_number(unit_label(c.model.units, 1, 0, 0))),
-      spec.where, "smooth the headings in the file, or leave the long sections out that are that far inside");
+  throw Error(fmt::format("road '{}': its reference line bends so sharply at u = {:.6g}{} that the cuts across it "
+                          "cross within its width",
+                          spec.name, bend, after_number(unit_label(c.model.units, 1, 0, 0))),
+              spec.where, "smooth the headings in the file, or leave the long sections out that are that far inside");
 }
 
 void add_tyre(const formats::TyreSpec& spec, Construction& c) {

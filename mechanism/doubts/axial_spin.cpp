@@ -96,20 +96,18 @@ class AxialSpin : public Doubt {
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     double worst = most_axial_spin;
     int at = -1;
-    for (std::size_t i = 0; i < seen_.size(); ++i)
+    for (int i = 0; i < std::ssize(seen_); ++i)
       if (const Seen& seen = seen_[i]; seen.free && seen.inertia > 0.0 && seen.spurious > worst * seen.spin) {
         worst = seen.spurious / seen.spin;
-        at = static_cast<int>(i);
+        at = i;
       }
     if (at < 0) return {};
-    return {fmt::format(
-        "'{}' spins about its own axis by {:.2g} rad per time (at t = {:.6g}) that no moment gave it, {:.2g} "
-        "of its angular "
-        "velocity, beyond {:g}: inertia {} takes it from bending; cut it into several with inertia B and "
-        "internal modes, or use "
-        "second_order with its companion file",
-        model.superelements[at].name, seen_[at].spurious, seen_[at].time, worst, most_axial_spin,
-        letter(body_of(model, at).inertia))};
+    return {
+        fmt::format("'{}' spins about its own axis by {:.2g} rad per time (at t = {:.6g}) that no moment gave it, "
+                    "{:.2g} of its angular velocity, beyond {:g}: inertia {} takes it from bending; cut it into "
+                    "several with inertia B and internal modes, or use second_order with its companion file",
+                    model.superelements[at].name, seen_[at].spurious, seen_[at].time, worst, most_axial_spin,
+                    letter(body_of(model, at).inertia))};
   }
 
  private:

@@ -73,57 +73,6 @@ void turn_all(const Model& model, const Evaluation& evaluation, int k, Eigen::Re
   }
 }
 
-}  // namespace
-
-void EnergyBalance::observe(const formats::ResultsRow& row, double possible) {
-  if (!std::isfinite(row.balance)) return;
-  if (std::abs(row.balance) > std::abs(largest_)) {
-    largest_ = row.balance;
-    at_ = row.time;
-  }
-  if (!potential_) potential_ = row.potential;
-  moved_ = std::max(moved_, row.kinetic + std::abs(row.strain) + std::abs(row.potential - *potential_) +
-                                std::abs(row.work) + std::abs(row.dissipated));
-  level_ = std::max({level_, std::abs(row.total), possible});
-  const double share = end_ > start_ ? (row.time - start_) / (end_ - start_) : 0.0;
-  Part& part = part_[std::clamp(static_cast<int>(parts * share), 0, parts - 1)];
-  part.sum += row.balance;
-  ++part.rows;
-}
-
-/// Whether the means of the stretches go one way throughout, in the second half of the time not much less than in the
-/// first: a start that settles is no drift.
-bool EnergyBalance::drifts() const {
-  const bool thin = std::ranges::any_of(part_, [](const Part& part) { return part.rows < 2; });
-  if (thin) return false;
-  const double whole = part_.back().mean() - part_.front().mean();
-  for (int k = 1; k < parts; ++k)
-    if (!((part_[k].mean() - part_[k - 1].mean()) * whole > 0.0)) return false;
-  const double second_half = part_.back().mean() - part_[parts / 2].mean();
-  return std::abs(second_half) > 0.3 * std::abs(whole);
-}
-
-std::vector<std::string> EnergyBalance::doubts(const std::string& cause) const {
-  const double largest = std::abs(largest_);
-  if (!(largest > round_off * level_) || !(largest > foreseen * moved_)) return {};
-  const char* way = largest_ > 0.0 ? "gained" : "lost";
-  if (largest > tolerance * moved_)
-    return {cause.empty()
-                ? fmt::format(
-                      "{:.2g} of the energy that moved was {} without a cause (balance at t = {:.6g}, beyond {:g}): a "
-                      "shorter step or a smaller tolerance keeps it",
-                      largest / moved_, way, at_, tolerance)
-                : fmt::format("{:.2g} of the energy that moved was {} (balance at t = {:.6g}, beyond {:g}): {}",
-                              largest / moved_, way, at_, tolerance, cause)};
-  if (!drifts()) return {};
-  return {
-      fmt::format("energy is steadily {}: {:.2g} of what moved by t = {:.6g}, beyond {:g} in a run ten times as long; "
-                  "a shorter step drifts less",
-                  way, largest / moved_, at_, tolerance)};
-}
-
-namespace {
-
 /// Angular momentum about the origin while nothing connects the bodies with the ground, no weight and no load acts. It
 /// is vᵀ M w for the rates w of a turn of everything about an axis: by differences of the kinetic energy, for every
 /// kind of body.
@@ -163,10 +112,10 @@ class MomentumBalance : public Doubt {
   /// At most one: that it changes by more than a two-thousandth of what the speeds could have.
   std::vector<std::string> doubts(const Model&, const StressedBodies&) const override {
     if (!(worst_ > most_momentum)) return {};
-    return {fmt::format(
-        "angular momentum changes by {:.2g} of its size from t = {:.6g} to {:.6g} (beyond {:g}), though nothing "
-        "acts on the bodies from outside: a shorter step or a smaller tolerance keeps it better",
-        worst_, from_, to_, most_momentum)};
+    return {
+        fmt::format("angular momentum changes by {:.2g} of its size from t = {:.6g} to {:.6g} (beyond {:g}), though "
+                    "nothing acts on the bodies from outside: a shorter step or a smaller tolerance keeps it better",
+                    worst_, from_, to_, most_momentum)};
   }
 
  private:
@@ -224,11 +173,10 @@ class TumblingBalance : public Doubt {
   TumblingBalance(const formats::Scene& scene, const Model& model)
       : pause_((scene.integrator.end - scene.integrator.start) / looks), next_(scene.integrator.start) {
     const auto groups = connected_groups(model, find_parts(model));
-    for (std::size_t i = 0; i < model.rigid_bodies.size(); ++i) {
+    for (int i = 0; i < std::ssize(model.rigid_bodies); ++i) {
       const RigidBody& body = model.rigid_bodies[i];
       if (!body.gyroscopic || std::ranges::find(groups, std::vector<std::string>{body.name}) == groups.end()) continue;
-      Seen seen{.body = static_cast<int>(i),
-                .inertia = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia).eigenvalues()};
+      Seen seen{.body = i, .inertia = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia).eigenvalues()};
       const Eigen::Vector3d& I = seen.inertia;
       // Alike about two axes: no middle axis.
       if (I[0] > 0.0 && std::min(I[1] - I[0], I[2] - I[1]) > 1e-6 * I[2]) seen_.push_back(seen);
@@ -291,6 +239,52 @@ class TumblingBalance : public Doubt {
 };
 
 }  // namespace
+
+void EnergyBalance::observe(const formats::ResultsRow& row, double possible) {
+  if (!std::isfinite(row.balance)) return;
+  if (std::abs(row.balance) > std::abs(largest_)) {
+    largest_ = row.balance;
+    at_ = row.time;
+  }
+  if (!potential_) potential_ = row.potential;
+  moved_ = std::max(moved_, row.kinetic + std::abs(row.strain) + std::abs(row.potential - *potential_) +
+                                std::abs(row.work) + std::abs(row.dissipated));
+  level_ = std::max({level_, std::abs(row.total), possible});
+  const double share = end_ > start_ ? (row.time - start_) / (end_ - start_) : 0.0;
+  Part& part = part_[std::clamp(static_cast<int>(parts * share), 0, parts - 1)];
+  part.sum += row.balance;
+  ++part.rows;
+}
+
+/// Whether the means of the stretches go one way throughout, in the second half of the time not much less than in the
+/// first: a start that settles is no drift.
+bool EnergyBalance::drifts() const {
+  const bool thin = std::ranges::any_of(part_, [](const Part& part) { return part.rows < 2; });
+  if (thin) return false;
+  const double whole = part_.back().mean() - part_.front().mean();
+  for (int k = 1; k < parts; ++k)
+    if (!((part_[k].mean() - part_[k - 1].mean()) * whole > 0.0)) return false;
+  const double second_half = part_.back().mean() - part_[parts / 2].mean();
+  return std::abs(second_half) > 0.3 * std::abs(whole);
+}
+
+std::vector<std::string> EnergyBalance::doubts(const std::string& cause) const {
+  const double largest = std::abs(largest_);
+  if (!(largest > round_off * level_) || !(largest > foreseen * moved_)) return {};
+  const char* way = largest_ > 0.0 ? "gained" : "lost";
+  if (largest > tolerance * moved_)
+    return {cause.empty()
+                ? fmt::format("{:.2g} of the energy that moved was {} without a cause (balance at t = {:.6g}, beyond "
+                              "{:g}): a shorter step or a smaller tolerance keeps it",
+                              largest / moved_, way, at_, tolerance)
+                : fmt::format("{:.2g} of the energy that moved was {} (balance at t = {:.6g}, beyond {:g}): {}",
+                              largest / moved_, way, at_, tolerance, cause)};
+  if (!drifts()) return {};
+  return {
+      fmt::format("energy is steadily {}: {:.2g} of what moved by t = {:.6g}, beyond {:g} in a run ten times as long; "
+                  "a shorter step drifts less",
+                  way, largest / moved_, at_, tolerance)};
+}
 
 std::unique_ptr<Doubt> momentum_balance(const formats::Scene& scene, const Model& model) {
   const bool applies = scene.analysis == formats::AnalysisKind::dynamics && flies(model);

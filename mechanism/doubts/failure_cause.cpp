@@ -69,14 +69,13 @@ std::string unreachable(const Model& model, double size, State state, Evaluation
   if (model.motions.empty() || model.sizes.constraints > most_constraints || model.sizes.boundary > longest_row)
     return {};
   state.time() += size;
-  const AssemblyReport report = assemble(
-      model, closed, [] { return false; }, state, now);
+  const AssemblyReport report = assemble(model, {closed}, state, now);
   if (report.closed || report.open.empty()) return {};
   const JointGap& gap = report.open.front();
   return fmt::format(
       "; the joints cannot be closed at t = {:.6g}, where '{}' stays open by {:.2g}: the drive leaves what the "
       "mechanism can reach; shorten its motion, or change the lengths",
-      state.time(), gap.name, std::max(gap.length, gap.angle));
+      state.time(), gap.joint, std::max(gap.length, gap.angle));
 }
 
 }  // namespace
@@ -90,21 +89,20 @@ std::string failure_cause(const Model& model, const formats::IntegratorSpec& opt
   const double condition = constraint_condition(model, state, workspace.now);
   if (condition > dependent)
     return fmt::format(
-        "; constraint equations are nearly dependent there (condition {:.1e} of their scaled Jacobian): a "
-        "singular position; pass it with another step, or leave one of its joints a direction free",
+        "; constraint equations are nearly dependent there (condition {:.1e} of their scaled Jacobian): a singular "
+        "position; pass it with another step, or leave one of its joints a direction free",
         condition);
   const FactorReport factors = factored(model, options, failure.size, state, workspace);
   if (is_singular(factors)) {
     if (!is_singular(factored(model, options, failure.size / 4.0, state, workspace)))
       return fmt::format(
           "; the matrix is singular with the step of {:.3g} and regular with a quarter of it: a stiffness below zero "
-          "(of a "
-          "spring, a load that follows, a part that buckles) balances the mass there; set a shorter 'step', or more "
-          "'max_halvings'",
+          "(of a spring, a load that follows, a part that buckles) balances the mass there; set a shorter 'step', or "
+          "more 'max_halvings'",
           failure.size);
     return fmt::format(
-        "; the matrix is singular there with the step of {:.3g} as well: a direction without mass, "
-        "stiffness or constraint{}; give it one, or hold it",
+        "; the matrix is singular there with the step of {:.3g} as well: a direction without mass, stiffness or "
+        "constraint{}; give it one, or hold it",
         failure.size,
         factors.singular_column >= 0 && factors.singular_column < model.sizes.boundary
             ? fmt::format(", {}", coordinate_name(model, factors.singular_column))

@@ -25,7 +25,7 @@ Eigen::Index rigid_motions(const SuperelementBody& body, const std::vector<bool>
   };
   const Eigen::MatrixXd Phi = coordinate_units(body).cwiseInverse().asDiagonal() * rigid_columns(body);
   std::vector<int> rows;
-  for (int k = 0; k < static_cast<int>(held.size()); ++k)
+  for (int k = 0; k < std::ssize(held); ++k)
     if (held[k]) rows.push_back(k);
   return rank(Phi) - rank(Phi(rows, Eigen::all));
 }
@@ -68,7 +68,7 @@ std::vector<int> welded_beams(const Model& model) {
     const int from = beam[a], to = beam[b];
     std::ranges::replace(beam, from, to);
   };
-  for (int i = 0; i < static_cast<int>(beam.size()); ++i) {
+  for (int i = 0; i < std::ssize(beam); ++i) {
     beam[i] = i;
     for (const int node : model.superelements[i].nodes) {
       weld(owner[node], i);

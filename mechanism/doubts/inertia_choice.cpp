@@ -80,8 +80,8 @@ class InertiaChoice : public Doubt {
     if (++steps_ < fewest_steps || state.time() < next_) return;
     steps_ = 0;
     next_ = state.time() + pause_;
-    for (std::size_t i = 0; i < uses_.size(); ++i)
-      if (!uses_[i].part.free.empty()) compare(model, state, evaluation, static_cast<int>(i));
+    for (int i = 0; i < std::ssize(uses_); ++i)
+      if (!uses_[i].part.free.empty()) compare(model, state, evaluation, i);
     for (Seen& seen : seen_) {
       seen.strain = std::max(seen.strain, std::exchange(seen.now, 0.0));
       for (const InertiaOption option : {InertiaOption::A, InertiaOption::B, InertiaOption::M}) {
@@ -97,8 +97,8 @@ class InertiaChoice : public Doubt {
   /// The largest excess, and how many others there are.
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     std::vector<Excess> excesses;
-    for (std::size_t i = 0; i < uses_.size(); ++i) {
-      if (uses_[i].beam != static_cast<int>(i)) continue;
+    for (int i = 0; i < std::ssize(uses_); ++i) {
+      if (uses_[i].beam != i) continue;
       const Seen& seen = seen_[i];
       const double ratio = std::sqrt(seen.difference / seen.strain);
       if (!(seen.strain > 0.0 && ratio > most_difference)) continue;

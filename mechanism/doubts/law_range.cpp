@@ -52,7 +52,7 @@ class BeamRange : public Doubt {
     const auto raise = [&](Extreme& extreme, double value, int span) {
       if (value > extreme.value) extreme = {value, at.state.time(), span};
     };
-    for (int i = 0; i < static_cast<int>(spans_.size()); ++i) {
+    for (int i = 0; i < std::ssize(spans_); ++i) {
       const Span& span = spans_[i];
       const NodeMotion &a = at.evaluation.motion[span.first], &b = at.evaluation.motion[span.last];
       const Matrix3d relative = a.R.transpose() * b.R;
@@ -103,7 +103,7 @@ class BeamRange : public Doubt {
 class BushingRange : public Doubt {
  public:
   explicit BushingRange(const Model& model) {
-    for (int i = 0; i < static_cast<int>(model.bushings.size()); ++i)
+    for (int i = 0; i < std::ssize(model.bushings); ++i)
       if (model.bushings[i].rotations) seen_.push_back({i, model.bushings[i].axis});
   }
 
@@ -171,11 +171,11 @@ class TableRange : public Doubt {
         laws_.push_back({kind, index, low, high, low - width, high + width});
       }
     };
-    for (int i = 0; i < static_cast<int>(model.springs.size()); ++i) {
+    for (int i = 0; i < std::ssize(model.springs); ++i) {
       watch(Kind::stiffness, i, model.springs[i].stiffness);
       watch(Kind::damping, i, model.springs[i].damping);
     }
-    for (int i = 0; i < static_cast<int>(model.motions.size()); ++i)
+    for (int i = 0; i < std::ssize(model.motions); ++i)
       if (const auto* table = std::get_if<formats::TimeTable>(&model.motions[i])) {
         const auto [least, most] = std::ranges::minmax(table->value);
         const MotionTable motion(*table);
@@ -183,7 +183,7 @@ class TableRange : public Doubt {
         laws_.push_back({Kind::drive, i, low, high, low - visible / std::abs(motion(low).rate),
                          high + visible / std::abs(motion(high).rate)});  // infinite where it rests
       }
-    for (int i = 0; i < static_cast<int>(model.coordinates.size()); ++i)
+    for (int i = 0; i < std::ssize(model.coordinates); ++i)
       if (const Coordinate& c = model.coordinates[i]; c.active && c.relation.kind == RelationKind::angle)
         laws_.push_back({Kind::angle, i, 0.0, farthest});
   }

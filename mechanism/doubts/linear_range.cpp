@@ -59,7 +59,7 @@ double transverse_stiffness(const SuperelementBody& body, const Axis& axis) {
   std::vector<int> kept, between;
   const int n = body.translations();
   for (int k = 0; k < n; ++k) kept.push_back(body.node[axis.last].translation_row + k);
-  for (int j = 0; j < static_cast<int>(body.node.size()); ++j) {
+  for (int j = 0; j < std::ssize(body.node); ++j) {
     if (j == axis.first || j == axis.last) continue;
     const SuperelementNode& node = body.node[j];
     for (int k = 0; k < n && node.has_translation(); ++k) between.push_back(node.translation_row + k);
@@ -94,7 +94,7 @@ class LinearRange : public Doubt {
   LinearRange(const Model& model, double start)
       : seen_(model.superelements.size()), modal_seen_(model.modal_bodies.size()), time_(start) {
     for (const SuperelementBody& body : model.superelement_bodies) limits_.push_back(limits_of(body));
-    for (int i = 0; i < static_cast<int>(model.modal_bodies.size()); ++i) modal_.emplace_back(model, i);
+    for (int i = 0; i < std::ssize(model.modal_bodies); ++i) modal_.emplace_back(model, i);
   }
 
   void observe(const Instant& at) override {
@@ -197,41 +197,37 @@ class LinearRange : public Doubt {
       const auto& [force, deflection, axial, spin, moved, loose, moment] = seen;
       if (loose.value > most_inner_turn)
         swung.push_back(
-            {loose.value,
-             fmt::format(
-                 "a mechanism inside '{}' turns by about {:.2g} rad (at t = {:.6g}), beyond {:g}: displacements "
-                 "are linear in it; reduce two parts and join them in the scene",
-                 body.name, loose.value, loose.time, most_inner_turn)});
+            {loose.value, fmt::format("a mechanism inside '{}' turns by about {:.2g} rad (at t = {:.6g}), beyond {:g}: "
+                                      "displacements are linear in it; reduce two parts and join them in the scene",
+                                      body.name, loose.value, loose.time, most_inner_turn)});
       if (body.bare) {
         if (const double r = axial.value / body.buckling;
             body.buckling > 0.0 && body.pieces == 1 && cubic_share(r) > most_axial)
           coarse.push_back(
-              {std::abs(r),
-               fmt::format("'{}' bears {} of {:.2g} of its buckling load between pins (at t = {:.6g}) without "
-                           "internal modes: its stiffness errs by up to {:.2g} (beyond {:g}); reduce it with "
-                           "'modes: 4' or more, or cut it into several",
-                           body.name, axial.value < 0.0 ? "compression" : "tension", std::abs(r), axial.time,
-                           cubic_share(r), most_axial)});
+              {std::abs(r), fmt::format("'{}' bears {} of {:.2g} of its buckling load between pins (at t = {:.6g}) "
+                                        "without internal modes: its stiffness errs by up to {:.2g} (beyond {:g}); "
+                                        "reduce it with 'modes: 4' or more, or cut it into several",
+                                        body.name, axial.value < 0.0 ? "compression" : "tension", std::abs(r),
+                                        axial.time, cubic_share(r), most_axial)});
         return;
       }
       if (const double ratio = deflection.value / body.span; body.span > 0.0 && ratio > most_deflection)
-        bent.push_back({ratio, fmt::format("'{}' deflects by {:.2g} of its length (at t = {:.6g}), beyond {:g}, with a "
-                                           "linear strain: {}",
-                                           body.name, ratio, deflection.time, most_deflection, body.remedy)});
+        bent.push_back(
+            {ratio,
+             fmt::format("'{}' deflects by {:.2g} of its length (at t = {:.6g}), beyond {:g}, with a linear strain: {}",
+                         body.name, ratio, deflection.time, most_deflection, body.remedy)});
       if (const double ratio = std::abs(axial.value) / body.buckling;
           body.buckling > 0.0 && missing_share(axial.value / body.buckling, body.pieces) > most_axial)
         pressed.push_back(
-            {ratio,
-             fmt::format("'{}' bears {} of {:.2g} of its buckling load between pins (at t = {:.6g}), which {} it, but "
-                         "not its linear strain (beyond {:g} of the stiffness): {}",
-                         body.name, axial.value < 0.0 ? "compression" : "tension", ratio, axial.time,
-                         axial.value < 0.0 ? "softens" : "stiffens", most_axial, body.remedy)});
+            {ratio, fmt::format("'{}' bears {} of {:.2g} of its buckling load between pins (at t = {:.6g}), which {} "
+                                "it, but not its linear strain (beyond {:g} of the stiffness): {}",
+                                body.name, axial.value < 0.0 ? "compression" : "tension", ratio, axial.time,
+                                axial.value < 0.0 ? "softens" : "stiffens", most_axial, body.remedy)});
       if (const double ratio = displaced_share(seen); ratio > body.most_displaced)
         displaced.push_back(
             {ratio,
-             fmt::format("the forces on '{}' have {:.2g} of its largest moment more where its nodes are than "
-                         "where they were undeformed (at t = {:.6g}, beyond {:g}{}), which its linear strain "
-                         "leaves out: {}",
+             fmt::format("the forces on '{}' have {:.2g} of its largest moment more where its nodes are than where "
+                         "they were undeformed (at t = {:.6g}, beyond {:g}{}), which its linear strain leaves out: {}",
                          body.name, ratio, moved.time, body.most_displaced,
                          body.most_displaced < most_displaced ? " for a body that joints stress" : "", body.remedy)});
       if (spin.value == 0.0) return;
@@ -239,8 +235,8 @@ class LinearRange : public Doubt {
       const double ratio = frequency > 0.0 ? spin.value / frequency : 0.0;
       if (ratio > most_spin)
         spun.push_back(
-            {ratio, fmt::format("'{}' spins at {:.2g} of its first frequency ({:.3g} of {:.3g} rad per time, "
-                                "at t = {:.6g}), beyond {:g}, with a linear strain: {}",
+            {ratio, fmt::format("'{}' spins at {:.2g} of its first frequency ({:.3g} of {:.3g} rad per time, at t = "
+                                "{:.6g}), beyond {:g}, with a linear strain: {}",
                                 body.name, ratio, spin.value, frequency, spin.time, most_spin, body.remedy)});
     }
 

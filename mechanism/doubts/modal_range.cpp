@@ -25,7 +25,7 @@ constexpr double straight = 1e-3;
 }  // namespace
 
 ModalRange::ModalRange(const Model& model, int body) : body_(body), attached_(model.nodes.size(), false) {
-  for (int k = 0; k < static_cast<int>(model.modal_nodes.size()); ++k)
+  for (int k = 0; k < std::ssize(model.modal_nodes); ++k)
     if (model.modal_nodes[k].body == body) nodes_.push_back(k);
   Vector3d end = Vector3d::Zero();
   for (const int a : nodes_)
@@ -83,7 +83,7 @@ bool ModalRange::carries(const Model& model, int node) const {
 template <class Items>
 std::vector<int> ModalRange::on_body(const Model& model, const Items& items) const {
   std::vector<int> found;
-  for (int i = 0; i < static_cast<int>(items.size()); ++i)
+  for (int i = 0; i < std::ssize(items); ++i)
     if (carries(model, items[i].a.node) || carries(model, items[i].b.node)) found.push_back(i);
   return found;
 }
@@ -93,12 +93,12 @@ void ModalRange::find_forces(const Model& model) {
   bushings_ = on_body(model, model.bushings);
   const std::vector<int> coordinates = on_body(model, model.coordinates);
   const auto is_on = [&](int coordinate) { return std::ranges::binary_search(coordinates, coordinate); };
-  for (int i = 0; i < static_cast<int>(model.couplings.size()); ++i)
+  for (int i = 0; i < std::ssize(model.couplings); ++i)
     for (const CouplingTerm& term : model.couplings[i].terms)
       if (is_on(term.coordinate)) terms_.push_back({i, term});
-  for (int i = 0; i < static_cast<int>(model.springs.size()); ++i)
+  for (int i = 0; i < std::ssize(model.springs); ++i)
     if (is_on(model.springs[i].coordinate)) springs_.push_back(i);
-  for (int i = 0; i < static_cast<int>(model.loads.size()); ++i)
+  for (int i = 0; i < std::ssize(model.loads); ++i)
     if (carries(model, model.loads[i].at.node)) loads_.push_back(i);
 }
 

@@ -102,8 +102,7 @@ class StepResolution : public Doubt {
   std::string explanation(Puzzle puzzle, const Model&) const override {
     if (puzzle != Puzzle::regular_failure || !(latest_ > fast)) return {};
     return fmt::format(
-        "velocities changed by {:.2g} of themselves in the step before: set a shorter 'step', or "
-        "'error_control'",
+        "velocities changed by {:.2g} of themselves in the step before: set a shorter 'step', or 'error_control'",
         latest_);
   }
 
@@ -121,7 +120,7 @@ class StepResolution : public Doubt {
   };
   void close(const Model& model, const State& before, const State& state) {
     const double step = state.time() - before.time();
-    for (int i = 0; i < static_cast<int>(model.nodes.size()); ++i) {
+    for (int i = 0; i < std::ssize(model.nodes); ++i) {
       if (model.nodes[i].rotation < 0) continue;
       const double angle = step * rotation_at(model, state.v(), model.nodes[i].rotation).norm();
       if (angle > fastest_.angle) fastest_ = {angle, state.time(), i};
@@ -153,9 +152,9 @@ class StepResolution : public Doubt {
 class TouchResolution : public Doubt {
  public:
   explicit TouchResolution(const Model& model) {
-    for (std::size_t i = 0; i < model.springs.size(); ++i)
+    for (int i = 0; i < std::ssize(model.springs); ++i)
       if ((model.springs[i].lower || model.springs[i].upper) && model.springs[i].stop_stiffness > 0.0)
-        stops_.push_back({static_cast<int>(i), {}, 0.0, {}});
+        stops_.push_back({i, {}, 0.0, {}});
   }
 
   void after_step(const State&, const Instant& end) override {

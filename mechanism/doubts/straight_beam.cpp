@@ -55,6 +55,23 @@ bool welds(const Joint& joint, const std::vector<Vector3d>& axes, const Evaluati
   return a != Vector3d::Zero() && b != Vector3d::Zero() && a.cross(b).norm() < 10.0 * small;
 }
 
+/// Nodes of rigid bodies on which one joint alone works: they go along, and hold nothing.
+std::vector<bool> loose_bodies(const Model& model) {
+  std::vector<int> uses(model.nodes.size(), 0);
+  const auto count = [&](const auto& items, auto counts) {
+    for (const auto& item : items)
+      for (const int node : {item.a.node, item.b.node})
+        if (node >= 0 && counts(item)) ++uses[node];
+  };
+  const auto always = [](const auto&) { return true; };
+  count(model.joints, always);
+  count(model.bushings, always);
+  count(model.coordinates, [](const Coordinate& coordinate) { return coordinate.active; });
+  std::vector<bool> loose(model.nodes.size(), false);
+  for (const RigidBody& body : model.rigid_bodies) loose[body.node] = uses[body.node] < 2;
+  return loose;
+}
+
 }  // namespace
 
 std::optional<Axis> axis_of(const SuperelementBody& body) {
@@ -76,27 +93,6 @@ std::optional<Axis> axis_of(const SuperelementBody& body) {
 double along(const Eigen::MatrixXd& matrix, const SuperelementNode& a, const SuperelementNode& b, const Axis& axis) {
   return axis.direction.dot(matrix.block<3, 3>(a.rotation_row, b.rotation_row) * axis.direction);
 }
-
-namespace {
-
-/// Nodes of rigid bodies on which one joint alone works: they go along, and hold nothing.
-std::vector<bool> loose_bodies(const Model& model) {
-  std::vector<int> uses(model.nodes.size(), 0);
-  const auto count = [&](const auto& items, auto counts) {
-    for (const auto& item : items)
-      for (const int node : {item.a.node, item.b.node})
-        if (node >= 0 && counts(item)) ++uses[node];
-  };
-  const auto always = [](const auto&) { return true; };
-  count(model.joints, always);
-  count(model.bushings, always);
-  count(model.coordinates, [](const Coordinate& coordinate) { return coordinate.active; });
-  std::vector<bool> loose(model.nodes.size(), false);
-  for (const RigidBody& body : model.rigid_bodies) loose[body.node] = uses[body.node] < 2;
-  return loose;
-}
-
-}  // namespace
 
 Twist twist_of(const Model& model, const Evaluation& evaluation) {
   const std::vector<bool> loose = loose_bodies(model);

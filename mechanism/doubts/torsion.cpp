@@ -89,19 +89,17 @@ class Torsion : public Doubt {
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     double worst = most_moment;
     int at = -1;
-    for (std::size_t i = 0; i < seen_.size(); ++i) {
-      if (beams_.empty() || beams_[i] != static_cast<int>(i)) continue;
-      if (const double now = ratio(model, beams_[i]); now > worst) worst = now, at = static_cast<int>(i);
+    for (int i = 0; i < std::ssize(seen_); ++i) {
+      if (beams_.empty() || beams_[i] != i) continue;
+      if (const double now = ratio(model, beams_[i]); now > worst) worst = now, at = i;
     }
     if (at < 0) return {};
-    return {fmt::format(
-        "'{}' is soft in torsion for its spin ({:.3g} rad per time at t = {:.6g}): with inertia {} its nodes feel "
-        "moments of "
-        "{:.2g} of its torsional stiffness that no beam has, beyond {:g} (above 1 it turns over): take 'inertia: A', "
-        "or "
-        "second_order with its companion file",
-        model.superelements[at].name, seen_[at].spin, seen_[at].time, letter(body_of(model, at).inertia), worst,
-        most_moment)};
+    return {
+        fmt::format("'{}' is soft in torsion for its spin ({:.3g} rad per time at t = {:.6g}): with inertia {} its "
+                    "nodes feel moments of {:.2g} of its torsional stiffness that no beam has, beyond {:g} (above 1 it "
+                    "turns over): take 'inertia: A', or second_order with its companion file",
+                    model.superelements[at].name, seen_[at].spin, seen_[at].time, letter(body_of(model, at).inertia),
+                    worst, most_moment)};
   }
 
   std::string explanation(Puzzle puzzle, const Model& model) const override {

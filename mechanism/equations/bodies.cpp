@@ -74,8 +74,7 @@ void add_forces(const Model& model, const State& state, const Pool<SuperelementU
     SuperelementScratch& scratch = evaluation.superelements[i];
     const int internal = model.internal_offset[i];
     const int first = model.sizes.boundary + internal;
-    const auto frame = state.frames().col(i);
-    const Matrix3d R0 = Eigen::Quaterniond(frame[0], frame[1], frame[2], frame[3]).toRotationMatrix();
+    const Matrix3d R0 = quaternion(state.frames().col(i)).toRotationMatrix();
     update_kinematics(body, nodes_of(model, i, evaluation), state.y().data() + internal, state.v().data() + first,
                       state.vdot().data() + first, R0, scratch);
     residual(body, scratch, gravity);
@@ -211,6 +210,13 @@ void note_modes(const Model& model, Evaluation& evaluation) {
       force = std::max(
           force, std::sqrt(body.mass) * std::max(std::abs(body.stiffness[k] * scratch.w[k]), std::abs(scratch.wdd[k])));
   }
+}
+
+void gather_residual(const Model& model, const Evaluation& evaluation, Eigen::Ref<Eigen::VectorXd> r) {
+  r.head(model.sizes.boundary) = evaluation.residual;
+  for (std::size_t i = 0; i < model.superelements.size(); ++i)
+    r.segment(model.sizes.boundary + model.internal_offset[i], body_of(model, i).modes) =
+        evaluation.superelements[i].forces.r_I;
 }
 
 }  // namespace tisserand::mechanism

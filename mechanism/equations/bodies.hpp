@@ -6,8 +6,6 @@
 namespace tisserand::mechanism {
 
 /// G_iner + G_int + G_damp − gravity of all bodies of the pool, with their force scales and the power of their dampers.
-template <class T>
-void add_forces(const Model& model, const State& state, const Pool<T>& pool, Evaluation& evaluation) = delete;
 void add_forces(const Model& model, const State& state, const Pool<SuperelementUse>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<BeamElement2>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<BeamElement3>& pool, Evaluation& evaluation);

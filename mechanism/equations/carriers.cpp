@@ -66,12 +66,11 @@ CarrierScratch make_carrier_scratch(const Model& model) {
 }
 
 void add_pulled_force(const Model& model, const ElementMap& map, const double* force, Evaluation& evaluation) {
-  for (int first = 0; first < 6 * static_cast<int>(map.carriers.size()); first += 6)
+  for (int first = 0; first < 6 * std::ssize(map.carriers); first += 6)
     add_carrier_force<3>(model, map, first, Eigen::Map<const Vector6d>(force + first), evaluation);
 }
 
-CarrierMatrix pulled_rows(const Model& model, const ElementMap& map, const LocalMatrix& B, const Evaluation& evaluation,
-                          Eigen::VectorXd& buffer) {
+CarrierMatrix Carriers::rows(const LocalMatrix& B, Eigen::VectorXd& buffer) const {
   CarrierMatrix rows(buffer.data(), B.rows(), static_cast<Index>(map.coordinates.size()));
   for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
     if (modal < 0)
@@ -82,11 +81,10 @@ CarrierMatrix pulled_rows(const Model& model, const ElementMap& map, const Local
   return rows;
 }
 
-CarrierMatrix pulled_tangent(const Model& model, const ElementMap& map, const LocalMatrix& K, const double* force,
-                             Evaluation& evaluation) {
+CarrierMatrix Carriers::tangent(const LocalMatrix& K, const double* force, CarrierScratch& scratch) const {
   const auto n = static_cast<Index>(map.coordinates.size());
-  const CarrierMatrix half = pulled_rows(model, map, K, evaluation, evaluation.carriers.half);
-  CarrierMatrix full(evaluation.carriers.full.data(), n, n);
+  const CarrierMatrix half = rows(K, scratch.half);
+  CarrierMatrix full(scratch.full.data(), n, n);
   for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
     if (modal < 0) {
       full.middleRows(first, width) = half.middleRows<6>(local);
@@ -103,22 +101,21 @@ CarrierMatrix pulled_tangent(const Model& model, const ElementMap& map, const Lo
   return full;
 }
 
-CarrierMatrix pulled_rate_gradient(const Model& model, const ElementMap& map, const LocalMatrix& B,
-                                   const LocalMatrix& N, Evaluation& evaluation, Eigen::VectorXd& buffer) {
-  CarrierMatrix rows = pulled_rows(model, map, N, evaluation, buffer);
+CarrierMatrix Carriers::rate_gradient(const LocalMatrix& B, const LocalMatrix& N, CarrierScratch& scratch) const {
+  CarrierMatrix gradient = rows(N, scratch.rate);
   for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
     if (modal < 0) return;
     const ModalNode& node = model.modal_nodes[modal];
-    CarrierMatrix Z(evaluation.carriers.gradient.data(), 6, width);
-    rate_gradient(node, evaluation.modal_bodies[node.body], terms_of(evaluation, modal), Z);
-    rows.middleCols(first, width).noalias() += B.middleCols<6>(local).lazyProduct(Z);
+    CarrierMatrix Z(scratch.gradient.data(), 6, width);
+    mechanism::rate_gradient(node, evaluation.modal_bodies[node.body], terms_of(evaluation, modal), Z);
+    gradient.middleCols(first, width).noalias() += B.middleCols<6>(local).lazyProduct(Z);
   });
-  return rows;
+  return gradient;
 }
 
-void carrier_bias(const Model& model, const ElementMap& map, const Evaluation& evaluation, double* bias) {
+void Carriers::bias(double* values) const {
   for_each_carrier(model, map, [&](Index local, Index, int modal, Index) {
-    Eigen::Map<Vector6d> b(bias + local);
+    Eigen::Map<Vector6d> b(values + local);
     if (modal < 0)
       b.setZero();
     else
@@ -127,8 +124,7 @@ void carrier_bias(const Model& model, const ElementMap& map, const Evaluation& e
 }
 
 template <int D>
-CarrierVector<D> pushed(const Model& model, const ElementMap& map, int node, int first, const Evaluation& evaluation,
-                        const Eigen::VectorXd& d) {
+CarrierVector<D> Carriers::pushed(int node, int first, const Eigen::VectorXd& d) const {
   constexpr int turns = Space<D>::turns, turn = Space<D>::first_turn;
   const int* const at = map.coordinates.data() + first_coordinate(model, map, first);
   CarrierVector<D> own = gather_carrier<D>(at, d);
@@ -144,14 +140,11 @@ CarrierVector<D> pushed(const Model& model, const ElementMap& map, int node, int
   for (Index j = 6; j < T.cols(); ++j) own += carrier_part<D>(T.col(j), 0) * d[at[j]];
   return own;
 }
-template CarrierVector<2> pushed<2>(const Model&, const ElementMap&, int, int, const Evaluation&,
-                                    const Eigen::VectorXd&);
-template CarrierVector<3> pushed<3>(const Model&, const ElementMap&, int, int, const Evaluation&,
-                                    const Eigen::VectorXd&);
+template CarrierVector<2> Carriers::pushed<2>(int, int, const Eigen::VectorXd&) const;
+template CarrierVector<3> Carriers::pushed<3>(int, int, const Eigen::VectorXd&) const;
 
 template <int D>
-void scatter_through(const Model& model, const ElementMap& map, int first, const CarrierVector<D>& force,
-                     const Evaluation& evaluation, Eigen::VectorXd& result) {
+void Carriers::scatter_through(int first, const CarrierVector<D>& force, Eigen::VectorXd& result) const {
   constexpr int turns = Space<D>::turns, turn = Space<D>::first_turn;
   const int modal = modal_node(model, map.carriers[first / 6]);
   const int* const at = map.coordinates.data() + first_coordinate(model, map, first);
@@ -165,17 +158,15 @@ void scatter_through(const Model& model, const ElementMap& map, int first, const
   }
   scatter_carrier<D>(at, own, result);
 }
-template void scatter_through<2>(const Model&, const ElementMap&, int, const CarrierVector<2>&, const Evaluation&,
-                                 Eigen::VectorXd&);
-template void scatter_through<3>(const Model&, const ElementMap&, int, const CarrierVector<3>&, const Evaluation&,
-                                 Eigen::VectorXd&);
+template void Carriers::scatter_through<2>(int, const CarrierVector<2>&, Eigen::VectorXd&) const;
+template void Carriers::scatter_through<3>(int, const CarrierVector<3>&, Eigen::VectorXd&) const;
 
-void turn_columns(const Model& model, const ElementMap& map, const Evaluation& evaluation, CarrierMatrix& rows) {
+void Carriers::turn_columns(CarrierMatrix& matrix) const {
   for_each_carrier(model, map, [&](Index local, Index first, int, Index) {
     const Matrix3d T = step_tangent(model, evaluation, map.carriers[local / 6]);
-    for (Index k = 0; k < rows.rows(); ++k) {
-      const Eigen::RowVector3d turned = rows.row(k).segment<3>(first + 3) * T;
-      rows.row(k).segment<3>(first + 3) = turned;
+    for (Index k = 0; k < matrix.rows(); ++k) {
+      const Eigen::RowVector3d turned = matrix.row(k).segment<3>(first + 3) * T;
+      matrix.row(k).segment<3>(first + 3) = turned;
     }
   });
 }
@@ -184,7 +175,7 @@ Eigen::MatrixXd model_rows(const Model& model, const ElementMap& map, const Loca
                            const Evaluation& evaluation) {
   if (map.carriers.empty()) return B;
   Eigen::VectorXd buffer(B.rows() * static_cast<Index>(map.coordinates.size()));
-  return pulled_rows(model, map, B, evaluation, buffer);
+  return Carriers{model, map, evaluation}.rows(B, buffer);
 }
 
 Matrix3d step_tangent(const Model& model, const Evaluation& evaluation, int node) {

@@ -23,58 +23,58 @@ LocalMatrix local_view(const Matrix& m) {
   return {m.data(), m.rows(), m.cols()};
 }
 
-// For maps that list carriers; local matrices have six columns (and rows) per carrier, results n = size of
-// map.coordinates.
+/// The carriers of a joint, a coordinate or a force element, which its map lists if one of them follows a modal body,
+/// and their motion.
+struct Carriers {
+  const Model& model;
+  const ElementMap& map;
+  const Evaluation& evaluation;
+
+  // For maps that list carriers; local matrices have six columns (and rows) per carrier, results n = size of
+  // map.coordinates.
+
+  /// Tᵀ K T + ∂(Tᵀ force)/∂q, n x n: the tangent of a force that the carriers receive.
+  CarrierMatrix tangent(const LocalMatrix& K, const double* force, CarrierScratch& scratch) const;
+  /// B T, in `buffer`.
+  CarrierMatrix rows(const LocalMatrix& B, Eigen::VectorXd& buffer) const;
+  /// ∂(B T v)/∂q = N T + B ∂(T v)/∂q for N = ∂(B v)/∂(local q).
+  CarrierMatrix rate_gradient(const LocalMatrix& B, const LocalMatrix& N, CarrierScratch& scratch) const;
+  /// Multiplies the columns of turns with T(displacement of the step): rows for increments of rotation vectors.
+  void turn_columns(CarrierMatrix& matrix) const;
+  /// Ṫ v, six numbers per carrier: what the carriers' accelerations have besides T v̇.
+  void bias(double* values) const;
+
+  // For all maps, and of the carrier alone whose columns begin at `first` of local vectors:
+
+  /// T d for the increments d of all coordinates, turns as increments of the rotation vectors of the step.
+  template <int D>
+  CarrierVector<D> pushed(int node, int first, const Eigen::VectorXd& d) const;
+  /// result += Tᵀ force.
+  template <int D>
+  void scatter(int first, const CarrierVector<D>& force, Eigen::VectorXd& result) const {
+    if (map.carriers.empty())
+      scatter_carrier<D>(map.coordinates.data() + first, force, result);
+    else
+      scatter_through<D>(first, force, result);
+  }
+
+ private:
+  template <int D>
+  void scatter_through(int first, const CarrierVector<D>& force, Eigen::VectorXd& result) const;
+};
 
 /// Adds Tᵀ force to the residual, six numbers per carrier; modal nodes keep what they got (Evaluation::modal_forces).
 void add_pulled_force(const Model& model, const ElementMap& map, const double* force, Evaluation& evaluation);
 
-/// Tᵀ K T + ∂(Tᵀ force)/∂q, n x n: the tangent of a force that the carriers receive.
-CarrierMatrix pulled_tangent(const Model& model, const ElementMap& map, const LocalMatrix& K, const double* force,
-                             Evaluation& evaluation);
-
-/// B T, in `buffer`.
-CarrierMatrix pulled_rows(const Model& model, const ElementMap& map, const LocalMatrix& B, const Evaluation& evaluation,
-                          Eigen::VectorXd& buffer);
-
-/// ∂(B T v)/∂q = N T + B ∂(T v)/∂q for N = ∂(B v)/∂(local q), in `buffer`.
-CarrierMatrix pulled_rate_gradient(const Model& model, const ElementMap& map, const LocalMatrix& B,
-                                   const LocalMatrix& N, Evaluation& evaluation, Eigen::VectorXd& buffer);
-
-/// Ṫ v, six numbers per carrier: what the carriers' accelerations have besides T v̇.
-void carrier_bias(const Model& model, const ElementMap& map, const Evaluation& evaluation, double* bias);
-
-// For all maps, and of the carrier alone whose columns begin at `first` of local vectors:
-
-/// T d for the increments d of all coordinates, turns as increments of the rotation vectors of the step.
-template <int D>
-CarrierVector<D> pushed(const Model& model, const ElementMap& map, int node, int first, const Evaluation& evaluation,
-                        const Eigen::VectorXd& d);
-
-template <int D>
-void scatter_through(const Model& model, const ElementMap& map, int first, const CarrierVector<D>& force,
-                     const Evaluation& evaluation, Eigen::VectorXd& result);
-/// result += Tᵀ force.
-template <int D>
-void scatter_pulled(const Model& model, const ElementMap& map, int first, const CarrierVector<D>& force,
-                    const Evaluation& evaluation, Eigen::VectorXd& result) {
-  if (map.carriers.empty())
-    scatter_carrier<D>(map.coordinates.data() + first, force, result);
-  else
-    scatter_through<D>(model, map, first, force, evaluation, result);
-}
-/// The same onto the residual; modal nodes keep what they got (Evaluation::modal_forces).
+/// The same of the carrier whose columns begin at `first`.
 template <int D>
 void add_carrier_force(const Model& model, const ElementMap& map, int first, const CarrierVector<D>& force,
                        Evaluation& evaluation) {
-  scatter_pulled<D>(model, map, first, force, evaluation, evaluation.residual);
+  Carriers{model, map, evaluation}.scatter<D>(first, force, evaluation.residual);
   if (map.carriers.empty()) return;
   if (const int modal = modal_node(model, map.carriers[first / 6]); modal >= 0)
     for (int c = 0; c < force.size(); ++c) evaluation.modal_forces[modal][Space<D>::columns[c]] += force[c];
 }
-
-/// Multiplies the columns of turns with T(displacement of the step): rows for increments of rotation vectors.
-void turn_columns(const Model& model, const ElementMap& map, const Evaluation& evaluation, CarrierMatrix& rows);
 
 /// B in the columns of map.coordinates, for maps with and without carriers; takes memory: not for the step.
 Eigen::MatrixXd model_rows(const Model& model, const ElementMap& map, const LocalMatrix& B,

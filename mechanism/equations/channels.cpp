@@ -92,6 +92,7 @@ void add_channel_tangents(const Model& model, const State& state, Evaluation& ev
       add_part_load_channel(model, state, i, evaluation, target);
       continue;
     }
+    const Carriers on{model, model.channel_uses.maps[i], evaluation};
     const auto owner = static_cast<std::size_t>(use.index);
     const Row12 row = channel_row(model, model.channels[use.channel], target.coefficients, evaluation);
     const double slope =
@@ -102,11 +103,11 @@ void add_channel_tangents(const Model& model, const State& state, Evaluation& ev
       const Vector6d force =
           load_force(load, motion_of(evaluation, load.at.node), slope * Eigen::Vector3d::Unit(use.component));
       on_load.topRightCorner<6, 12>().noalias() = -force * row;
-      add_matrix(model, model.channel_uses.maps[i], on_load, target.factor, evaluation, target.values, no_force<18>);
+      add_matrix(on, on_load, target.factor, no_force<18>, target);
     } else {
       const Row12& G = evaluation.coordinates[model.springs[owner].coordinate].G;
       on_spring.topRightCorner<12, 12>().noalias() = -slope * G.transpose() * row;
-      add_matrix(model, model.channel_uses.maps[i], on_spring, target.factor, evaluation, target.values, no_force<24>);
+      add_matrix(on, on_spring, target.factor, no_force<24>, target);
     }
   }
 }

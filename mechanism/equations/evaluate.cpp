@@ -4,8 +4,9 @@
 #include <limits>
 
 #include "mechanism/equations/bodies.hpp"
-#include "mechanism/equations/terms.hpp"
+#include "mechanism/equations/forces.hpp"
 #include "mechanism/model/bodies.hpp"
+#include "mechanism/model/forces.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -57,10 +58,7 @@ void evaluate_in_step(const Model& model, const State& state, Evaluation& evalua
   add_frictions(model, state, evaluation);
   add_couplings(model, state, evaluation);
   add_springs(model, state, evaluation);
-  add_bushings(model, evaluation);
-  add_tyres(model, evaluation);
-  add_loads(model, state, evaluation);
-  add_part_loads(model, evaluation);
+  for_each_force_pool(model, [&](const auto& pool) { add_forces(model, state, pool, evaluation); });
   note_modes(model, evaluation);
   evaluation.stage = Stage::forces;
 }

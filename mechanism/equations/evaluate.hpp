@@ -39,6 +39,10 @@ JointReaction tie_reaction(const Model& model, std::size_t i, const Evaluation& 
 /// Fills Ḃ v + Φ_tt (Φ̈ = B v̇ + Ḃ v + Φ_tt) for the state of the last evaluate().
 void evaluate_bias(const Model& model, Evaluation& evaluation);
 
+/// r of all velocity coordinates: those of nodes and modal bodies, then the internal ones of superelements. At the
+/// state of the last evaluate().
+void gather_residual(const Model& model, const Evaluation& evaluation, Eigen::Ref<Eigen::VectorXd> r);
+
 /// At the state of the last evaluate().
 Energy evaluate_energy(const Model& model, const Evaluation& evaluation);
 

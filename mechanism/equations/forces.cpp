@@ -1,6 +1,7 @@
 // Force elements between two markers with laws of their own, and friction in joints.
+#include "mechanism/equations/forces.hpp"
+
 #include "mechanism/equations/evaluate.hpp"
-#include "mechanism/equations/terms.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -41,14 +42,15 @@ void add_frictions(const Model& model, const State& state, Evaluation& evaluatio
   }
 }
 
-void add_load_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target) {
+void add_tangents(const Model& model, const Pool<Load>& pool, Evaluation& evaluation, const TangentTarget& target) {
   Matrix6d A;
-  for (std::size_t i = 0; i < model.loads.size(); ++i) {
-    const Load& load = model.loads[i];
+  for (std::size_t i = 0; i < pool.size(); ++i) {
+    const Load& load = pool[i];
     const NodeMotion& node = motion_of(evaluation, load.at.node);
     A = load_stiffness(load, node, evaluation.load_values[i]);
-    add_matrix(model, model.loads.maps[i], A, -target.coefficients.stiffness * target.factor, evaluation, target.values,
-               [&] { return load_force(load, node, evaluation.load_values[i]); });
+    const auto force = [&] { return load_force(load, node, evaluation.load_values[i]); };
+    add_matrix({model, pool.maps[i], evaluation}, A, -target.coefficients.stiffness * target.factor, force,
+               target);
   }
 }
 
@@ -59,17 +61,16 @@ void add_friction_tangents(const Model& model, const State& state, Evaluation& e
   for (std::size_t i = 0; i < model.frictions.size(); ++i) {
     const Friction& friction = model.frictions[i];
     const auto at = static_cast<std::size_t>(friction.joint);
-    const ElementMap& map = model.joints.maps[at];
+    const Carriers on{model, model.joints.maps[at], evaluation};
     const LoadedJoint loaded = loaded_joint(model, state, evaluation, friction);
     tangent(friction, loaded, coefficients, result);
-    add_matrix(model, map, result.A, target.factor, evaluation, target.values,
-               [&] { return Vector12d(coefficients.stiffness * evaluation.frictions[i].force); });
+    const auto force = [&] { return Vector12d(coefficients.stiffness * evaluation.frictions[i].force); };
+    add_matrix(on, result.A, target.factor, force, target);
     const auto add = [&](const ConstraintMap& slots, int size, const auto& rows) {
-      if (map.carriers.empty())
+      if (on.map.carriers.empty())
         add_upper(slots, size, rows, target.values);
       else
-        add_upper(slots, size, pulled_rows(model, map, local_view(rows), evaluation, evaluation.carriers.upper),
-                  target.values);
+        add_upper(slots, size, on.rows(local_view(rows), target.scratch.upper), target.values);
     };
     const Eigen::Matrix<double, 6, 12> by_lambda = result.by_lambda.transpose();
     add(model.constraint_maps[at], loaded.joint.size(), by_lambda);
@@ -80,26 +81,26 @@ void add_friction_tangents(const Model& model, const State& state, Evaluation& e
   }
 }
 
-void add_loads(const Model& model, const State& state, Evaluation& evaluation) {
-  for (std::size_t i = 0; i < model.loads.size(); ++i) {
-    const Load& load = model.loads[i];
+void add_forces(const Model& model, const State& state, const Pool<Load>& pool, Evaluation& evaluation) {
+  for (std::size_t i = 0; i < pool.size(); ++i) {
+    const Load& load = pool[i];
     const NodeMotion& node = motion_of(evaluation, load.at.node);
     Eigen::Vector3d& value = evaluation.load_values[i];
     for (int k = 0; k < 3; ++k) value[k] = evaluation.load_factor * evaluation.load_functions[i][k](state.load_time());
     const Vector6d force = load_force(load, node, value);
-    add_force(model, model.loads.maps[i], Vector6d(-force), evaluation);
+    add_force(model, pool.maps[i], Vector6d(-force), evaluation);
     note_scale(force, evaluation);
     evaluation.load_power += force.head<3>().dot(node.xd) + force.tail<3>().dot(node.Omega);
   }
 }
 
-void add_bushings(const Model& model, Evaluation& evaluation) {
-  for (std::size_t i = 0; i < model.bushings.size(); ++i) {
-    const Bushing& bushing = model.bushings[i];
+void add_forces(const Model& model, const State& /*state*/, const Pool<Bushing>& pool, Evaluation& evaluation) {
+  for (std::size_t i = 0; i < pool.size(); ++i) {
+    const Bushing& bushing = pool[i];
     BushingTerms& terms = evaluation.bushings[i];
     const double turned = bushing.axis < 0 ? 0.0 : evaluation.coordinates[bushing.coordinate].value;
     evaluate(bushing, markers_of(bushing, evaluation), turned, terms);
-    add_force(model, model.bushings.maps[i], terms.force, evaluation);
+    add_force(model, pool.maps[i], terms.force, evaluation);
     note_scale(terms.force, evaluation);
     evaluation.spring_energy += terms.energy;
     evaluation.damper_power += terms.dissipated;
@@ -107,23 +108,23 @@ void add_bushings(const Model& model, Evaluation& evaluation) {
   }
 }
 
-void add_bushing_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target) {
+void add_tangents(const Model& model, const Pool<Bushing>& pool, Evaluation& evaluation, const TangentTarget& target) {
   const TangentCoefficients& coefficients = target.coefficients;
   Square12 A;
-  for (std::size_t i = 0; i < model.bushings.size(); ++i) {
-    const Bushing& bushing = model.bushings[i];
+  for (std::size_t i = 0; i < pool.size(); ++i) {
+    const Bushing& bushing = pool[i];
     tangent(bushing, markers_of(bushing, evaluation), evaluation.bushings[i], coefficients, A);
-    add_matrix(model, model.bushings.maps[i], A, target.factor, evaluation, target.values,
-               [&] { return Vector12d(coefficients.stiffness * evaluation.bushings[i].force); });
+    const auto force = [&] { return Vector12d(coefficients.stiffness * evaluation.bushings[i].force); };
+    add_matrix({model, pool.maps[i], evaluation}, A, target.factor, force, target);
   }
 }
 
-void add_tyres(const Model& model, Evaluation& evaluation) {
-  for (std::size_t i = 0; i < model.tyres.size(); ++i) {
-    const Tyre& tyre = model.tyres[i];
+void add_forces(const Model& model, const State& /*state*/, const Pool<Tyre>& pool, Evaluation& evaluation) {
+  for (std::size_t i = 0; i < pool.size(); ++i) {
+    const Tyre& tyre = pool[i];
     TyreTerms& terms = evaluation.tyres[i];
     evaluate(tyre, model.roads[tyre.road], motion_of(evaluation, tyre.wheel.node), evaluation.treads[i], terms);
-    add_force(model, model.tyres.maps[i], tyre_residual(terms), evaluation);
+    add_force(model, pool.maps[i], tyre_residual(terms), evaluation);
     note_scale(terms.residual, evaluation);
     evaluation.spring_energy += terms.energy;
   }
@@ -140,11 +141,11 @@ double damping_power(const Model& model, const Evaluation& evaluation) {
   return power;
 }
 
-void add_tyre_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target) {
+void add_tangents(const Model& model, const Pool<Tyre>& pool, Evaluation& evaluation, const TangentTarget& target) {
   const TangentCoefficients& coefficients = target.coefficients;
   Matrix8d A;
-  for (std::size_t i = 0; i < model.tyres.size(); ++i) {
-    const Tyre& tyre = model.tyres[i];
+  for (std::size_t i = 0; i < pool.size(); ++i) {
+    const Tyre& tyre = pool[i];
     const Road& road = model.roads[tyre.road];
     const NodeMotion& node = motion_of(evaluation, tyre.wheel.node);
     const TyreTerms& terms = evaluation.tyres[i];
@@ -152,10 +153,11 @@ void add_tyre_tangents(const Model& model, Evaluation& evaluation, const Tangent
     if (terms.penetration > 0.0 || tyre.relaxes()) A = tangent(tyre, road, node, evaluation.treads[i], coefficients);
     if (evaluation.standing) A += coefficients.stiffness * standing_stiffness(tyre, road, node, terms);
     if (tyre.relaxes())  // its wheel follows no modal body
-      scatter_matrix(model.tyres.maps[i], A, target.factor, target.values);
+      scatter_matrix(pool.maps[i], A, target.factor, target.values);
     else
-      add_matrix(model, model.tyres.maps[i], Matrix6d(A.topLeftCorner<6, 6>()), target.factor, evaluation,
-                 target.values, [&] { return Vector6d(coefficients.stiffness * terms.residual); });
+      add_matrix(
+          {model, pool.maps[i], evaluation}, Matrix6d(A.topLeftCorner<6, 6>()), target.factor,
+          [&] { return Vector6d(coefficients.stiffness * terms.residual); }, target);
   }
 }
 

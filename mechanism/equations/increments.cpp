@@ -1,8 +1,6 @@
 // Exponential of rotation vectors, and the rows of constraints.
 #include "mechanism/equations/increments.hpp"
 
-#include <utility>
-
 #include "common/math/rotation.hpp"
 #include "mechanism/equations/carriers.hpp"
 #include "mechanism/frames/turn.hpp"
@@ -29,10 +27,9 @@ void apply_jacobian(const Model& model, const Evaluation& evaluation, const Eige
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
     in_space(joint.planar, [&]<int D>() {
-      const ElementMap& map = model.joints.maps[i];
-      const auto product =
-          rows_times<D>(joint, evaluation.joints[i], pushed<D>(model, map, joint.a.node, 0, evaluation, d),
-                        pushed<D>(model, map, joint.b.node, 6, evaluation, d));
+      const Carriers on{model, model.joints.maps[i], evaluation};
+      const auto product = rows_times<D>(joint, evaluation.joints[i], on.pushed<D>(joint.a.node, 0, d),
+                                         on.pushed<D>(joint.b.node, 6, d));
       for (int k = 0; k < joint.size(); ++k) rows[joint.row + k] = product[k];
     });
   }
@@ -41,11 +38,11 @@ void apply_jacobian(const Model& model, const Evaluation& evaluation, const Eige
     for (const CouplingTerm& term : coupling.terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
       const Coordinate& coordinate = model.coordinates[at];
-      const ElementMap& map = model.coordinates.maps[at];
+      const Carriers on{model, model.coordinates.maps[at], evaluation};
       const Row12& G = evaluation.coordinates[at].G;
       sum += term.factor * in_space(coordinate.relation.planar, [&]<int D>() {
-               return carrier_part<D>(G, 0).dot(pushed<D>(model, map, coordinate.a.node, 0, evaluation, d)) +
-                      carrier_part<D>(G, 6).dot(pushed<D>(model, map, coordinate.b.node, 6, evaluation, d));
+               return carrier_part<D>(G, 0).dot(on.pushed<D>(coordinate.a.node, 0, d)) +
+                      carrier_part<D>(G, 6).dot(on.pushed<D>(coordinate.b.node, 6, d));
              });
     }
     rows[coupling.row] = sum;
@@ -59,9 +56,8 @@ void apply_transposed_jacobian(const Model& model, const Evaluation& evaluation,
     const Joint& joint = model.joints[i];
     in_space(joint.planar, [&]<int D>() {
       for (const int first : {0, 6})
-        scatter_pulled<D>(model, model.joints.maps[i], first,
-                          transposed_times<D>(joint, evaluation.joints[i], mu.data() + joint.row, first), evaluation,
-                          result);
+        Carriers{model, model.joints.maps[i], evaluation}.scatter<D>(
+            first, transposed_times<D>(joint, evaluation.joints[i], mu.data() + joint.row, first), result);
     });
   }
   for (const Coupling& coupling : model.couplings)
@@ -70,8 +66,8 @@ void apply_transposed_jacobian(const Model& model, const Evaluation& evaluation,
       const double own = term.factor * mu[coupling.row];
       in_space(model.coordinates[at].relation.planar, [&]<int D>() {
         for (const int first : {0, 6})
-          scatter_pulled<D>(model, model.coordinates.maps[at], first,
-                            own * carrier_part<D>(evaluation.coordinates[at].G, first), evaluation, result);
+          Carriers{model, model.coordinates.maps[at], evaluation}.scatter<D>(
+              first, own * carrier_part<D>(evaluation.coordinates[at].G, first), result);
       });
     }
 }
@@ -99,8 +95,7 @@ void retract(const Model& model, const State& from, const Eigen::Ref<const Eigen
     }
     if (node.translation >= 0) x.col(column) = x0.col(column) + translation_at(model, d, node.translation);
     if (node.rotation >= 0) {
-      const Eigen::Quaterniond q0(Q0(0, column), Q0(1, column), Q0(2, column), Q0(3, column));
-      Q.col(column) = wxyz(q0 * exp_quaternion(rotation_at(model, d, node.rotation)));
+      Q.col(column) = wxyz(quaternion(Q0.col(column)) * exp_quaternion(rotation_at(model, d, node.rotation)));
     }
   }
   to.w() = from.w() + d.segment(model.sizes.first_modal(), model.sizes.modal);

@@ -22,21 +22,44 @@ void evaluate_coordinate(const Coordinate& coordinate, const State& state, const
   });
 }
 
-/// Turns the columns of B into those of the iteration matrix; `gradient`: ∂(B v)/∂q, asked for only if needed.
-template <class Rows, class Pair, class Gradient>
-Rows constraint_rows(const Model& model, const Pair& item, const Rows& B, const ConstraintRows& kind,
-                     const Evaluation& evaluation, Gradient gradient) {
-  Rows rows = B;
+/// Rows of B of a joint or coordinate, the first `size` of which belong to the matrix, from slot `first` of their map
+/// on; `gradient()`: ∂(B v)/∂q, asked for only if needed.
+template <class Rows, class Gradient>
+struct ConstraintBlock {
+  const Rows& B;
+  Gradient gradient;
+  int size;
+  const ConstraintMap& slots;
+  std::size_t first;
+};
+
+/// Adds rows and, transposed, columns.
+template <class Block, class Lower, class Upper>
+void add_rows(const Block& block, const Lower& lower, const Upper& upper, std::vector<double>& values) {
+  std::size_t at = block.first;
+  for (Eigen::Index j = 0; j < lower.cols(); ++j)
+    for (int k = 0; k < block.size; ++k, ++at) {
+      if (block.slots.lower[at] < 0) continue;
+      values[block.slots.lower[at]] += lower(k, j);
+      values[block.slots.upper[at]] += upper(k, j);
+    }
+}
+
+/// B with the columns of the iteration matrix.
+template <class Pair, class Rows, class Gradient>
+Rows constraint_rows(const Carriers& on, const Pair& item, const ConstraintBlock<Rows, Gradient>& block,
+                     const ConstraintRows& kind) {
+  Rows rows = block.B;
   switch (kind.kind) {
     case ConstraintRows::Kind::plain:
       break;
     case ConstraintRows::Kind::position:
-      if (model.planar) break;  // T(θ) d = d for parallel vectors
-      rows.template middleCols<3>(3) = B.template middleCols<3>(3) * step_tangent(model, evaluation, item.a.node);
-      rows.template middleCols<3>(9) = B.template middleCols<3>(9) * step_tangent(model, evaluation, item.b.node);
+      if (on.model.planar) break;  // T(θ) d = d for parallel vectors
+      rows.template middleCols<3>(3) *= step_tangent(on.model, on.evaluation, item.a.node);
+      rows.template middleCols<3>(9) *= step_tangent(on.model, on.evaluation, item.b.node);
       break;
     case ConstraintRows::Kind::velocity:
-      rows += kind.rate_factor * gradient();
+      rows += kind.rate_factor * block.gradient();
       break;
   }
   return rows;
@@ -44,37 +67,33 @@ Rows constraint_rows(const Model& model, const Pair& item, const Rows& B, const 
 
 /// The same in the coordinates of carriers that follow modal bodies.
 template <class Rows, class Gradient>
-CarrierMatrix pulled_constraint_rows(const Model& model, const ElementMap& map, const Rows& B,
-                                     const ConstraintRows& kind, Evaluation& evaluation, Gradient gradient) {
-  CarrierMatrix rows = pulled_rows(model, map, local_view(B), evaluation, evaluation.carriers.lower);
+CarrierMatrix pulled_constraint_rows(const Carriers& on, const ConstraintBlock<Rows, Gradient>& block,
+                                     const ConstraintRows& kind, CarrierScratch& scratch) {
+  CarrierMatrix rows = on.rows(local_view(block.B), scratch.lower);
   switch (kind.kind) {
     case ConstraintRows::Kind::plain:
       break;
     case ConstraintRows::Kind::position:
-      turn_columns(model, map, evaluation, rows);
+      on.turn_columns(rows);
       break;
     case ConstraintRows::Kind::velocity: {
-      const Rows N = gradient();
-      rows += kind.rate_factor *
-              pulled_rate_gradient(model, map, local_view(B), local_view(N), evaluation, evaluation.carriers.rate);
+      const Rows N = block.gradient();
+      rows += kind.rate_factor * on.rate_gradient(local_view(block.B), local_view(N), scratch);
       break;
     }
   }
   return rows;
 }
 
-/// Rows and columns of B, which begin at slot `first` of the constraint's map.
-template <class Rows, class Pair, class Gradient>
-void add_constraint_rows(const Model& model, const Pair& item, const ElementMap& map, const Rows& B, int size,
-                         const ConstraintMap& slots, std::size_t first, const TangentTarget& target,
-                         Evaluation& evaluation, Gradient gradient) {
-  if (map.carriers.empty()) {
-    add_rows(slots, first, size, constraint_rows(model, item, B, target.rows, evaluation, gradient), B, target.values);
+template <class Pair, class Rows, class Gradient>
+void add_constraint_rows(const Carriers& on, const Pair& item, const ConstraintBlock<Rows, Gradient>& block,
+                         const TangentTarget& target) {
+  if (on.map.carriers.empty()) {
+    add_rows(block, constraint_rows(on, item, block, target.rows), block.B, target.values);
     return;
   }
-  const CarrierMatrix upper = pulled_rows(model, map, local_view(B), evaluation, evaluation.carriers.upper);
-  add_rows(slots, first, size, pulled_constraint_rows(model, map, B, target.rows, evaluation, gradient), upper,
-           target.values);
+  const CarrierMatrix upper = on.rows(local_view(block.B), target.scratch.upper);
+  add_rows(block, pulled_constraint_rows(on, block, target.rows, target.scratch), upper, target.values);
 }
 
 /// Adds what `force_on(first)` gives for each carrier of a pair, whose columns begin at `first`: 0 (A) or 6 (B).
@@ -102,6 +121,25 @@ Vector12 joint_force(const Joint& joint, const JointTerms& terms, const State& s
   for (const int first : {0, 6})
     force.segment<6>(first) = transposed_times<3>(joint, terms, state.lambda().data() + joint.row, first);
   return force;
+}
+
+/// −∂(GᵀQ)/∂(q, v) of a spring on carriers that follow modal bodies.
+void add_pulled_spring(const Carriers& on, const Coordinate& c, const Row12& G, const SpringForce& f,
+                       const TangentTarget& target) {
+  const TangentCoefficients& coefficients = target.coefficients;
+  const MarkerPair pair = markers_of(c, on.evaluation);
+  Square12 K = Square12::Zero();
+  add_stiffness(c.relation, pair, -f.Q, K);
+  const Vector12 force = -f.Q * G.transpose();
+  CarrierMatrix tangent = on.tangent(local_view(K), force.data(), target.scratch);
+  tangent *= coefficients.stiffness;
+  const CarrierMatrix row = on.rows(local_view(G), target.scratch.upper);
+  const Row12 N = rate_gradient(c.relation, pair);
+  const CarrierMatrix rate = on.rate_gradient(local_view(G), local_view(N), target.scratch);
+  const double slope = coefficients.stiffness * f.dQ_dq + coefficients.damping * f.dQ_dqd;
+  tangent.noalias() -= slope * row.transpose().lazyProduct(row);
+  tangent.noalias() -= (coefficients.stiffness * f.dQ_dqd) * row.transpose().lazyProduct(rate);
+  scatter_matrix(on.map, tangent, target.factor, target.values);
 }
 
 }  // namespace
@@ -202,7 +240,7 @@ void evaluate_bias(const Model& model, Evaluation& evaluation) {
     joint_bias(joint, motion_of(evaluation, joint.a.node), motion_of(evaluation, joint.b.node), evaluation.joints[i]);
     if (!model.joints.maps[i].carriers.empty()) {
       Vector12 own;
-      carrier_bias(model, model.joints.maps[i], evaluation, own.data());
+      Carriers{model, model.joints.maps[i], evaluation}.bias(own.data());
       evaluation.joints[i].bias += evaluation.joints[i].B.lazyProduct(own);
     }
     evaluation.bias.segment(joint.row, joint.size()) = evaluation.joints[i].bias.head(joint.size());
@@ -215,38 +253,12 @@ void evaluate_bias(const Model& model, Evaluation& evaluation) {
       sum += term.factor * bias(c.relation, markers_of(c, evaluation));
       if (model.coordinates.maps[at].carriers.empty()) continue;
       Vector12 own;
-      carrier_bias(model, model.coordinates.maps[at], evaluation, own.data());
+      Carriers{model, model.coordinates.maps[at], evaluation}.bias(own.data());
       sum += term.factor * evaluation.coordinates[at].G.dot(own);
     }
     evaluation.bias[coupling.row] = sum;
   }
 }
-
-namespace {
-
-/// −∂(GᵀQ)/∂(q, v) of a spring on carriers that follow modal bodies.
-void add_pulled_spring(const Model& model, const Coordinate& c, const SpringForce& f, std::size_t at,
-                       Evaluation& evaluation, const TangentTarget& target) {
-  const TangentCoefficients& coefficients = target.coefficients;
-  const ElementMap& map = model.coordinates.maps[at];
-  const MarkerPair pair = markers_of(c, evaluation);
-  const Row12& G = evaluation.coordinates[at].G;
-  Square12 K = Square12::Zero();
-  add_stiffness(c.relation, pair, -f.Q, K);
-  const Vector12 force = -f.Q * G.transpose();
-  CarrierMatrix tangent = pulled_tangent(model, map, local_view(K), force.data(), evaluation);
-  tangent *= coefficients.stiffness;
-  const CarrierMatrix row = pulled_rows(model, map, local_view(G), evaluation, evaluation.carriers.upper);
-  const Row12 N = rate_gradient(c.relation, pair);
-  const CarrierMatrix rate =
-      pulled_rate_gradient(model, map, local_view(G), local_view(N), evaluation, evaluation.carriers.rate);
-  const double slope = coefficients.stiffness * f.dQ_dq + coefficients.damping * f.dQ_dqd;
-  tangent.noalias() -= slope * row.transpose().lazyProduct(row);
-  tangent.noalias() -= (coefficients.stiffness * f.dQ_dqd) * row.transpose().lazyProduct(rate);
-  scatter_matrix(map, tangent, target.factor, target.values);
-}
-
-}  // namespace
 
 void add_joint_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target) {
   const double stiffness = target.coefficients.stiffness * target.factor;
@@ -256,14 +268,16 @@ void add_joint_tangents(const Model& model, const State& state, Evaluation& eval
     const JointTerms& terms = evaluation.joints[i];
     const MarkerPair pair = markers_of(joint, evaluation);
     joint_stiffness(joint, pair.node_a, pair.node_b, state.lambda().data() + joint.row, K);
-    add_matrix(model, model.joints.maps[i], K, stiffness, evaluation, target.values,
-               [&] { return joint_force(joint, terms, state); });
-    add_constraint_rows(model, joint, model.joints.maps[i], terms.B, joint.size(), model.constraint_maps[i], 0, target,
-                        evaluation, [&] {
-                          Eigen::Matrix<double, 6, 12> gradient;
-                          joint_rate_gradient(joint, pair.node_a, pair.node_b, gradient);
-                          return gradient;
-                        });
+    const Carriers on{model, model.joints.maps[i], evaluation};
+    add_matrix(
+        on, K, stiffness, [&] { return joint_force(joint, terms, state); }, target);
+    const auto gradient = [&] {
+      Eigen::Matrix<double, 6, 12> rows;
+      joint_rate_gradient(joint, pair.node_a, pair.node_b, rows);
+      return rows;
+    };
+    add_constraint_rows(on, joint, ConstraintBlock{terms.B, gradient, joint.size(), model.constraint_maps[i], 0},
+                        target);
   }
 }
 
@@ -273,7 +287,6 @@ void add_coordinate_tangents(const Model& model, const State& state, Evaluation&
   Square12 K;
   for (std::size_t i = 0; i < model.couplings.size(); ++i) {
     const Coupling& coupling = model.couplings[i];
-    const ConstraintMap& map = model.coupling_constraint_maps[i];
     std::size_t slot = 0;
     for (const CouplingTerm& term : coupling.terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
@@ -282,12 +295,12 @@ void add_coordinate_tangents(const Model& model, const State& state, Evaluation&
       K.setZero();
       add_stiffness(c.relation, pair, term.factor * state.lambda()[coupling.row], K);
       const Row12 B = term.factor * evaluation.coordinates[at].G;
-      const ElementMap& columns = model.coordinates.maps[at];
-      add_matrix(model, columns, K, coefficients.stiffness * target.factor, evaluation, target.values,
-                 [&] { return Vector12(state.lambda()[coupling.row] * B.transpose()); });
-      add_constraint_rows(model, c, columns, B, 1, map, slot, target, evaluation,
-                          [&] { return Row12(term.factor * rate_gradient(c.relation, pair)); });
-      slot += columns.coordinates.size();
+      const Carriers on{model, model.coordinates.maps[at], evaluation};
+      const auto force = [&] { return Vector12(state.lambda()[coupling.row] * B.transpose()); };
+      add_matrix(on, K, coefficients.stiffness * target.factor, force, target);
+      const auto gradient = [&] { return Row12(term.factor * rate_gradient(c.relation, pair)); };
+      add_constraint_rows(on, c, ConstraintBlock{B, gradient, 1, model.coupling_constraint_maps[i], slot}, target);
+      slot += on.map.coordinates.size();
     }
   }
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
@@ -299,7 +312,7 @@ void add_coordinate_tangents(const Model& model, const State& state, Evaluation&
     const double applied = applied_force(model, i, state.load_time(), evaluation);
     const SpringForce f = spring_force(model.springs[i], terms.value, terms.rate, applied);
     if (!model.coordinates.maps[at].carriers.empty()) {
-      add_pulled_spring(model, c, f, at, evaluation, target);
+      add_pulled_spring({model, model.coordinates.maps[at], evaluation}, c, G, f, target);
       continue;
     }
     K.noalias() = -(coefficients.stiffness * f.dQ_dq + coefficients.damping * f.dQ_dqd) * G.transpose() * G;

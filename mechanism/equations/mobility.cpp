@@ -100,7 +100,7 @@ ColumnRank dense_rank(Eigen::MatrixXd A, double tolerance) {
     for (Eigen::Index j = 0; j < A.cols(); ++j)
       if (!taken[j]) A.col(j) -= q * q.dot(A.col(j));
   }
-  for (int j = 0; j < static_cast<int>(taken.size()); ++j)
+  for (int j = 0; j < std::ssize(taken); ++j)
     if (!taken[j]) rank.dependent.push_back(j);
   return rank;
 }
@@ -148,12 +148,13 @@ struct OpenMotions {
 };
 
 /// Of a joint coordinate, or of a turn in a joint, in the motions of the parts.
-Eigen::RowVectorXd part_row(const Model& model, const Parts& parts, const Evaluation& evaluation, const Marker& a,
-                            const Marker& b, const Row12& values) {
+template <class Pair>
+Eigen::RowVectorXd part_row(const Model& model, const Parts& parts, const Evaluation& evaluation, const Pair& pair,
+                            const Row12& values) {
   Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(6 * parts.count());
-  for (const auto& [marker, half] : {std::pair{&a, Row6(values.head<6>())}, std::pair{&b, Row6(values.tail<6>())}})
-    if (marker->node >= 0)
-      row.segment<6>(6 * parts.of_node[marker->node]) += rigid_row(model, parts, evaluation, marker->node, half);
+  for (const auto& [node, half] :
+       {std::pair{pair.a.node, Row6(values.head<6>())}, std::pair{pair.b.node, Row6(values.tail<6>())}})
+    if (node >= 0) row.segment<6>(6 * parts.of_node[node]) += rigid_row(model, parts, evaluation, node, half);
   return row;
 }
 
@@ -177,7 +178,7 @@ void name_turns(const Model& model, const Parts& parts, const Evaluation& evalua
       Row12 turn = Row12::Zero();  // world angular velocity of B less that of A, as Ω of the nodes
       if (joint.a.node >= 0) turn.segment<3>(3) = -motion_of(evaluation, joint.a.node).R.row(axis);
       if (joint.b.node >= 0) turn.segment<3>(9) = motion_of(evaluation, joint.b.node).R.row(axis);
-      if (open.take(part_row(model, parts, evaluation, joint.a, joint.b, turn)))
+      if (open.take(part_row(model, parts, evaluation, joint, turn)))
         names.push_back(fmt::format("a turn in '{}'", joint.name));
     }
 }
@@ -215,9 +216,9 @@ std::vector<LockedJoint> locked_joints(const Model& model, const Parts& parts, c
     return at;
   };
   std::vector<LockedJoint> locked;
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+  for (int i = 0; i < std::ssize(model.joints); ++i) {
     const Marker &a = model.joints[i].a, &b = model.joints[i].b;
-    const LockedJoint joint{static_cast<int>(i), a.node < 0 ? ground : parts.of_node[a.node],
+    const LockedJoint joint{i, a.node < 0 ? ground : parts.of_node[a.node],
                             b.node < 0 ? ground : parts.of_node[b.node]};
     const Eigen::Vector3d point = motion_of(evaluation, a.node < 0 ? b.node : a.node).x;
     const Eigen::MatrixXd relative = motion(joint.b, point) - motion(joint.a, point);
@@ -261,8 +262,7 @@ void find_freedoms(const Model& model, const State& state, Evaluation& evaluatio
   OpenMotions open{open_motions(model, parts, evaluation, true)};
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
     const Coordinate& coordinate = model.coordinates[i];
-    const Eigen::RowVectorXd row =
-        part_row(model, parts, evaluation, coordinate.a, coordinate.b, evaluation.coordinates[i].G);
+    const Eigen::RowVectorXd row = part_row(model, parts, evaluation, coordinate, evaluation.coordinates[i].G);
     if (open.take(row)) mobility.free.push_back(fmt::format("'{}'", coordinate.name));
   }
   name_turns(model, parts, evaluation, open, mobility.free);

@@ -1,6 +1,6 @@
 // Part loads: factors for the superelements that bear them, whose bodies know the forces, and resultants on rigid
 // bodies.
-#include "mechanism/equations/terms.hpp"
+#include "mechanism/equations/forces.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -26,27 +26,28 @@ void update_part_loads(const Model& model, const State& state, Evaluation& evalu
   }
 }
 
-void add_part_loads(const Model& model, Evaluation& evaluation) {
-  for (std::size_t i = 0; i < model.part_loads.size(); ++i) {
-    const PartLoad& load = model.part_loads[i];
+void add_forces(const Model& model, const State& /*state*/, const Pool<PartLoad>& pool, Evaluation& evaluation) {
+  for (std::size_t i = 0; i < pool.size(); ++i) {
+    const PartLoad& load = pool[i];
     if (load.superelement >= 0) continue;
     const NodeMotion& node = motion_of(evaluation, load.node);
     const Vector6d force = evaluation.part_load_values[i] * resultant(load, node);
-    add_force(model, model.part_loads.maps[i], Vector6d(-force), evaluation);
+    add_force(model, pool.maps[i], Vector6d(-force), evaluation);
     note_scale(force, evaluation);
     evaluation.load_power += force.head<3>().dot(node.xd) + force.tail<3>().dot(node.Omega);
   }
 }
 
-void add_part_load_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target) {
+void add_tangents(const Model& /*model*/, const Pool<PartLoad>& pool, Evaluation& evaluation,
+                  const TangentTarget& target) {
   Matrix6d A = Matrix6d::Zero();  // δ(R f) = −R f~ δΘ
-  for (std::size_t i = 0; i < model.part_loads.size(); ++i) {
-    const PartLoad& load = model.part_loads[i];
+  for (std::size_t i = 0; i < pool.size(); ++i) {
+    const PartLoad& load = pool[i];
     if (load.superelement >= 0) continue;
     const Eigen::Matrix3d& R = motion_of(evaluation, load.node).R;
     A.topRightCorner<3, 3>() =
         target.coefficients.stiffness * evaluation.part_load_values[i] * (R * skew<double>(load.force));
-    scatter_matrix(model.part_loads.maps[i], A, target.factor, target.values);
+    scatter_matrix(pool.maps[i], A, target.factor, target.values);
   }
 }
 

@@ -6,11 +6,20 @@
 #include <limits>
 
 namespace tisserand::mechanism {
-
 namespace {
 constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
 /// Of the forces of the scene, in the reactions that they have: condition 1e3 of the mass matrix.
 constexpr double reaction_round_off = 1e-12;
+
+template <class Counts>
+Violation largest_where(const Model& model, const Eigen::VectorXd& rows, Counts counts) {
+  Violation worst;
+  for (int row = 0; row < model.sizes.constraints && !std::isnan(worst.value); ++row)
+    if (counts(row))
+      if (const double value = violation_of(model, rows, row); !(value <= worst.value)) worst = {value, row};
+  return worst;
+}
+
 }  // namespace
 
 double reach_of(const Model& model, const State& state) {
@@ -32,19 +41,6 @@ double allowed_force(const Model& model, const State& state, const Evaluation& e
 double violation_of(const Model& model, const Eigen::VectorXd& rows, int row) {
   return std::abs(rows[row]) / (model.length_row[row] ? model.length : 1.0);
 }
-
-namespace {
-
-template <class Counts>
-Violation largest_where(const Model& model, const Eigen::VectorXd& rows, Counts counts) {
-  Violation worst;
-  for (int row = 0; row < model.sizes.constraints && !std::isnan(worst.value); ++row)
-    if (counts(row))
-      if (const double value = violation_of(model, rows, row); !(value <= worst.value)) worst = {value, row};
-  return worst;
-}
-
-}  // namespace
 
 Violation largest_violation(const Model& model, const Eigen::VectorXd& rows) {
   return largest_where(model, rows, [](int) { return true; });

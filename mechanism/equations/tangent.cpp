@@ -5,7 +5,9 @@
 #include <type_traits>
 
 #include "mechanism/equations/bodies.hpp"
+#include "mechanism/equations/forces.hpp"
 #include "mechanism/model/bodies.hpp"
+#include "mechanism/model/forces.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -16,22 +18,18 @@ void deactivate_rows(const Model& model, const State& state, std::vector<double>
   for (int row = 0; row < model.sizes.constraints; ++row) {
     if (state.active()[row] != 0.0) continue;
     const int j = model.sizes.boundary + row;
-    for (int at = pattern.column_start()[j]; at < pattern.column_start()[j + 1]; ++at) {
-      const int i = pattern.rows()[at];
-      values[pattern.slot(i, j)] = 0.0;
-      values[pattern.slot(j, i)] = 0.0;
-    }
+    pattern.for_each_in(j, [&](int i, int slot) { values[slot] = values[pattern.slot(j, i)] = 0.0; });
     values[pattern.slot(j, j)] = 1.0;
   }
 }
 
 /// Sets all values to zero and chooses their scale.
 TangentTarget clear(const Model& model, const TangentCoefficients& coefficients, const ConstraintRows& rows,
-                    MatrixValues& matrix) {
+                    Evaluation& evaluation, MatrixValues& matrix) {
   matrix.scale = coefficients.mass * model.mass_scale + coefficients.stiffness * model.stiffness_scale;
   if (!(matrix.scale > 0.0)) matrix.scale = 1.0;  // damping alone, or no stiffness
   std::fill(matrix.values.begin(), matrix.values.end(), 0.0);
-  return {coefficients, rows, 1.0 / matrix.scale, matrix.values};
+  return {coefficients, rows, 1.0 / matrix.scale, matrix.values, evaluation.carriers};
 }
 
 /// Of bodies without internal coordinates.
@@ -45,13 +43,10 @@ void add_body_tangents(const Model& model, TangentKind kind, Evaluation& evaluat
 void add_node_tangents(const Model& model, const State& state, TangentKind kind, Evaluation& evaluation,
                        const TangentTarget& target) {
   add_body_tangents(model, kind, evaluation, target);
-  add_load_tangents(model, evaluation, target);
-  add_part_load_tangents(model, evaluation, target);
   add_joint_tangents(model, state, evaluation, target);
   add_friction_tangents(model, state, evaluation, target);
   add_coordinate_tangents(model, state, evaluation, target);
-  add_bushing_tangents(model, evaluation, target);
-  add_tyre_tangents(model, evaluation, target);
+  for_each_force_pool(model, [&](const auto& pool) { add_tangents(model, pool, evaluation, target); });
   add_channel_tangents(model, state, evaluation, target);
 }
 
@@ -61,7 +56,7 @@ void evaluate_tangent(const Model& model, const State& state, const TangentReque
                       MatrixValues& matrix) {
   require_stage(evaluation, Stage::forces);
   ++evaluation.tangents;
-  const TangentTarget target = clear(model, request.coefficients, request.rows, matrix);
+  const TangentTarget target = clear(model, request.coefficients, request.rows, evaluation, matrix);
   add_tangents(model, model.superelements, request.kind, evaluation, target);
   add_node_tangents(model, state, request.kind, evaluation, target);
   deactivate_rows(model, state, matrix.values);
@@ -70,7 +65,7 @@ void evaluate_tangent(const Model& model, const State& state, const TangentReque
 void evaluate_tangent_without_superelements(const Model& model, const State& state, const TangentRequest& request,
                                             Evaluation& evaluation, MatrixValues& matrix) {
   require_stage(evaluation, Stage::forces);
-  const TangentTarget target = clear(model, request.coefficients, request.rows, matrix);
+  const TangentTarget target = clear(model, request.coefficients, request.rows, evaluation, matrix);
   add_node_tangents(model, state, request.kind, evaluation, target);
   deactivate_rows(model, state, matrix.values);
 }
@@ -79,7 +74,7 @@ void evaluate_weight(const Model& model, const State& state, const TangentCoeffi
                      Evaluation& evaluation, MatrixValues& matrix) {
   require_stage(evaluation, Stage::forces);
   const ConstraintRows rows;
-  const TangentTarget bodies = clear(model, coefficients, rows, matrix);
+  const TangentTarget bodies = clear(model, coefficients, rows, evaluation, matrix);
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     SuperelementWork& work = work_of(model, i, evaluation);
     boundary_weight(body_of(model, i), coefficients, evaluation.superelements[i], work);
@@ -92,7 +87,7 @@ void evaluate_weight(const Model& model, const State& state, const TangentCoeffi
     mass.diagonal().tail<2>().setConstant(coefficients.mass * lag_mass(model.tyres[i]));
     scatter_matrix(model.tyres.maps[i], mass, bodies.factor, matrix.values);
   }
-  const TangentTarget rows_alone{coefficients, rows, 0.0, matrix.values};
+  const TangentTarget rows_alone{coefficients, rows, 0.0, matrix.values, evaluation.carriers};
   add_joint_tangents(model, state, evaluation, rows_alone);
   add_coordinate_tangents(model, state, evaluation, rows_alone);
   deactivate_rows(model, state, matrix.values);

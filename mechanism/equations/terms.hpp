@@ -12,12 +12,13 @@
 namespace tisserand::mechanism {
 
 /// Where kernels add their derivatives: c_m, c_c, c_k, the kind of constraint rows, the factor of A (0: rows alone),
-/// and the stored values.
+/// the stored values, and buffers for carriers.
 struct TangentTarget {
   const TangentCoefficients& coefficients;
   const ConstraintRows& rows;
   double factor = 1.0;
   std::vector<double>& values;
+  CarrierScratch& scratch;
 };
 
 /// The markers of a joint, a coordinate or a force element with the motion of their carriers.
@@ -59,26 +60,13 @@ void add_force(const Model& model, const ElementMap& map, const Vector& local, E
 /// Adds factor times the local matrix ∂(force)/∂(local coordinates) to the stored values; `force()` gives the local
 /// force, which modal bodies feel through moving nodes.
 template <class Matrix, class Force>
-void add_matrix(const Model& model, const ElementMap& map, const Matrix& local, double factor, Evaluation& evaluation,
-                std::vector<double>& values, Force force) {
-  if (map.carriers.empty()) {
-    scatter_matrix(map, local, factor, values);
+void add_matrix(const Carriers& on, const Matrix& local, double factor, Force force, const TangentTarget& target) {
+  if (on.map.carriers.empty()) {
+    scatter_matrix(on.map, local, factor, target.values);
     return;
   }
   const auto f = force();
-  scatter_matrix(map, pulled_tangent(model, map, local_view(local), f.data(), evaluation), factor, values);
-}
-
-/// Adds the first `size` rows of `lower` and, transposed, of `upper`, which begin at slot `first` of the map.
-template <class Lower, class Upper>
-void add_rows(const ConstraintMap& map, std::size_t first, int size, const Lower& lower, const Upper& upper,
-              std::vector<double>& values) {
-  for (Eigen::Index j = 0; j < lower.cols(); ++j)
-    for (int k = 0; k < size; ++k, ++first) {
-      if (map.lower[first] < 0) continue;
-      values[map.lower[first]] += lower(k, j);
-      values[map.upper[first]] += upper(k, j);
-    }
+  scatter_matrix(on.map, on.tangent(local_view(local), f.data(), target.scratch), factor, target.values);
 }
 
 /// Force and moment rows of nodes with six coordinates.
@@ -97,6 +85,10 @@ inline void note_scale(const CarrierVector<2>& local, Evaluation& evaluation) {
   force = std::max({force, std::abs(local[0]), std::abs(local[1])});
   moment = std::max(moment, std::abs(local[2]));
 }
+
+/// What all items of a pool of bodies or forces exert: bodies.hpp and forces.hpp have it for each type.
+template <class T>
+void add_forces(const Model& model, const State& state, const Pool<T>& pool, Evaluation& evaluation) = delete;
 
 /// F(t) of spring i at the load time, scaled as loads are.
 double applied_force(const Model& model, std::size_t i, double time, Evaluation& evaluation);
@@ -122,30 +114,18 @@ void update_channels(const Model& model, Evaluation& evaluation);
 
 /// Forces of friction in joints, after add_joints().
 void add_frictions(const Model& model, const State& state, Evaluation& evaluation);
-/// Loads F (with the sign of r) and their power.
-void add_loads(const Model& model, const State& state, Evaluation& evaluation);
 /// Factors of part loads, also in the scratch of the superelements that bear them: before the forces of bodies.
 void update_part_loads(const Model& model, const State& state, Evaluation& evaluation);
-/// Their forces on rigid bodies, and the power of all of them.
-void add_part_loads(const Model& model, Evaluation& evaluation);
-/// Forces, energy and powers of bushings.
-void add_bushings(const Model& model, Evaluation& evaluation);
-/// Forces of tyres and the energy of their vertical springs.
-void add_tyres(const Model& model, Evaluation& evaluation);
 
-/// Rows, columns and geometric stiffness of joints, of couplings and motions; tangents of springs, friction (also ∂r/∂λ
-/// beside Bᵀ), bushings, tyres, of part loads on rigid bodies, and of loads and spring forces by the channels (of part
-/// loads on superelements without what internal coordinates pass on).
+/// Rows, columns and geometric stiffness of joints, of couplings and motions; tangents of springs, of friction (also
+/// ∂r/∂λ beside Bᵀ), and of loads and spring forces by the channels (of part loads on superelements without what
+/// internal coordinates pass on).
 void add_joint_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
 void add_coordinate_tangents(const Model& model, const State& state, Evaluation& evaluation,
                              const TangentTarget& target);
-void add_load_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target);
-void add_part_load_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target);
 /// evaluation.part_load_directions[i] at the motion of the last evaluate().
 void update_direction(const Model& model, std::size_t i, Evaluation& evaluation);
 void add_friction_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
-void add_bushing_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target);
-void add_tyre_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target);
 void add_channel_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
 
 /// c_c ∂(channel)/∂v + c_k ∂(channel)/∂q times ∂(factor)/∂(channel) for one use by a part load, in the coordinates of

@@ -7,7 +7,6 @@
 #include <limits>
 
 namespace tisserand::mechanism {
-
 namespace {
 
 constexpr int points = 7;

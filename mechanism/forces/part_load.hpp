@@ -10,7 +10,7 @@
 namespace tisserand::mechanism {
 
 /// Constant part; its function of time lives in the workspace. Of a superelement the forces are those of its body
-/// (bodies/superelement/load_cases.hpp); one that is rigid takes the resultant on its node.
+/// (bodies/superelement/forces/load_cases.hpp); one that is rigid takes the resultant on its node.
 struct PartLoad {
   std::string name;
   int superelement = -1;                             ///< row of Model::superelements, −1: the body is rigid

@@ -48,9 +48,9 @@ void TimeFunction::compile(const formats::TimeExpression& text, const Expression
     e.inputs.push_back({input, names.size()});
     names.push_back(input->name);
   }
-  for (std::size_t i = 0; i < scope.channels.size(); ++i) {
+  for (int i = 0; i < std::ssize(scope.channels); ++i) {
     if (!words.contains(scope.channels[i])) continue;
-    channels_.push_back(static_cast<int>(i));
+    channels_.push_back(i);
     names.push_back(scope.channels[i]);
   }
   e.variables.assign(names.size(), 0.0);

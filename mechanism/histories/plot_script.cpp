@@ -332,8 +332,7 @@ std::string missing_legends(const std::vector<Series>& series, const PlotOptions
           has_too_many_names(panel)
               ? fmt::format("{} curves in one panel are too many for a legend: it is left out\n", panel.members.size())
               : fmt::format(
-                    "the legend of {} curves has no room and is left out; take a larger --size or a smaller "
-                    "--font\n",
+                    "the legend of {} curves has no room and is left out; take a larger --size or a smaller --font\n",
                     panel.members.size());
   return text;
 }

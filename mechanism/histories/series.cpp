@@ -144,6 +144,24 @@ void append_run(const std::string& file, const std::string& label, const std::ve
   }
 }
 
+/// The channels of `runs` that the reference run has under the same names. Throws Error for one that it lacks.
+std::vector<Series> read_reference_run(const ComparedRun& reference, const std::vector<Series>& runs) {
+  std::set<std::string> known;
+  std::vector<std::string> names;
+  for (const Series& run : runs)
+    if (known.insert(run.channel).second) names.push_back(run.channel);
+  Misses misses;
+  std::vector<Series> all;
+  append_run(reference.file, reference.label, names, misses, all);
+  for (const auto& [pattern, error] : misses)
+    if (error) throw *error;
+  for (Series& one : all) {
+    one.kind = SeriesKind::reference;
+    one.is_of_run = true;
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string stem(const std::string& path) {
@@ -212,28 +230,6 @@ Series read_reference(const ReferenceColumn& column) {
   }
   return series;
 }
-
-namespace {
-
-/// The channels of `runs` that the reference run has under the same names. Throws Error for one that it lacks.
-std::vector<Series> read_reference_run(const ComparedRun& reference, const std::vector<Series>& runs) {
-  std::set<std::string> known;
-  std::vector<std::string> names;
-  for (const Series& run : runs)
-    if (known.insert(run.channel).second) names.push_back(run.channel);
-  Misses misses;
-  std::vector<Series> all;
-  append_run(reference.file, reference.label, names, misses, all);
-  for (const auto& [pattern, error] : misses)
-    if (error) throw *error;
-  for (Series& one : all) {
-    one.kind = SeriesKind::reference;
-    one.is_of_run = true;
-  }
-  return all;
-}
-
-}  // namespace
 
 std::vector<Series> read_series(const SeriesRequest& request) {
   if (request.files.empty() && (request.references.empty() || !request.reference_runs.empty()))

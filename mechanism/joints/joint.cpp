@@ -20,13 +20,6 @@ const Relation& relation_of(const Joint& joint, int equation) {
 
 constexpr std::array<const char*, 3> axis_name{"x", "y", "z"};
 
-}  // namespace
-
-bool is_length(const Joint& joint, int equation) {
-  return equation < joint.coincident_rows() || is_length(relation_of(joint, equation));
-}
-
-namespace {
 int count_normals(const Joint& joint, int column) {
   int count = 0;
   for (int k = 0; k < joint.relation_count; ++k) {
@@ -35,16 +28,7 @@ int count_normals(const Joint& joint, int column) {
   }
   return count;
 }
-}  // namespace
 
-int aligned_axis(const Joint& joint) {
-  for (int k = 0; k < 3; ++k)
-    if (count_normals(joint, k) == 2) return k;
-  return -1;
-}
-bool keeps_orientation(const Joint& joint) { return count_normals(joint, -1) == 3; }
-
-namespace {
 /// Whether what `hold` chose leaves a displacement along an axis free, or the turn about it alone.
 bool is_free(const Joint& joint, const Relation& coordinate) {
   if (coordinate.kind == RelationKind::angle) return aligned_axis(joint) == coordinate.i;
@@ -53,7 +37,58 @@ bool is_free(const Joint& joint, const Relation& coordinate) {
     return held.kind == RelationKind::along && held.i == coordinate.i;
   });
 }
+
+/// Φ = X_B − X_A and B of origins that are kept together.
+template <int D>
+void keep_together(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms) {
+  constexpr int turns = Space<D>::turns, first = Space<D>::first_turn;
+  const Vector3d arm_a = Space<D>::rotated(a.R, joint.a.p), arm_b = Space<D>::rotated(b.R, joint.b.p);
+  terms.phi.head<D>() = Space<D>::part(b.x + arm_b - a.x - arm_a);
+  terms.B.block<D, D>(0, 0) = -Eigen::Matrix<double, D, D>::Identity();
+  terms.B.block<D, turns>(0, first) = -Space<D>::turning(a.R, Space<D>::part(arm_a));
+  terms.B.block<D, D>(0, 6).setIdentity();
+  terms.B.block<D, turns>(0, 6 + first) = Space<D>::turning(b.R, Space<D>::part(arm_b));
+  if (D == 3 || (arm_a.z() == 0.0 && arm_b.z() == 0.0)) return;
+  for (int k = 0; k < D; ++k) {
+    terms.B.row(k).segment<3>(3) = -Space<D>::moment(a.R, arm_a, VectorOf<D>::Unit(k));
+    terms.B.row(k).segment<3>(9) = Space<D>::moment(b.R, arm_b, VectorOf<D>::Unit(k));
+  }
+}
+
+/// ∂(B v)/∂q of them.
+template <int D>
+void keep_together_rate(const Joint& joint, const NodeMotion& a, const NodeMotion& b, Eigen::Matrix<double, 6, 12>& N) {
+  constexpr int turns = Space<D>::turns, first = Space<D>::first_turn;
+  const VectorOf<D> arm_a = Space<D>::part(Space<D>::rotated(a.R, joint.a.p));
+  const VectorOf<D> arm_b = Space<D>::part(Space<D>::rotated(b.R, joint.b.p));
+  N.block<D, turns>(0, first) = -Space<D>::turning(a.R, Space<D>::across(Space<D>::spin(a), arm_a));
+  N.block<D, turns>(0, 6 + first) = Space<D>::turning(b.R, Space<D>::across(Space<D>::spin(b), arm_b));
+}
+
+/// ∂(Bᵀλ)/∂q of them.
+template <int D>
+void keep_together_stiffness(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda,
+                             Square12& K) {
+  constexpr int turns = Space<D>::turns, first = Space<D>::first_turn;
+  const VectorOf<D> force = Eigen::Map<const VectorOf<D>>(lambda);
+  const VectorOf<D> arm_a = Space<D>::part(Space<D>::rotated(a.R, joint.a.p));
+  const VectorOf<D> arm_b = Space<D>::part(Space<D>::rotated(b.R, joint.b.p));
+  K.block<turns, turns>(first, first) = Space<D>::turning_product(a.R, arm_a, force);
+  K.block<turns, turns>(6 + first, 6 + first) = -Space<D>::turning_product(b.R, arm_b, force);
+}
+
 }  // namespace
+
+bool is_length(const Joint& joint, int equation) {
+  return equation < joint.coincident_rows() || is_length(relation_of(joint, equation));
+}
+
+int aligned_axis(const Joint& joint) {
+  for (int k = 0; k < 3; ++k)
+    if (count_normals(joint, k) == 2) return k;
+  return -1;
+}
+bool keeps_orientation(const Joint& joint) { return count_normals(joint, -1) == 3; }
 
 bool keeps_distance(const Joint& joint) {
   for (int k = 0; k < joint.relation_count; ++k)
@@ -114,47 +149,6 @@ std::string joint_equation_name(const Joint& joint, int equation) {
   }
   return {};
 }
-
-namespace {
-/// Φ = X_B − X_A and B of origins that are kept together.
-template <int D>
-void keep_together(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms) {
-  constexpr int turns = Space<D>::turns, first = Space<D>::first_turn;
-  const Vector3d arm_a = Space<D>::rotated(a.R, joint.a.p), arm_b = Space<D>::rotated(b.R, joint.b.p);
-  terms.phi.head<D>() = Space<D>::part(b.x + arm_b - a.x - arm_a);
-  terms.B.block<D, D>(0, 0) = -Eigen::Matrix<double, D, D>::Identity();
-  terms.B.block<D, turns>(0, first) = -Space<D>::turning(a.R, Space<D>::part(arm_a));
-  terms.B.block<D, D>(0, 6).setIdentity();
-  terms.B.block<D, turns>(0, 6 + first) = Space<D>::turning(b.R, Space<D>::part(arm_b));
-  if (D == 3 || (arm_a.z() == 0.0 && arm_b.z() == 0.0)) return;
-  for (int k = 0; k < D; ++k) {
-    terms.B.row(k).segment<3>(3) = -Space<D>::moment(a.R, arm_a, VectorOf<D>::Unit(k));
-    terms.B.row(k).segment<3>(9) = Space<D>::moment(b.R, arm_b, VectorOf<D>::Unit(k));
-  }
-}
-
-/// ∂(B v)/∂q of them.
-template <int D>
-void keep_together_rate(const Joint& joint, const NodeMotion& a, const NodeMotion& b, Eigen::Matrix<double, 6, 12>& N) {
-  constexpr int turns = Space<D>::turns, first = Space<D>::first_turn;
-  const VectorOf<D> arm_a = Space<D>::part(Space<D>::rotated(a.R, joint.a.p));
-  const VectorOf<D> arm_b = Space<D>::part(Space<D>::rotated(b.R, joint.b.p));
-  N.block<D, turns>(0, first) = -Space<D>::turning(a.R, Space<D>::across(Space<D>::spin(a), arm_a));
-  N.block<D, turns>(0, 6 + first) = Space<D>::turning(b.R, Space<D>::across(Space<D>::spin(b), arm_b));
-}
-
-/// ∂(Bᵀλ)/∂q of them.
-template <int D>
-void keep_together_stiffness(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda,
-                             Square12& K) {
-  constexpr int turns = Space<D>::turns, first = Space<D>::first_turn;
-  const VectorOf<D> force = Eigen::Map<const VectorOf<D>>(lambda);
-  const VectorOf<D> arm_a = Space<D>::part(Space<D>::rotated(a.R, joint.a.p));
-  const VectorOf<D> arm_b = Space<D>::part(Space<D>::rotated(b.R, joint.b.p));
-  K.block<turns, turns>(first, first) = Space<D>::turning_product(a.R, arm_a, force);
-  K.block<turns, turns>(6 + first, 6 + first) = -Space<D>::turning_product(b.R, arm_b, force);
-}
-}  // namespace
 
 void joint_constraints(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms) {
   if (joint.coincident) joint.planar ? keep_together<2>(joint, a, b, terms) : keep_together<3>(joint, a, b, terms);

@@ -82,7 +82,7 @@ constexpr std::array laws{
     JointLaw{.kind = JointKind::generic, .chosen = true, .coordinates = {along(0), along(1), along(2), angle(2)}}};
 
 constexpr bool are_in_order() {
-  for (int k = 0; k < static_cast<int>(laws.size()); ++k)
+  for (int k = 0; k < std::ssize(laws); ++k)
     if (laws[k].kind != static_cast<JointKind>(k)) return false;
   return true;
 }

@@ -1,5 +1,5 @@
 // The kinds of joints as the equations know them: one row per kind with the relations that it holds at zero, the
-// coordinates that it leaves free, and how its surfaces slide. A new kind is a row here and one in formats/joints.
+// coordinates that it leaves free, and how its surfaces slide. Where a new kind goes is told in mechanism/MAP.md.
 #pragma once
 
 #include <array>

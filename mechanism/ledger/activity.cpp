@@ -8,14 +8,10 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// r of all velocity coordinates: those of nodes and modal bodies, then the internal ones of superelements.
 Eigen::VectorXd whole_residual(const Model& model, const State& state, Evaluation& now) {
   evaluate(model, state, now);
   Eigen::VectorXd r(model.sizes.velocities());
-  r.head(model.sizes.boundary) = now.residual;
-  for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    r.segment(model.sizes.boundary + model.internal_offset[i], body_of(model, i).modes) =
-        now.superelements[i].forces.r_I;
+  gather_residual(model, now, r);
   return r;
 }
 

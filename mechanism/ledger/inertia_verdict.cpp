@@ -31,8 +31,7 @@ std::string verdict_among_equals(const std::string& body, const std::vector<Iner
                        percent_text(largest));
   return fmt::format(
       "inertia of '{}': its options differ by up to {}: without F (a companion file) none is known to be right; write "
-      "one, "
-      "or cut the body into several",
+      "one, or cut the body into several",
       body, percent_text(largest));
 }
 

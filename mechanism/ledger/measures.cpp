@@ -13,6 +13,7 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "formats/results/blocks.hpp"
+#include "mechanism/model/state.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -48,8 +49,7 @@ std::map<std::string, bool> flexible_bodies(const formats::Scene& scene, const f
 }
 
 Eigen::Quaterniond rotation_of(const formats::ResultsRow& row, int node) {
-  const Eigen::Vector4d q = row.node_rotation.col(node);
-  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  return quaternion(row.node_rotation.col(node));
 }
 
 /// R₁ᵀ (x − x₁): of a rigid body it is constant.
@@ -72,9 +72,9 @@ void Measures::add_defaults(const formats::Scene& scene, const formats::ResultsL
   };
   const std::map<std::string, bool> flexible = flexible_bodies(scene, layout, missing);
   std::map<std::string, int> base;
-  for (std::size_t i = 0; i < layout.nodes.size(); ++i) {
+  for (int i = 0; i < std::ssize(layout.nodes); ++i) {
     const std::string& name = layout.nodes[i];
-    const int index = static_cast<int>(i);
+    const int index = i;
     add(MeasureKind::position, "nodes/position/" + name, "position", {index, -1, nullptr});
     const std::string body = flexible_body_of(name, flexible);
     if (flexible.contains(name))  // the body itself: two axes tell how it turns
@@ -85,8 +85,8 @@ void Measures::add_defaults(const formats::Scene& scene, const formats::ResultsL
     if (!is_first)
       add(MeasureKind::deflection, "deflection of " + name, "deflection of " + body, {index, first->second, nullptr});
   }
-  for (std::size_t i = 0; i < layout.joints.size(); ++i)
-    add(MeasureKind::force, "joints/force/" + layout.joints[i], "force", {static_cast<int>(i), -1, nullptr});
+  for (int i = 0; i < std::ssize(layout.joints); ++i)
+    add(MeasureKind::force, "joints/force/" + layout.joints[i], "force", {i, -1, nullptr});
 }
 
 void Measures::add_channel(const std::string& given, const formats::ResultsLayout& layout, const std::string& where,
@@ -136,7 +136,7 @@ MeasuredRow Measures::values(const formats::ResultsRow& row) const {
 
 std::vector<int> Measures::places_in(const Measures& other) const {
   std::map<std::string, int> there;
-  for (std::size_t i = 0; i < other.list_.size(); ++i) there[other.list_[i].name] = static_cast<int>(i);
+  for (int i = 0; i < std::ssize(other.list_); ++i) there[other.list_[i].name] = i;
   std::vector<int> places;
   for (const Measured& one : list_) {
     const auto found = there.find(one.name);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mechanism/model/bodies.hpp"
+#include "mechanism/model/forces.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -73,8 +74,11 @@ std::vector<std::vector<std::string>> connected_groups(const Model& model, const
     return marker.node < 0 ? ground : static_cast<std::size_t>(parts.of_node[marker.node]);
   };
   for (const Joint& joint : model.joints) sets.unite(part_of(joint.a), part_of(joint.b));
-  for (const Bushing& bushing : model.bushings) sets.unite(part_of(bushing.a), part_of(bushing.b));
-  for (const Tyre& tyre : model.tyres) sets.unite(ground, part_of(tyre.wheel));
+  for_each_force(model, [&](auto traits, const auto& force) {
+    if (!traits.connects) return;
+    const std::size_t first = traits.markers.size() > 1 ? part_of(force.*traits.markers.front()) : ground;
+    for (const auto marker : traits.markers) sets.unite(first, part_of(force.*marker));
+  });
   for (const Coordinate& c : model.coordinates)
     if (c.active) sets.unite(part_of(c.a), part_of(c.b));
   for (const Coupling& coupling : model.couplings)

@@ -8,6 +8,7 @@
 
 #include "mechanism/model/bodies.hpp"
 #include "mechanism/model/element_map.hpp"
+#include "mechanism/model/forces.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/model/sparsity.hpp"
 
@@ -49,18 +50,9 @@ void number_elements(Model& model) {
     maps.push_back(carrier_map(model, {nodes...}));
   };
   for (const Joint& joint : model.joints) add(model.joints.maps, joint.a.node, joint.b.node);
-  for (const Bushing& bushing : model.bushings) add(model.bushings.maps, bushing.a.node, bushing.b.node);
-  for (const Tyre& tyre : model.tyres) {
-    add(model.tyres.maps, tyre.wheel.node);
-    for (int k = 0; tyre.relaxes() && k < 2; ++k)
-      model.tyres.maps.back().coordinates.push_back(model.sizes.first_modal() + tyre.lag + k);
-  }
-  for (const Load& load : model.loads) add(model.loads.maps, load.at.node);
-  for (const PartLoad& load : model.part_loads)
-    if (load.superelement < 0)
-      add(model.part_loads.maps, load.node);
-    else
-      model.part_loads.maps.push_back({model.superelements.maps[load.superelement].coordinates, {}, {}});
+  for_each_force_pool(model, [&model](auto& pool) {
+    for (const auto& force : pool) pool.maps.push_back(force_map(model, force));
+  });
   for (const Coordinate& c : model.coordinates) add(model.coordinates.maps, c.a.node, c.b.node);
   for (const ChannelUse& use : model.channel_uses) {
     const auto owner = static_cast<std::size_t>(use.index);
@@ -166,9 +158,11 @@ void for_each_map(Model& model, Visit visit) {
   for_each_body_pool(model, [&]<class T>(Pool<T>& pool) {
     for (ElementMap& map : pool.maps) visit(map, std::is_same_v<T, RigidBody> ? rigid : all);
   });
-  for (auto* maps :
-       {&model.bushings.maps, &model.tyres.maps, &model.loads.maps, &model.part_loads.maps, &model.channel_uses.maps})
-    for (ElementMap& map : *maps) visit(map, all);
+  const auto visit_full = [&](auto& pool) {
+    for (ElementMap& map : pool.maps) visit(map, all);
+  };
+  for_each_force_pool(model, visit_full);
+  visit_full(model.channel_uses);
   for (std::size_t i = 0; i < model.joints.size(); ++i)
     visit(model.joints.maps[i], fills_all(model, i) ? all : stiffness_entries(model.joints[i]));
   for (std::size_t i = 0; i < model.coordinates.size(); ++i)
@@ -186,10 +180,8 @@ void scale_equations(Model& model) {
     if (!model.length_row[row]) model.equation_scale[model.sizes.boundary + row] = model.length;
   model.value_scale.setOnes(pattern.values());
   for (int j = 0; j < pattern.size(); ++j)
-    for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
-      const int i = pattern.rows()[at];
-      model.value_scale[pattern.slot(i, j)] = model.equation_scale[i] * model.equation_scale[j];
-    }
+    pattern.for_each_in(
+        j, [&](int i, int slot) { model.value_scale[slot] = model.equation_scale[i] * model.equation_scale[j]; });
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "mechanism/bodies/beam/element.hpp"
 #include "mechanism/bodies/modal/node.hpp"
 #include "mechanism/bodies/rigid_body.hpp"
-#include "mechanism/bodies/superelement/body.hpp"
+#include "mechanism/bodies/superelement/constants/body.hpp"
 #include "mechanism/forces/bushing.hpp"
 #include "mechanism/forces/expression_scope.hpp"
 #include "mechanism/forces/load.hpp"

@@ -117,5 +117,6 @@ class State {
 
 /// [w x y z] of Q, and back.
 inline Eigen::Vector4d wxyz(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+inline Eigen::Quaterniond quaternion(const Eigen::Vector4d& Q) { return {Q[0], Q[1], Q[2], Q[3]}; }
 
 }  // namespace tisserand::mechanism

@@ -28,8 +28,7 @@ constexpr double safe_turn = 0.5;
 
 /// R_WN of a node at the state, relative to the axes of the parts.
 Matrix3d turn_since(const State& state, std::size_t node, const Matrix3d& orientation) {
-  const auto Q = state.Q().col(static_cast<Eigen::Index>(node));
-  return Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]).toRotationMatrix() * orientation.transpose();
+  return quaternion(state.Q().col(static_cast<Eigen::Index>(node))).toRotationMatrix() * orientation.transpose();
 }
 
 bool regular(const FactorReport& factors, StepReport& report) {
@@ -37,21 +36,6 @@ bool regular(const FactorReport& factors, StepReport& report) {
   report.outcome = StepOutcome::singular;
   report.singular_column = factors.singular_column;
   return false;
-}
-
-/// Largest increment of the multipliers in units of what it may be. Rows that move no body show in nothing else: of a
-/// plane mechanism that has turned by more than 60 degrees since the parts were made, those across the plane would
-/// grow from step to step. `share`: of the forces; near singular positions, of the multipliers themselves.
-double measure_multipliers(const Model& model, const State& begin, const Evaluation& evaluation, double share,
-                           const Stages::Columns& lambda, const Stages::Columns& increments) {
-  const auto scale = [&](int kind) { return std::max(begin.force_scale(kind), evaluation.force_scale[kind]); };
-  double force = std::max(scale(0), scale(1) / model.length), worst = 0.0;
-  for (int row = 0; row < model.sizes.constraints; ++row) {
-    const double unit = model.length_row[row] ? 1.0 : model.length;
-    force = std::max(force, lambda.row(row).cwiseAbs().maxCoeff() / unit);
-    worst = std::max(worst, increments.row(row).cwiseAbs().maxCoeff() / unit);
-  }
-  return worst / (std::max(share * force, force_round_off(model, begin)) + 1e-300);
 }
 
 /// Turns the translations of a node from `row` on; of planar models about the normal.
@@ -67,8 +51,8 @@ bool same(double a, double b) { return std::abs(a - b) <= same_step * std::abs(b
 
 }  // namespace
 
-void set_stage(const Model& model, const State& begin, const StepEnd& end, int stage, const Stages& stages,
-               State& state) {
+void set_stage(const Model& model, const State& begin, int stage, const Stages& stages, State& state) {
+  const StepEnd& end = stages.end;
   const double time = stage == 2 ? end.time : begin.time() + coefficients().c[stage] * stages.step;
   state.time() = time;
   state.load_time() = stage == 2 ? end.load_time : std::min(time, end.load_time);
@@ -80,6 +64,7 @@ void set_stage(const Model& model, const State& begin, const StepEnd& end, int s
 
 Newton::Newton(const Model& model)
     : correction(Eigen::VectorXd::Zero(model.sizes.velocities())),
+      model_(model),
       parts_(model),
       real_(model),
       complex_(model),
@@ -103,8 +88,8 @@ Newton::Newton(const Model& model)
   for (Turns& turns : turns_) turns.assign(model.nodes.size(), Matrix3d::Identity());
 }
 
-void Newton::renew(const Model& model, const State& state, Evaluation& evaluation) {
-  parts_.take(model, state, evaluation);
+void Newton::renew(const State& state, Evaluation& evaluation) {
+  parts_.take(state, evaluation);
   real_step_ = complex_step_ = 0.0;
 }
 
@@ -117,61 +102,58 @@ void Newton::forget() {
   confidence_ = 1.0;
 }
 
-bool Newton::ready_real(const Model& model, double step, StepReport& report) {
+bool Newton::ready_real(double step, StepReport& report) {
   if (same(step, real_step_)) return true;
   real_step_ = 0.0;
   ++report.factorisations;
   axes_ = parts_.orientation;
-  if (!regular(real_.factor(model, parts_, coefficients().gamma / step), report)) return false;
+  if (!regular(real_.factor(model_, parts_, coefficients().gamma / step), report)) return false;
   real_step_ = step;
   return true;
 }
 
-bool Newton::ready(const Model& model, double step, StepReport& report) {
-  if (!ready_real(model, step, report)) return false;
+bool Newton::ready(double step, StepReport& report) {
+  if (!ready_real(step, report)) return false;
   if (same(step, complex_step_)) return true;
   complex_step_ = 0.0;
-  if (!regular(complex_.factor(model, parts_, coefficients().pair / step), report)) return false;
+  if (!regular(complex_.factor(model_, parts_, coefficients().pair / step), report)) return false;
   complex_step_ = step;
   return true;
 }
 
-void Newton::evaluate_stage(const Model& model, const State& begin, const StepEnd& end, int stage, Stages& stages,
-                            State& state, Evaluation& evaluation) {
-  set_stage(model, begin, end, stage, stages, state);
-  evaluate(model, state, evaluation);
+void Newton::evaluate_stage(const State& begin, int stage, Stages& stages, State& state, Evaluation& evaluation) {
+  set_stage(model_, begin, stage, stages, state);
+  evaluate(model_, state, evaluation);
   auto f = f_.col(stage);
-  f.head(model.sizes.boundary) = -evaluation.residual;
-  for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    f.segment(model.sizes.boundary + model.internal_offset[i], body_of(model, i).modes) =
-        -evaluation.superelements[i].forces.r_I;
+  gather_residual(model_, evaluation, f);
+  f = -f;
   g_.col(stage) = -evaluation.constraint_rate.cwiseProduct(evaluation.active);
   for_turning_nodes([&](std::size_t node, int row) {
     Matrix3d& turn = turns_[stage][node];
     turn.noalias() = evaluation.motion[node].R * axes_[node].transpose();
-    turn_translations(model, turn.transpose(), row, f);
+    turn_translations(model_, turn.transpose(), row, f);
   });
   stages.load_power[stage] = evaluation.load_power;
-  stages.damping_power[stage] = damping_power(model, evaluation);
+  stages.damping_power[stage] = damping_power(model_, evaluation);
 }
 
-void Newton::solve(const Model& model, const State& state, Stages& stages) {
+void Newton::solve(const State& begin, Stages& stages) {
   const Coefficients& method = coefficients();
   const std::complex<double> pair = method.pair / complex_step_;
   const double gamma = method.gamma / real_step_;
   const auto transformed = [&](const Stages::Columns& x, int row) {
     return x.lazyProduct(method.T_inverse.row(row).transpose());
   };
-  first_ = state.active();
+  first_ = begin.active();
   real_upper_ = transformed(f_, 0);
   real_rows_ = transformed(g_, 0) / gamma;
-  real_.solve(model, first_, real_upper_, real_rows_);
+  real_.solve(model_, first_, real_upper_, real_rows_);
   complex_upper_.real() = transformed(f_, 1);
   complex_upper_.imag() = transformed(f_, 2);
   complex_rows_.real() = transformed(g_, 1);
   complex_rows_.imag() = transformed(g_, 2);
   complex_rows_ /= pair;
-  complex_.solve(model, first_, complex_upper_, complex_rows_);
+  complex_.solve(model_, first_, complex_upper_, complex_rows_);
   for (int i = 0; i < 3; ++i) {
     f_.col(i) =
         method.T(i, 0) * real_upper_ + method.T(i, 1) * complex_upper_.real() + method.T(i, 2) * complex_upper_.imag();
@@ -180,17 +162,32 @@ void Newton::solve(const Model& model, const State& state, Stages& stages) {
   }
   for (int i = 0; i < 3; ++i) {
     auto d = f_.col(i);
-    for_turning_nodes([&](std::size_t node, int row) { turn_translations(model, turns_[i][node], row, d); });
-    for (const Node& node : model.nodes) {
-      if (node.rotation < 0 || model.planar) continue;
+    for_turning_nodes([&](std::size_t node, int row) { turn_translations(model_, turns_[i][node], row, d); });
+    for (const Node& node : model_.nodes) {
+      if (node.rotation < 0 || model_.planar) continue;
       const Vector3d theta = stages.d.col(i).segment<3>(node.rotation);
       d.segment<3>(node.rotation) = (inverse_tangent_so3<double>(theta) * d.segment<3>(node.rotation)).eval();
     }
   }
 }
 
-bool Newton::iterate(const Model& model, const State& begin, const StepEnd& end, const Accuracy& accuracy,
-                     Stages& stages, State& state, Evaluation& evaluation, StepReport& report) {
+/// Largest increment of the multipliers in units of what it may be. Rows that move no body show in nothing else: of a
+/// plane mechanism that has turned by more than 60 degrees since the parts were made, those across the plane would
+/// grow from step to step. `share`: of the forces; near singular positions, of the multipliers themselves.
+double Newton::measure_multipliers(const State& begin, const Evaluation& evaluation, double share,
+                                   const Stages::Columns& lambda) const {
+  const auto scale = [&](int kind) { return std::max(begin.force_scale(kind), evaluation.force_scale[kind]); };
+  double force = std::max(scale(0), scale(1) / model_.length), worst = 0.0;
+  for (int row = 0; row < model_.sizes.constraints; ++row) {
+    const double unit = model_.length_row[row] ? 1.0 : model_.length;
+    force = std::max(force, lambda.row(row).cwiseAbs().maxCoeff() / unit);
+    worst = std::max(worst, g_.row(row).cwiseAbs().maxCoeff() / unit);
+  }
+  return worst / (std::max(share * force, force_round_off(model_, begin)) + 1e-300);
+}
+
+bool Newton::iterate(const Accuracy& accuracy, Stages& stages, State& state, Workspace& workspace, StepReport& report) {
+  const State& begin = workspace.memory.previous;
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   double last = 0.0, last_ratio = 0.0, last_rows = 0.0;
   bool placed = false;                                                // positions have converged
@@ -202,12 +199,12 @@ bool Newton::iterate(const Model& model, const State& begin, const StepEnd& end,
     return false;
   };
   for (int count = 1;; ++count) {
-    for (int stage = 0; stage < 3; ++stage) evaluate_stage(model, begin, end, stage, stages, state, evaluation);
-    solve(model, begin, stages);
+    for (int stage = 0; stage < 3; ++stage) evaluate_stage(begin, stage, stages, state, workspace.now);
+    solve(begin, stages);
     ++report.iterations;
     LocalError size;
     for (int stage = 0; stage < 3; ++stage) {
-      const LocalError one = measure_error(model, accuracy.units, 1.0, f_.col(stage));
+      const LocalError one = measure_error(model_, accuracy.units, 1.0, f_.col(stage));
       if (one.ratio > size.ratio || std::isnan(one.ratio)) size = one;
     }
     report.worst_coordinate = size.worst_coordinate;
@@ -236,13 +233,13 @@ bool Newton::iterate(const Model& model, const State& begin, const StepEnd& end,
     stages.lambda += g_;
     if (stages.d.cwiseAbs().maxCoeff() > 1e100) return fails(StepOutcome::diverged);
     double turn = 0.0;
-    for (const Node& node : model.nodes)
+    for (const Node& node : model_.nodes)
       if (node.rotation >= 0)
-        turn = std::max(turn, stages.d.middleRows(node.rotation, rotations_of(model)).cwiseAbs().maxCoeff());
+        turn = std::max(turn, stages.d.middleRows(node.rotation, rotations_of(model_)).cwiseAbs().maxCoeff());
     if (turn > farthest_turn) return fails(StepOutcome::too_many_iterations);
-    update_rates(model, stages);
+    update_rates(model_, stages);
     placed = placed || confidence * size.ratio <= accuracy.newton;
-    const double rows = measure_multipliers(model, begin, evaluation, accuracy.multipliers, stages.lambda, g_);
+    const double rows = measure_multipliers(begin, workspace.now, accuracy.multipliers, stages.lambda);
     if (placed && rows <= 1.0) break;
     const bool stalled = last_rows > 0.0 && rows > 0.9 * last_rows;
     // Multipliers that no iteration settles are taken as they stand only where nothing turns far.
@@ -255,17 +252,17 @@ bool Newton::iterate(const Model& model, const State& begin, const StepEnd& end,
   return true;
 }
 
-void Newton::project(const Model& model, const Eigen::VectorXd& violation, const Evaluation& evaluation) {
+void Newton::project(const Eigen::VectorXd& violation, const Evaluation& evaluation) {
   correction.setZero();
   real_rows_ = -violation;
   first_ = evaluation.active;
-  real_.solve(model, first_, correction, real_rows_);
+  real_.solve(model_, first_, correction, real_rows_);
   for_turning_nodes([&](std::size_t node, int row) {
-    turn_translations(model, evaluation.motion[node].R * axes_[node].transpose(), row, correction);
+    turn_translations(model_, evaluation.motion[node].R * axes_[node].transpose(), row, correction);
   });
 }
 
-void Newton::estimate(const Model& model, const Stages& stages, const State& begin) {
+void Newton::estimate(const Stages& stages, const State& begin) {
   const Coefficients& method = coefficients();
   const double omega = method.gamma / stages.step;
   // e_q in correction, e_v in first_; then what meets M and C.
@@ -273,17 +270,17 @@ void Newton::estimate(const Model& model, const Stages& stages, const State& beg
   first_ = stages.v.lazyProduct(method.e) - method.e.sum() * stages.v_begin + stages.a_begin / omega;
   for_turning_nodes([&](std::size_t node, int row) {
     const Matrix3d back = turn_since(begin, node, axes_[node]).transpose();
-    turn_translations(model, back, row, correction);
-    turn_translations(model, back, row, first_);
+    turn_translations(model_, back, row, correction);
+    turn_translations(model_, back, row, first_);
   });
   first_ = omega * omega * correction + omega * first_;
   second_ = omega * correction;
   real_upper_.setZero();
   real_rows_.setZero();
-  parts_.multiply(model, first_, second_, correction, real_upper_, real_rows_);
+  parts_.multiply(first_, second_, correction, real_upper_, real_rows_);
   correction = real_upper_;
   first_ = begin.active();
-  real_.solve(model, first_, correction, real_rows_);
+  real_.solve(model_, first_, correction, real_rows_);
 }
 
 }  // namespace tisserand::mechanism::radau

@@ -12,6 +12,7 @@
 #include "mechanism/radau/stages.hpp"
 #include "mechanism/step/step.hpp"
 #include "mechanism/step/step_report.hpp"
+#include "mechanism/step/workspace.hpp"
 
 namespace tisserand::mechanism::radau {
 
@@ -33,20 +34,21 @@ class Newton {
   explicit Newton(const Model& model);
 
   /// New parts at the state of the last evaluate().
-  void renew(const Model& model, const State& state, Evaluation& evaluation);
+  void renew(const State& state, Evaluation& evaluation);
   bool has_parts() const { return parts_.valid; }
   /// Factors for a step of this size, if they are not there; of the real matrix alone. False: singular, with the
   /// outcome.
-  [[nodiscard]] bool ready(const Model& model, double step, StepReport& report);
-  [[nodiscard]] bool ready_real(const Model& model, double step, StepReport& report);
-  /// From predicted stages to converged ones; false with an outcome, and `shorter` as the part of the step to try.
-  [[nodiscard]] bool iterate(const Model& model, const State& begin, const StepEnd& end, const Accuracy& accuracy,
-                             Stages& stages, State& state, Evaluation& evaluation, StepReport& report);
+  [[nodiscard]] bool ready(double step, StepReport& report);
+  [[nodiscard]] bool ready_real(double step, StepReport& report);
+  /// From predicted stages of the step from the workspace's previous state to converged ones; false with an outcome,
+  /// and `shorter` as the part of the step to try.
+  [[nodiscard]] bool iterate(const Accuracy& accuracy, Stages& stages, State& state, Workspace& workspace,
+                             StepReport& report);
   /// The smallest change, weighted with the real matrix, that takes `violation` from the constraints, at the state of
   /// the last evaluate(): into `correction`.
-  void project(const Model& model, const Eigen::VectorXd& violation, const Evaluation& evaluation);
+  void project(const Eigen::VectorXd& violation, const Evaluation& evaluation);
   /// Into `correction`: the error of positions, (5) of radau.hpp, in axes of the state of the parts.
-  void estimate(const Model& model, const Stages& stages, const State& begin);
+  void estimate(const Stages& stages, const State& begin);
   void forget();
 
   double contraction() const { return contraction_; }
@@ -62,10 +64,12 @@ class Newton {
   void for_turning_nodes(Visit visit) const {
     for (std::size_t i = 0; i < turning_.size(); ++i) visit(static_cast<std::size_t>(turning_[i]), turning_rows_[i]);
   }
-  void evaluate_stage(const Model& model, const State& begin, const StepEnd& end, int stage, Stages& stages,
-                      State& state, Evaluation& evaluation);
-  void solve(const Model& model, const State& state, Stages& stages);
+  void evaluate_stage(const State& begin, int stage, Stages& stages, State& state, Evaluation& evaluation);
+  void solve(const State& begin, Stages& stages);
+  double measure_multipliers(const State& begin, const Evaluation& evaluation, double share,
+                             const Stages::Columns& lambda) const;
 
+  const Model& model_;
   TangentParts parts_;
   StageMatrix<double> real_;
   StageMatrix<std::complex<double>> complex_;
@@ -82,7 +86,6 @@ class Newton {
 };
 
 /// State of a stage: positions, rates, multipliers, times.
-void set_stage(const Model& model, const State& begin, const StepEnd& end, int stage, const Stages& stages,
-               State& state);
+void set_stage(const Model& model, const State& begin, int stage, const Stages& stages, State& state);
 
 }  // namespace tisserand::mechanism::radau

@@ -27,12 +27,7 @@ constexpr double stuck = 1e3;
 }  // namespace
 
 Radau::Radau(const Model& model, const formats::IntegratorSpec& options)
-    : model_(model),
-      options_(options),
-      newton_(model),
-      stages_(model.sizes),
-      last_(model.sizes),
-      displacement_(Eigen::VectorXd::Zero(model.sizes.velocities())) {}
+    : model_(model), options_(options), newton_(model), stages_(model.sizes), last_(model.sizes) {}
 
 void Radau::forget() {
   newton_.forget();
@@ -72,15 +67,14 @@ double Radau::farthest_turn() const {
 
 bool Radau::solve_stages(const StepEnd& end, State& state, Workspace& workspace, StepReport& report) {
   const State& begin = workspace.memory.previous;
-  const double step = end.time - begin.time();
-  if (!newton_.ready(model_, step, report)) return false;
-  radau::predict(model_, begin, step, last_, stages_);
-  return newton_.iterate(model_, begin, end, accuracy(), stages_, state, workspace.now, report);  // (1) to (3), (6)
+  if (!newton_.ready(end.time - begin.time(), report)) return false;
+  radau::predict(model_, begin, end, last_, stages_);
+  return newton_.iterate(accuracy(), stages_, state, workspace, report);  // (1) to (3), (6)
 }
 
 bool Radau::accurate(const State& begin, StepReport& report) {
   if (!options_.error_control.active) return true;
-  newton_.estimate(model_, stages_, begin);  // (5)
+  newton_.estimate(stages_, begin);  // (5)
   const LocalError worst =
       measure_error(model_, radau::estimate_tolerance(options_.error_control), 1.0, newton_.correction);
   const double turn = farthest_turn() / longest_turn;
@@ -100,9 +94,9 @@ bool Radau::accurate(const State& begin, StepReport& report) {
 
 bool Radau::ready_to_close(const State& state, Evaluation& now, StepReport& report) {
   if (newton_.contraction() <= tuning_.renew_rate) return true;
-  newton_.renew(model_, state, now);
+  newton_.renew(state, now);
   parts_age_ = -1;  // those of the next step
-  return newton_.ready_real(model_, report.proposed > 0.0 ? report.proposed : stages_.step, report);
+  return newton_.ready_real(report.proposed > 0.0 ? report.proposed : stages_.step, report);
 }
 
 bool Radau::close(State& state, Evaluation& now, StepReport& report) {
@@ -122,13 +116,13 @@ bool Radau::close(State& state, Evaluation& now, StepReport& report) {
       report.outcome = std::isnan(worst) ? StepOutcome::diverged : StepOutcome::too_many_iterations;
       return false;
     }
-    newton_.project(model_, now.constraint, now);
+    newton_.project(now.constraint, now);
     retract(model_, state, newton_.correction, state);
   }
   report.worst_constraint = -1;
   if (parts_age_ >= 0 && !ready_to_close(state, now, report)) return false;
   if (model_.sizes.constraints == 0) return true;
-  newton_.project(model_, now.constraint_rate, now);
+  newton_.project(now.constraint_rate, now);
   state.v() += newton_.correction;
   return true;
 }
@@ -156,7 +150,7 @@ StepReport Radau::take_step(const StepEnd& end, State& state, Workspace& workspa
   begin.block() = state.block();
   const auto renew = [&] {
     evaluate(model_, state, workspace.now);
-    newton_.renew(model_, state, workspace.now);
+    newton_.renew(state, workspace.now);
     parts_age_ = 0;
   };
   if (!newton_.has_parts()) renew();
@@ -169,7 +163,7 @@ StepReport Radau::take_step(const StepEnd& end, State& state, Workspace& workspa
   }
   if (!solved && options_.error_control.active) report.proposed = newton_.shorter() * (end.time - begin.time());
   if (solved && accurate(begin, report)) {
-    radau::set_stage(model_, begin, end, 2, stages_, state);
+    radau::set_stage(model_, begin, 2, stages_, state);
     if (close(state, workspace.now, report)) {  // (4)
       accept(state, workspace, report);
       return report;
@@ -201,17 +195,17 @@ void Radau::interpolate(double time, State& state, Workspace& workspace) {
   const double tau = (time - begin.time()) / last_.step;
   state.time() = time;
   state.load_time() = time;
-  radau::interpolate(model_, begin, last_, tau, displacement_, state);
+  radau::interpolate(model_, begin, tau, last_, state);
   state.hinges() = begin.hinges();
   state.frames() = begin.frames();
   evaluate(model_, state, workspace.now);
   for (int count = 0; count < most_projections; ++count) {
     if (!(largest_violation(model_, workspace.now, Rows::solved).value > options_.constraint_tolerance)) break;
-    newton_.project(model_, workspace.now.constraint, workspace.now);
+    newton_.project(workspace.now.constraint, workspace.now);
     retract(model_, state, newton_.correction, state);
     evaluate(model_, state, workspace.now);
   }
-  newton_.project(model_, workspace.now.constraint_rate, workspace.now);
+  newton_.project(workspace.now.constraint_rate, workspace.now);
   state.v() += newton_.correction;
   settle(model_, workspace.now, state);
   state.work() = begin.work() + integral(last_, last_.load_power, tau);

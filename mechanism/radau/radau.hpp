@@ -61,8 +61,7 @@ class Radau {
   radau::Newton newton_;
   radau::StepSize size_;
   radau::Stages stages_, last_;  ///< of this step, and of the one accepted before
-  Eigen::VectorXd displacement_;
-  long parts_age_ = 0;  ///< steps since the tangents were renewed; −1: at the end of this one
+  long parts_age_ = 0;           ///< steps since the tangents were renewed; −1: at the end of this one
 };
 
 }  // namespace tisserand::mechanism

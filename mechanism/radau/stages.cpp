@@ -77,7 +77,8 @@ Stages::Stages(const Sizes& sizes)
       a(d),
       lambda(Columns::Zero(sizes.constraints, 3)),
       v_begin(Eigen::VectorXd::Zero(sizes.velocities())),
-      a_begin(v_begin) {}
+      a_begin(v_begin),
+      displacement(v_begin) {}
 
 void update_rates(const Model& model, Stages& stages) {
   const Eigen::Matrix3d weights = coefficients().inverse.transpose() / stages.step;
@@ -88,7 +89,8 @@ void update_rates(const Model& model, Stages& stages) {
   for (int i = 0; i < 3; ++i) stages.a.col(i) -= sums[i] * stages.v_begin;
 }
 
-void predict(const Model& model, const State& state, double step, const Stages& last, Stages& stages) {
+void predict(const Model& model, const State& state, const StepEnd& end, const Stages& last, Stages& stages) {
+  const double step = end.time - state.time();
   const Coefficients& method = coefficients();
   for (int i = 0; i < 3; ++i) {
     if (last.step > 0.0) {
@@ -103,6 +105,7 @@ void predict(const Model& model, const State& state, double step, const Stages& 
     }
   }
   stages.step = step;
+  stages.end = end;
   stages.v_begin = state.v();
   stages.a_begin = state.vdot();
   const Eigen::Matrix3d weights = step * method.A.transpose();
@@ -115,13 +118,13 @@ void predict(const Model& model, const State& state, double step, const Stages& 
   update_rates(model, stages);
 }
 
-void interpolate(const Model& model, const State& begin, const Stages& stages, double tau,
-                 Eigen::VectorXd& displacement, State& state) {
+void interpolate(const Model& model, const State& begin, double tau, Stages& stages, State& state) {
   const Basis p = through_start(tau), at_start = through_start(0.0);
   const Bubble b = bubble(tau);
   const double h = stages.step;
   const auto& d = stages.d;
   const auto& v = stages.v;
+  Eigen::VectorXd& displacement = stages.displacement;
   displacement = p.value[1] * d.col(0) + p.value[2] * d.col(1) + p.value[3] * d.col(2);
   displacement += b.value * (h * stages.v_begin - at_start.slope[1] * d.col(0) - at_start.slope[2] * d.col(1) -
                              at_start.slope[3] * d.col(2));

@@ -8,19 +8,17 @@ constexpr TangentCoefficients unit[] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 
 
 }  // namespace
 
-TangentParts::TangentParts(const Model& model) : buffer(model) {
+TangentParts::TangentParts(const Model& of_model) : model(of_model), buffer(of_model) {
   const SparsePattern& pattern = *model.pattern;
   for (std::vector<double>& part : values) part.assign(static_cast<std::size_t>(pattern.values()), 0.0);
   place.assign(values[0].size(), Place::block);
   for (int j = 0; j < pattern.size(); ++j)
-    for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
-      const int i = pattern.rows()[at];
-      Place& here = place[pattern.slot(i, j)];
+    pattern.for_each_in(j, [&](int i, int slot) {
       if (j >= model.sizes.boundary)
-        here = Place::column;
+        place[slot] = Place::column;
       else if (i >= model.sizes.boundary)
-        here = Place::row;
-    }
+        place[slot] = Place::row;
+    });
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const Eigen::Index nb = body_of(model, i).boundary_size, m = body_of(model, i).modes;
     Element element;
@@ -34,7 +32,7 @@ TangentParts::TangentParts(const Model& model) : buffer(model) {
   orientation.assign(model.nodes.size(), Eigen::Matrix3d::Identity());
 }
 
-void TangentParts::take(const Model& model, const State& state, Evaluation& evaluation) {
+void TangentParts::take(const State& state, Evaluation& evaluation) {
   for (std::size_t k = 0; k < 3; ++k) {
     TangentRequest request{unit[k], TangentKind::step, {}};
     if (unit[k].stiffness != 0.0) request.rows = {ConstraintRows::Kind::velocity, 1.0};
@@ -57,19 +55,16 @@ void TangentParts::take(const Model& model, const State& state, Evaluation& eval
   valid = true;
 }
 
-void TangentParts::multiply(const Model& model, const Eigen::VectorXd& x_m, const Eigen::VectorXd& x_c,
-                            const Eigen::VectorXd& x_b, Eigen::VectorXd& upper, Eigen::VectorXd& rows) const {
-  const SparsePattern& pattern = *model.pattern;
+void TangentParts::multiply(const Eigen::VectorXd& x_m, const Eigen::VectorXd& x_c, const Eigen::VectorXd& x_b,
+                            Eigen::VectorXd& upper, Eigen::VectorXd& rows) const {
   const int n = model.sizes.boundary;
   for (int j = 0; j < n; ++j)
-    for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
-      const int i = pattern.rows()[at];
-      const int slot = pattern.slot(i, j);
+    model.pattern->for_each_in(j, [&](int i, int slot) {
       if (i < n)
         upper[i] += values[0][slot] * x_m[j] + values[1][slot] * x_c[j];
       else
         rows[i - n] += values[0][slot] * x_b[j];
-    }
+    });
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const SuperelementBody& body = body_of(model, e);
     const std::vector<int>& map = model.superelements.maps[e].coordinates;

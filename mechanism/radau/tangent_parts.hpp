@@ -19,14 +19,15 @@ struct TangentParts {
     std::array<Eigen::MatrixXd, 3> BB, BI, IB;  ///< nb x nb, nb x m, m x nb
   };
 
-  explicit TangentParts(const Model& model);
+  explicit TangentParts(const Model& of_model);
 
   /// At the state of the last evaluate(). Of superelements the step tangent.
-  void take(const Model& model, const State& state, Evaluation& evaluation);
+  void take(const State& state, Evaluation& evaluation);
   /// upper += (M x_m + C x_c) of all coordinates, rows += B x_b.
-  void multiply(const Model& model, const Eigen::VectorXd& x_m, const Eigen::VectorXd& x_c, const Eigen::VectorXd& x_b,
+  void multiply(const Eigen::VectorXd& x_m, const Eigen::VectorXd& x_c, const Eigen::VectorXd& x_b,
                 Eigen::VectorXd& upper, Eigen::VectorXd& rows) const;
 
+  const Model& model;
   bool valid = false;
   std::array<std::vector<double>, 3> values;  ///< by c_m, c_c, c_k; rows: B, B, B + ∂(B v)/∂q
   std::vector<Element> elements;

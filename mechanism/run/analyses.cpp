@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/output_path.hpp"
 #include "common/text.hpp"
 
 namespace tisserand::mechanism {
@@ -28,10 +29,8 @@ const formats::Analysis& find(const formats::Scene& scene, const std::string& na
 }  // namespace
 
 std::string with_name(const std::string& results, const std::string& name) {
-  for (const std::string_view ending : {".results.h5", ".h5"})
-    if (results.ends_with(ending))
-      return fmt::format("{}.{}{}", results.substr(0, results.size() - ending.size()), name, ending);
-  return fmt::format("{}.{}", results, name);
+  const std::string stem = without_ending(results, {".results.h5", ".h5"});
+  return stem + "." + name + results.substr(stem.size());
 }
 
 std::vector<PlannedAnalysis> plan(const formats::Scene& scene, const std::string& name, const OutputName& output) {

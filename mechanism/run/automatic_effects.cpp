@@ -59,9 +59,9 @@ AutomaticEffects::AutomaticEffects(const formats::Scene& scene, std::vector<Effe
   interval_ = fixed ? sample_steps * integrator.step : sample_part * (integrator.end - integrator.start);
   for (EffectUse& use : uses) uses_.push_back({std::move(use), -1});
   for (Use& use : uses_)
-    for (std::size_t k = 0; k < uses_.size(); ++k)
+    for (int k = 0; k < std::ssize(uses_); ++k)
       if (!is_flexibility(use.effect) && is_flexibility(uses_[k].effect) && uses_[k].effect.owner == use.effect.owner)
-        use.flexibility = static_cast<int>(k);
+        use.flexibility = k;
 }
 
 std::vector<EffectUse> AutomaticEffects::effects() const {
@@ -157,8 +157,9 @@ bool AutomaticEffects::watch(Run& run) {
   watch_->next = run.built.state.time();
   const bool again = missed(run, false);
   for (Use& use : uses_)
-    use.start_force =
-        use.effect.on || goes_on_ || begin_ ? 0.0 : watch_->demand.force(deforming_body(whole_->built.model, use.effect.owner));
+    use.start_force = use.effect.on || goes_on_ || begin_
+                          ? 0.0
+                          : watch_->demand.force(deforming_body(whole_->built.model, use.effect.owner));
   return again;
 }
 
@@ -223,10 +224,9 @@ void AutomaticEffects::doubt(const std::vector<bool>& missed, Run& run) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < uses_.size(); ++k)
     if (missed[k]) names.push_back(effect_name(uses_[k].effect));
-  run.report.doubts.push_back(
-      fmt::format("auto: {} matters at t = {:.6g}, and is off in the run that this one goes on from: run the scene from "
-                  "its start",
-                  listed(names), run.built.state.time()));
+  run.report.doubts.push_back(fmt::format(
+      "auto: {} matters at t = {:.6g}, and is off in the run that this one goes on from: run the scene from its start",
+      listed(names), run.built.state.time()));
 }
 
 void AutomaticEffects::tell_begin(RunReport& report) const {
@@ -239,11 +239,10 @@ void AutomaticEffects::tell_stressed(RunReport& report) const {
   for (const Use& use : uses_)
     if (use.stressed && std::ranges::count(names, use.effect.owner) == 0) names.push_back(use.effect.owner);
   if (names.empty()) return;
-  report.notes.push_back(
-      fmt::format("auto: effects of {} are on, since loops of joints can stress {}: what these bear, and whether "
-                  "the loops move at all, depends on them. Joints that leave more free (spherical, cylindrical) take "
-                  "that stress away",
-                  listed(names), names.size() == 1 ? "this body" : "these bodies"));
+  report.notes.push_back(fmt::format(
+      "auto: effects of {} are on, since loops of joints can stress {}: what these bear, and whether the loops move at "
+      "all, depends on them. Joints that leave more free (spherical, cylindrical) take that stress away",
+      listed(names), names.size() == 1 ? "this body" : "these bodies"));
 }
 
 /// Elastic forces where the run starts: with flexibility on, an undeformed body bears nothing yet.

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/output_path.hpp"
 #include "common/sha256.hpp"
 #include "common/text.hpp"
 #include "formats/scene/expand/values.hpp"
@@ -38,10 +39,7 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }
 
 /// "arm.results.h5.part" -> "arm.results.h5".
-std::string final_name(const std::string& results) {
-  constexpr std::string_view part = ".part";
-  return results.ends_with(part) ? results.substr(0, results.size() - part.size()) : results;
-}
+std::string final_name(const std::string& results) { return without_ending(results, {".part"}); }
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -178,9 +176,7 @@ std::string fingerprint(const Model& model, const State& state) {
 }
 
 std::string checkpoint_path(const std::string& results) {
-  for (const std::string_view ending : {".results.h5", ".h5"})
-    if (results.ends_with(ending)) return results.substr(0, results.size() - ending.size()) + ".checkpoint.h5";
-  return results + ".checkpoint.h5";
+  return without_ending(results, {".results.h5", ".h5"}) + ".checkpoint.h5";
 }
 
 Checkpoints::Checkpoints(const formats::Scene& scene, const std::string& results, double time)

@@ -22,6 +22,7 @@ namespace {
 
 /// What the loop of steps remembers besides the run.
 struct StepLoop {
+  Stepper stepper;
   Schedule schedule;
   Checkpoints checkpoints;
   StepReport last;  ///< of the last accepted step
@@ -37,12 +38,12 @@ void write_last_row(Run& run, const StepReport& step, double size, RowWriter& ou
 }
 
 /// Rows that the step to the present state has passed without ending there.
-void store_rows_between(Run& run, StepLoop& loop, Stepper& stepper, RowWriter& out) {
+void store_rows_between(Run& run, StepLoop& loop, RowWriter& out) {
   State& state = run.built.state;
   std::optional<State> end;
   while (const std::optional<double> due = loop.schedule.pass_instant(end ? end->time() : state.time())) {
     if (!end) end.emplace(state);
-    stepper.interpolate(*due, state, run.workspace);
+    loop.stepper.interpolate(*due, state, run.workspace);
     write_row(run, loop.last, loop.last_size, out);
   }
   if (end) state.block() = end->block();
@@ -73,11 +74,11 @@ void settle_start(Run& run, formats::ResultsRow row) {
   const double energy = row.kinetic + std::abs(row.strain) + std::abs(row.work) + std::abs(row.dissipated);
   if (!(std::abs(row.balance) > felt * energy)) return;
   run.built.state.initial_energy() += row.balance;
-  run.report.notes.push_back(fmt::format(
-      "the start is out of balance: what has no mass jumps to its balance in the first step, in which {:.3g} of the "
-      "energy "
-      "is {}. Start from an analysis `statics`, or give bodies without mass the poses in which their forces balance",
-      std::abs(row.balance) / (energy + std::abs(row.balance)), row.balance < 0.0 ? "lost" : "gained"));
+  run.report.notes.push_back(
+      fmt::format("the start is out of balance: what has no mass jumps to its balance in the first step, in which "
+                  "{:.3g} of the energy is {}. Start from an analysis `statics`, or give bodies without mass the poses "
+                  "in which their forces balance",
+                  std::abs(row.balance) / (energy + std::abs(row.balance)), row.balance < 0.0 ? "lost" : "gained"));
 }
 
 /// Bounds the next step by the road ahead.
@@ -90,7 +91,7 @@ void look_ahead(Run& run, const RoadAhead& ahead, Schedule& schedule) {
 }
 
 /// What an accepted step to the present state leaves in report and loop, and its rows.
-void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, Stepper& stepper, RowWriter& out) {
+void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, RowWriter& out) {
   RunReport& report = run.report;
   State& state = run.built.state;
   ++report.steps;
@@ -101,13 +102,39 @@ void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, St
   report.greatest_step = std::max(report.greatest_step, size);
   loop.schedule.adapt(step, size);
   report.largest_constraint = std::max(report.largest_constraint, step.constraint);
-  store_rows_between(run, loop, stepper, out);
+  store_rows_between(run, loop, out);
   const Schedule::Event event = loop.schedule.accept(state.time());
   if (report.steps == 1 && run.massless) settle_start(run, out.row);
   if (event.output) write_row(run, step, size, out);
   if (!event.breakpoint) return;
   pass_breakpoint(run.built.model, run.scene, state, run.workspace);
-  stepper.pass_jump();
+  loop.stepper.pass_jump();
+}
+
+/// What the stiffness says of the equilibrium that was found.
+void tell_stability(const StaticsReport& statics, RunReport& report) {
+  const Stability& stability = statics.stability;
+  if (statics.descents > 0)
+    report.notes.push_back(
+        fmt::format("the equilibrium was found in {} steps downhill in potential energy", statics.descents));
+  if (statics.load_steps > 1 && statics.unstable_from <= 1.0 && stability.symmetric)
+    report.notes.push_back(fmt::format("the equilibrium loses its stability between {:.4g} and {:.4g} of the load",
+                                       statics.stable_until, statics.unstable_from));
+  if (!stability.counted) return;
+  const std::string count =
+      fmt::format("{} direction{}{}", stability.unstable, stability.unstable == 1 ? "" : "s",
+                  stability.direction.empty() ? "" : fmt::format(", first {}", stability.direction));
+  if (!stability.symmetric) {
+    report.notes.push_back(fmt::format(
+        "the stiffness is not symmetric (follower forces, moments, tyres, unsymmetric bushings), so that the count of "
+        "its negative directions ({}) does not decide whether the equilibrium is stable: run `modes` from it",
+        stability.unstable == 0 ? "none" : count));
+    return;
+  }
+  if (stability.unstable == 0) return;
+  report.end(
+      RunOutcome::unstable,
+      fmt::format("the equilibrium is unstable in {}: `statics: {{stable: yes}}` goes on to a stable one", count));
 }
 
 }  // namespace
@@ -116,8 +143,8 @@ void integrate(Run& run, RowWriter& out) {
   const Model& model = run.built.model;
   State& state = run.built.state;
   RunReport& report = run.report;
-  Stepper stepper(model, run.scene.integrator);
-  StepLoop loop{Schedule(run.scene, model.breakpoints),
+  StepLoop loop{Stepper(model, run.scene.integrator),
+                Schedule(run.scene, model.breakpoints),
                 Checkpoints(run.scene, out.results, state.time()),
                 {},
                 0.0,
@@ -136,7 +163,7 @@ void integrate(Run& run, RowWriter& out) {
       loop.tried_at = before;
       loop.first_tried = target.time - before;
     }
-    const StepReport step = stepper.advance(target, state, run.workspace);
+    const StepReport step = loop.stepper.advance(target, state, run.workspace);
     report.iterations += step.iterations;
     report.factorisations += step.factorisations;
     report.row_choices += step.row_choices;
@@ -146,11 +173,11 @@ void integrate(Run& run, RowWriter& out) {
       report.end(RunOutcome::not_converged, std::move(failure));
       break;
     }
-    take_note(run, step, state.time() - before, loop, stepper, out);
+    take_note(run, step, state.time() - before, loop, out);
     std::string end = why_to_end(run);
     const bool ends = loop.schedule.finished(state.time()) || !end.empty();
     if (run.automatic != nullptr && run.automatic->missed(run, ends)) return loop.checkpoints.discard();
-    loop.checkpoints.after_step(run, loop.schedule, stepper, out.writer);
+    loop.checkpoints.after_step(run, loop.schedule, loop.stepper, out.writer);
     if (run.control.progress) run.control.progress(state.time());
     if (!end.empty()) {
       report.end(RunOutcome::not_converged, std::move(end));
@@ -159,40 +186,9 @@ void integrate(Run& run, RowWriter& out) {
   }
   report.time = state.time();
   run.angles.tell(model, report);
-  report.solver_health = stepper.health(run.workspace);
+  report.solver_health = loop.stepper.health(run.workspace);
   if (report.outcome != RunOutcome::completed) write_last_row(run, loop.last, loop.last_size, out);
 }
-
-namespace {
-
-/// What the stiffness says of the equilibrium that was found.
-void tell_stability(const StaticsReport& statics, RunReport& report) {
-  const Stability& stability = statics.stability;
-  if (statics.descents > 0)
-    report.notes.push_back(
-        fmt::format("the equilibrium was found in {} steps downhill in potential energy", statics.descents));
-  if (statics.load_steps > 1 && statics.unstable_from <= 1.0 && stability.symmetric)
-    report.notes.push_back(fmt::format("the equilibrium loses its stability between {:.4g} and {:.4g} of the load",
-                                       statics.stable_until, statics.unstable_from));
-  if (!stability.counted) return;
-  const std::string count =
-      fmt::format("{} direction{}{}", stability.unstable, stability.unstable == 1 ? "" : "s",
-                  stability.direction.empty() ? "" : fmt::format(", first {}", stability.direction));
-  if (!stability.symmetric) {
-    report.notes.push_back(
-        fmt::format("the stiffness is not symmetric (follower forces, moments, tyres, unsymmetric bushings), so that "
-                    "the count of its negative directions ({}) does not decide whether the equilibrium is stable: run "
-                    "`modes` from it",
-                    stability.unstable == 0 ? "none" : count));
-    return;
-  }
-  if (stability.unstable == 0) return;
-  report.end(
-      RunOutcome::unstable,
-      fmt::format("the equilibrium is unstable in {}: `statics: {{stable: yes}}` goes on to a stable one", count));
-}
-
-}  // namespace
 
 void equilibrate(Run& run, RowWriter& out) {
   const StaticsReport statics =

@@ -20,17 +20,12 @@ using Eigen::Vector3d;
 
 /// A node that owns no translations or no rotations has none to report.
 void blank_missing(const Model& model, const Marker& marker, Eigen::Index column, formats::ResultsRow& row) {
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  if (!has_translation(model, marker.node)) {
-    row.node_position.col(column).setConstant(none);
-    row.node_velocity.col(column).setConstant(none);
-    row.node_acceleration.col(column).setConstant(none);
-  }
-  if (!has_rotation(model, marker.node)) {
-    row.node_rotation.col(column).setConstant(none);
-    row.node_angular_velocity.col(column).setConstant(none);
-    row.node_angular_acceleration.col(column).setConstant(none);
-  }
+  const auto blank = [column](auto&... values) {
+    (values.col(column).setConstant(std::numeric_limits<double>::quiet_NaN()), ...);
+  };
+  if (!has_translation(model, marker.node)) blank(row.node_position, row.node_velocity, row.node_acceleration);
+  if (!has_rotation(model, marker.node))
+    blank(row.node_rotation, row.node_angular_velocity, row.node_angular_acceleration);
 }
 
 void fill_places(const Model& model, const Evaluation& evaluation, formats::ResultsRow& row) {
@@ -273,6 +268,52 @@ void fill_modal_forces(const Model& model, const Evaluation& evaluation, formats
       row.modal.node_force.col(column++) = received(model, node, evaluation.modal_forces[k], evaluation);
 }
 
+void fill_bodies(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
+  evaluate(model, state, evaluation);
+  update_modal_nodes(model, evaluation);
+  row.time = state.time();
+  fill_places(model, evaluation, row);
+  fill_superelements(model, evaluation, row);
+  int first = 0;
+  for (const ModalBody& body : model.modal_bodies) {
+    const auto fill = [&](const auto& own, auto&& in_space) {
+      if (body.planar)
+        in_space = body.lift * own;
+      else
+        in_space = own;
+    };
+    const int modes = body.modes_in_space();
+    fill(state.w().segment(body.offset, body.modes), row.w.segment(first, modes));
+    fill(state.v().segment(model.sizes.first_modal() + body.offset, body.modes), row.w_rate.segment(first, modes));
+    first += modes;
+  }
+  fill_modal_frames(model, evaluation, row);
+}
+
+/// After evaluate() and update_modal_nodes().
+void fill_actions(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
+  evaluate_coordinates(model, state, evaluation);
+  Eigen::VectorXd least;
+  if (row.reactions && is_overconstrained(state)) least = least_norm_multipliers(model, evaluation, state.lambda());
+  const double* lambda = least.size() > 0 ? least.data() : state.lambda().data();
+  fill_joints(model, state, lambda, evaluation, row);
+  fill_couplings(model, lambda, row);
+  fill_springs(model, state, evaluation, row);
+  fill_bushings(model, evaluation, row);
+  fill_frictions(model, evaluation, row);
+  fill_tyres(model, evaluation, row);
+  fill_loads(model, evaluation, row);
+  row.quantity = evaluation.channels;
+  const Energy energy = evaluate_energy(model, evaluation);
+  row.kinetic = energy.kinetic;
+  row.strain = energy.strain;
+  row.potential = energy.potential;
+  row.total = energy.total();
+  row.work = state.work();
+  row.dissipated = state.dissipated();
+  row.balance = row.total - state.initial_energy() - row.work + row.dissipated;
+}
+
 }  // namespace
 
 void keep_chosen_places(const formats::Scene& scene, Model& model) {
@@ -339,56 +380,6 @@ void note_large_output(const formats::Scene& scene, const Model& model, double t
       large_output(scene, rows_to_come(scene, time), formats::bytes_of_row(results_layout(model, scene)));
   if (!large.empty()) notes.push_back(std::move(large));
 }
-
-namespace {
-
-void fill_bodies(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
-  evaluate(model, state, evaluation);
-  update_modal_nodes(model, evaluation);
-  row.time = state.time();
-  fill_places(model, evaluation, row);
-  fill_superelements(model, evaluation, row);
-  int first = 0;
-  for (const ModalBody& body : model.modal_bodies) {
-    const auto fill = [&](const auto& own, auto&& in_space) {
-      if (body.planar)
-        in_space = body.lift * own;
-      else
-        in_space = own;
-    };
-    const int modes = body.modes_in_space();
-    fill(state.w().segment(body.offset, body.modes), row.w.segment(first, modes));
-    fill(state.v().segment(model.sizes.first_modal() + body.offset, body.modes), row.w_rate.segment(first, modes));
-    first += modes;
-  }
-  fill_modal_frames(model, evaluation, row);
-}
-
-/// After evaluate() and update_modal_nodes().
-void fill_actions(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
-  evaluate_coordinates(model, state, evaluation);
-  Eigen::VectorXd least;
-  if (row.reactions && is_overconstrained(state)) least = least_norm_multipliers(model, evaluation, state.lambda());
-  const double* lambda = least.size() > 0 ? least.data() : state.lambda().data();
-  fill_joints(model, state, lambda, evaluation, row);
-  fill_couplings(model, lambda, row);
-  fill_springs(model, state, evaluation, row);
-  fill_bushings(model, evaluation, row);
-  fill_frictions(model, evaluation, row);
-  fill_tyres(model, evaluation, row);
-  fill_loads(model, evaluation, row);
-  row.quantity = evaluation.channels;
-  const Energy energy = evaluate_energy(model, evaluation);
-  row.kinetic = energy.kinetic;
-  row.strain = energy.strain;
-  row.potential = energy.potential;
-  row.total = energy.total();
-  row.work = state.work();
-  row.dissipated = state.dissipated();
-  row.balance = row.total - state.initial_energy() - row.work + row.dissipated;
-}
-
-}  // namespace
 
 void fill_row(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
   fill_bodies(model, state, evaluation, row);

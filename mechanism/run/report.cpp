@@ -30,8 +30,8 @@ std::string choice_text(const RunReport& report, const std::string& effect) {
     if (names.empty()) continue;
     texts.push_back(fmt::format("{}: {}", on ? "on" : "off", listed(names)));
     if (most->demand == 0.0) continue;
-    texts.back() += fmt::format(" ({}{:.2g} tolerances: {}, t = {:.6g})", on ? "" : "at most ", most->demand, most->body,
-                                most->time);
+    texts.back() += fmt::format(" ({}{:.2g} tolerances: {}, t = {:.6g})", on ? "" : "at most ", most->demand,
+                                most->body, most->time);
   }
   return fmt::format("{} {}", effect, join(texts, "; "));
 }
@@ -71,7 +71,7 @@ nlohmann::ordered_json solver_json(const RunReport& report) {
 nlohmann::ordered_json preflight_json(const Preflight& preflight) {
   nlohmann::ordered_json json;
   json["open_joints"] = nlohmann::ordered_json::array();
-  for (const MarkerGap& gap : preflight.gaps)
+  for (const JointGap& gap : preflight.gaps)
     json["open_joints"].push_back({{"joint", gap.joint}, {"length", gap.length}, {"angle", gap.angle}});
   json["connected_groups"] = preflight.groups;
   json["doubts"] = preflight.doubts;
@@ -141,7 +141,8 @@ std::string report_text(const RunReport& report, const Units& units) {
   line("model", join(report.effects, ", "));
   line("effects", report.switches);
   if (report.tolerance > 0.0)
-    line("auto", fmt::format("tolerance {:.6g}{}", report.tolerance, report.automatic.empty() ? ": the run chooses" : ""));
+    line("auto",
+         fmt::format("tolerance {:.6g}{}", report.tolerance, report.automatic.empty() ? ": the run chooses" : ""));
   std::vector<std::string> told;
   for (const ChosenEffect& choice : report.automatic) {
     if (std::ranges::count(told, choice.effect) > 0) continue;

@@ -17,6 +17,7 @@
 #include "mechanism/doubts/damping_reach.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/model/bodies.hpp"
+#include "mechanism/model/forces.hpp"
 #include "mechanism/run/output.hpp"
 #include "mechanism/run/schedule.hpp"
 #include "mechanism/run/simulated_scene.hpp"
@@ -55,10 +56,8 @@ std::vector<std::string> effects(const Model& model) {
   add(model.frictions.size(), "frictional joints");
   add(model.couplings.size(), "couplings");
   add(model.springs.size(), "springs");
-  add(model.bushings.size(), "bushings");
-  add(model.tyres.size(), "tyres");
-  add(model.loads.size(), "loads");
-  add(model.part_loads.size(), "part loads");
+  for_each_force_pool(
+      model, [&]<class T>(const Pool<T>& pool) { add(pool.size(), fmt::format("{}s", ForceTraits<T>::kind)); });
   if (has_gravity(model)) list.push_back("gravity");
   bool damped = false;
   for_each_body(model, [&](const auto& body) { damped = damped || is_damped(model, body); });
@@ -109,7 +108,8 @@ std::vector<std::string> merged(const std::vector<std::string>& notes) {
       continue;
     }
     const std::string text = note.substr(end + middle.size());
-    const auto same = std::ranges::find_if(texts, [&](const auto& one) { return one.first == text && !one.second.empty(); });
+    const auto same =
+        std::ranges::find_if(texts, [&](const auto& one) { return one.first == text && !one.second.empty(); });
     const std::string name = note.substr(head.size() - 1, end + 2 - head.size());
     if (same == texts.end())
       texts.push_back({text, {name}});
@@ -165,17 +165,18 @@ void note_resting(Run& run) {
     if (rests(spring)) names.push_back(fmt::format("spring '{}'", spring.name));
   for (const formats::BushingSpec& bushing : run.scene.bushings)
     if (rests(bushing)) names.push_back(fmt::format("bushing '{}'", bushing.name));
-  if (!names.empty()) run.report.notes.push_back(fmt::format("without force, since all values are zero: {}", listed(names)));
+  if (!names.empty())
+    run.report.notes.push_back(fmt::format("without force, since all values are zero: {}", listed(names)));
 }
 
 /// A suspension whose axes are not parallel stands still without any other sign.
 void note_locked(Run& run) {
   const std::vector<std::string>& locked = run.report.mobility.locked;
   if (locked.empty()) return;
-  run.report.notes.push_back(fmt::format(
-      "{} lock one another, every body counted as a rigid one: nothing moves in them. If they should move, look "
-      "at their axes and places; hinges of one loop may have to be parallel",
-      listed(locked)));
+  run.report.notes.push_back(
+      fmt::format("{} lock one another, every body counted as a rigid one: nothing moves in them. If they should move, "
+                  "look at their axes and places; hinges of one loop may have to be parallel",
+                  listed(locked)));
 }
 
 /// Notes on the scene that follow from its constraints and forces.
@@ -215,19 +216,67 @@ void note_start(const StartReport& start, Run& run) {
   const StartVelocities& velocities = start.velocities;
   if (!velocities.derived.empty())
     notes.push_back(
-        fmt::format("velocities of {} at the start follow from joints, drives and given velocities with "
-                    "the least kinetic energy: {}",
+        fmt::format("velocities of {} at the start follow from joints, drives and given velocities with the least "
+                    "kinetic energy: {}",
                     quoted(velocities.derived), with_unit(velocities.kinetic_energy, energy_label(units))));
   if (!velocities.deforming.empty())
     notes.push_back(
-        fmt::format("no rigid motion of {} agrees with the start: they begin to deform, with the smallest "
-                    "strain rate that does ({:.3g} of the kinetic energy)",
+        fmt::format("no rigid motion of {} agrees with the start: they begin to deform, with the smallest strain rate "
+                    "that does ({:.3g} of the kinetic energy)",
                     quoted(velocities.deforming), velocities.deformation / velocities.kinetic_energy));
   if (start.projection.velocity > 1e-6)
     notes.push_back(
-        fmt::format("given velocities were corrected by up to {:.3g} of the largest, which initial_tolerance "
-                    "allows",
+        fmt::format("given velocities were corrected by up to {:.3g} of the largest, which initial_tolerance allows",
                     start.projection.velocity));
+}
+
+/// What the kind of the analysis needs besides a state on the constraints.
+void prepare(Run& run) {
+  switch (run.scene.analysis) {
+    case formats::AnalysisKind::dynamics:
+    case formats::AnalysisKind::assembly:
+      break;
+    case formats::AnalysisKind::statics: {
+      if (const auto& rotation = run.scene.statics.rotation) {
+        const std::string fixed = what_does_not_turn(run.built.model, *rotation, run.built.state, run.workspace.now);
+        if (!fixed.empty())
+          throw Error(fmt::format("statics: there is no steady turn. {}", fixed), run.scene.file,
+                      "let it act along the axis or turn with the scene, or use `analysis: dynamics`");
+      }
+      const Settled settled = settle_under_load(run.built.model, run.scene.statics, run.control.interrupted,
+                                                run.built.state, run.workspace);
+      if (settled.descents > 0)
+        run.report.notes.push_back(fmt::format(
+            "nothing held the scene where it began; the equilibrium was found in {} steps downhill in potential energy",
+            settled.descents));
+      if (!settled.free.empty())
+        throw Error(fmt::format("statics: the scene can move freely: nothing holds {}", settled.free), run.scene.file,
+                    run.scene.statics.rotation
+                        ? "drive it under `motions:` if it turns with the scene, or hold it with a joint"
+                        : "hold it with a joint, or use `analysis: dynamics`");
+      break;
+    }
+    case formats::AnalysisKind::kinematics:
+    case formats::AnalysisKind::inverse_dynamics:
+      require_determined(run.built.model, run.report.mobility, run.scene.file, run.built.state, run.workspace);
+      break;
+    case formats::AnalysisKind::modes:
+      solve_accelerations(run.built.model, massless_step, run.scene.file, run.built.state, run.workspace);
+      break;
+  }
+}
+
+/// After the row of `time`: once enough is stored, says what the whole will take if its steps stay as they are.
+void foretell_size(double time, Run& run) {
+  constexpr double enough = 1e7;  // bytes: a hundredth of what is worth a word
+  OutputForecast& forecast = run.forecast;
+  if (forecast.bytes == 0) return;
+  forecast.rows += 1.0;
+  const double gone = time - forecast.from, whole = run.scene.integrator.end - forecast.from;
+  if (forecast.rows * static_cast<double>(forecast.bytes) < enough || !(gone > 0.0)) return;
+  const std::string text = large_output(run.scene, forecast.rows * whole / gone, forecast.bytes);
+  if (!text.empty()) run.control.announce(text);
+  forecast.bytes = 0;
 }
 
 }  // namespace
@@ -255,76 +304,29 @@ Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunCo
 
 std::string nonfinite_load(Run& run, double time) {
   const Model& model = run.built.model;
-  Workspace& workspace = run.workspace;
+  Evaluation& now = run.workspace.now;
+  std::string first;
+  const auto look = [&](const std::string& what, const formats::TimeFunctionSpec& spec, double value) {
+    if (first.empty()) first = nonfinite_text(what, spec, time, value);
+  };
   for (std::size_t i = 0; i < model.loads.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::string what = fmt::format("load '{}', {} component", model.loads[i].name, "xyz"[k]);
-      const std::string text =
-          nonfinite_text(what, model.loads[i].components[k], time, workspace.now.load_functions[i][k](time));
-      if (!text.empty()) return text;
+    for (std::size_t k = 0; k < 3; ++k)
+      look(fmt::format("load '{}', {} component", model.loads[i].name, "xyz"[k]), model.loads[i].components[k],
+           now.load_functions[i][k](time));
+  for (std::size_t i = 0; i < model.part_loads.size(); ++i)
+    look(fmt::format("load '{}', value", model.part_loads[i].name), model.part_loads[i].value,
+         now.part_load_functions[i](time));
+  for (std::size_t i = 0; i < model.springs.size(); ++i)
+    if (now.spring_forces[i])
+      look(fmt::format("spring '{}', force", model.springs[i].name), model.springs[i].force,
+           (*now.spring_forces[i])(time));
+  for (const Coupling& coupling : model.couplings)
+    if (const int at = coupling.motion; at >= 0) {
+      const MotionFunction::Value f = now.motions[at](time);
+      look(coupling.name, model.motions[at], f.value + f.rate + f.acceleration);
     }
-  for (std::size_t i = 0; i < model.part_loads.size(); ++i) {
-    const PartLoad& load = model.part_loads[i];
-    const std::string text = nonfinite_text(fmt::format("load '{}', value", load.name), load.value, time,
-                                            workspace.now.part_load_functions[i](time));
-    if (!text.empty()) return text;
-  }
-  for (std::size_t i = 0; i < model.springs.size(); ++i) {
-    if (!workspace.now.spring_forces[i]) continue;
-    const std::string what = fmt::format("spring '{}', force", model.springs[i].name);
-    const std::string text =
-        nonfinite_text(what, model.springs[i].force, time, (*workspace.now.spring_forces[i])(time));
-    if (!text.empty()) return text;
-  }
-  for (const Coupling& coupling : model.couplings) {
-    if (coupling.motion < 0) continue;
-    const auto at = static_cast<std::size_t>(coupling.motion);
-    const MotionFunction::Value f = workspace.now.motions[at](time);
-    const std::string text = nonfinite_text(coupling.name, model.motions[at], time, f.value + f.rate + f.acceleration);
-    if (!text.empty()) return text;
-  }
-  return {};
+  return first;
 }
-
-namespace {
-
-/// What the kind of the analysis needs besides a state on the constraints.
-void prepare(Run& run) {
-  switch (run.scene.analysis) {
-    case formats::AnalysisKind::dynamics:
-    case formats::AnalysisKind::assembly:
-      break;
-    case formats::AnalysisKind::statics: {
-      if (const auto& rotation = run.scene.statics.rotation) {
-        const std::string fixed = what_does_not_turn(run.built.model, *rotation, run.built.state, run.workspace.now);
-        if (!fixed.empty())
-          throw Error(fmt::format("statics: there is no steady turn. {}", fixed), run.scene.file,
-                      "let it act along the axis or turn with the scene, or use `analysis: dynamics`");
-      }
-      const Settled settled = settle_under_load(run.built.model, run.scene.statics, run.control.interrupted,
-                                                run.built.state, run.workspace);
-      if (settled.descents > 0)
-        run.report.notes.push_back(fmt::format("nothing held the scene where it began; the equilibrium was found in {} "
-                                               "steps downhill in potential energy",
-                                               settled.descents));
-      if (!settled.free.empty())
-        throw Error(fmt::format("statics: the scene can move freely: nothing holds {}", settled.free), run.scene.file,
-                    run.scene.statics.rotation
-                        ? "drive it under `motions:` if it turns with the scene, or hold it with a joint"
-                        : "hold it with a joint, or use `analysis: dynamics`");
-      break;
-    }
-    case formats::AnalysisKind::kinematics:
-    case formats::AnalysisKind::inverse_dynamics:
-      require_determined(run.built.model, run.report.mobility, run.scene.file, run.built.state, run.workspace);
-      break;
-    case formats::AnalysisKind::modes:
-      solve_accelerations(run.built.model, massless_step, run.scene.file, run.built.state, run.workspace);
-      break;
-  }
-}
-
-}  // namespace
 
 void begin_from(Run& run, const State& end) {
   State& state = run.built.state;
@@ -370,23 +372,6 @@ formats::ResultsLayout begin_rows(Run& run, const BodyFiles& files) {
   layout.simulated = simulated_scene(run.scene, files, run.built, run.at_start);
   return layout;
 }
-
-namespace {
-
-/// After the row of `time`: once enough is stored, says what the whole will take if its steps stay as they are.
-void foretell_size(double time, Run& run) {
-  constexpr double enough = 1e7;  // bytes: a hundredth of what is worth a word
-  OutputForecast& forecast = run.forecast;
-  if (forecast.bytes == 0) return;
-  forecast.rows += 1.0;
-  const double gone = time - forecast.from, whole = run.scene.integrator.end - forecast.from;
-  if (forecast.rows * static_cast<double>(forecast.bytes) < enough || !(gone > 0.0)) return;
-  const std::string text = large_output(run.scene, forecast.rows * whole / gone, forecast.bytes);
-  if (!text.empty()) run.control.announce(text);
-  forecast.bytes = 0;
-}
-
-}  // namespace
 
 std::string why_to_end(Run& run) {
   std::string reason = run.angles.observe(run.built.model, run.built.state, run.workspace.now);

@@ -23,23 +23,13 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Kinematics knows no reactions, assembly no accelerations either: what was not computed is no number.
 void blank(formats::AnalysisKind kind, formats::ResultsRow& row) {
-  row.joint_force.setConstant(none);
-  row.joint_moment.setConstant(none);
-  row.coupling_first_force.setConstant(none);
-  row.coupling_second_force.setConstant(none);
-  row.motion_force.setConstant(none);
-  row.boundary_force.setConstant(none);
-  row.friction_force.setConstant(none);
-  row.friction_moment.setConstant(none);
-  row.modal.node_force.setConstant(none);
+  const auto blank_all = [](auto&... values) { (values.setConstant(none), ...); };
+  blank_all(row.joint_force, row.joint_moment, row.coupling_first_force, row.coupling_second_force, row.motion_force,
+            row.boundary_force, row.friction_force, row.friction_moment, row.modal.node_force);
   row.work = row.dissipated = row.balance = row.residual = none;
   if (kind == formats::AnalysisKind::kinematics) return;
-  row.node_acceleration.setConstant(none);
-  row.node_angular_acceleration.setConstant(none);
-  row.frame_acceleration.setConstant(none);
-  row.frame_angular_acceleration.setConstant(none);
-  row.modal.acceleration.setConstant(none);
-  row.modal.angular_acceleration.setConstant(none);
+  blank_all(row.node_acceleration, row.node_angular_acceleration, row.frame_acceleration,
+            row.frame_angular_acceleration, row.modal.acceleration, row.modal.angular_acceleration);
 }
 
 /// Work of drives, loads and dampers by the trapezoidal rule over the step that has ended.
@@ -73,6 +63,52 @@ void stop_at_dead_point(Run& run, double time, const StepReport& step) {
                       ? "the drives do not determine the motion: a dead point, where it could go on in several ways"
                       : "the joints cannot be closed any further: the drive leaves what the mechanism can reach",
                   run.scene.integrator.max_halvings));
+}
+
+/// What the modes are of the coordinates of superelements and modal bodies: a shape is a velocity, and rows of results
+/// hold rates.
+void add_body_coordinates(const Run& run, const ModesReport& modes, Evaluation& evaluation, formats::ResultsRow row,
+                          formats::ModesTable& table) {
+  const Model& model = run.built.model;
+  State moving = run.built.state;
+  const auto count = static_cast<Eigen::Index>(modes.modes.size());
+  table.y.resize(row.y_rate.size(), count);
+  table.w.resize(row.w_rate.size(), count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::VectorXcd& shape = modes.modes[k].shape;
+    const auto rates = [&](const Eigen::VectorXd& motion) {
+      moving.v() = motion;
+      for (int i = 0; i < std::ssize(model.nodes); ++i)
+        if (const int rotation = model.nodes[i].rotation; rotation >= 0)
+          set_rotation(model, motion_of(evaluation, i).R.transpose() * rotation_at(model, motion, rotation), rotation,
+                       moving.v());
+      fill_row(model, moving, evaluation, row);
+    };
+    rates(shape.real());
+    table.y.col(k).real() = row.y_rate;
+    table.w.col(k).real() = row.w_rate;
+    rates(shape.imag());
+    table.y.col(k).imag() = row.y_rate;
+    table.w.col(k).imag() = row.w_rate;
+  }
+}
+
+/// Of a change of the coefficients from which on it is told.
+constexpr double steady_change = 1e-3;
+
+std::string changing_coefficients(const ModesReport& modes) {
+  const std::string what = fmt::format(
+      "the coefficients of the linearisation are not constant in its axes: they change by {:.2g} of their size in a "
+      "turn of {} rad",
+      modes.change, turned_by);
+  if (modes.axes.norm() > 0.0)
+    return what +
+           ". What does not turn with the axes is not the same on all sides: take axes at rest, `modes: {rotation: [0, "
+           "0, 0]}`, if what turns is";
+  return fmt::format(
+      "{} of '{}', which is not the same on all sides: take axes that turn with it, `modes: {{rotation: [{:.6g}, "
+      "{:.6g}, {:.6g}]}}`, if what stands still is",
+      what, modes.spins, modes.spin.x(), modes.spin.y(), modes.spin.z());
 }
 
 }  // namespace
@@ -122,8 +158,9 @@ void assemble(Run& run, RowWriter& out) {
   const Model& model = run.built.model;
   State& state = run.built.state;
   RunReport& report = run.report;
-  const AssemblyReport assembly = assemble(model, run.built.initial, run.scene.integrator.constraint_tolerance,
-                                           run.control.interrupted, state, run.workspace.now);
+  const AssemblyReport assembly =
+      assemble(model, {run.scene.integrator.constraint_tolerance, run.built.initial, run.control.interrupted}, state,
+               run.workspace.now);
   report.time = state.time();
   report.iterations = report.factorisations = assembly.iterations;
   report.steps = 1;
@@ -138,68 +175,15 @@ void assemble(Run& run, RowWriter& out) {
   if (assembly.interrupted) {
     report.end(RunOutcome::interrupted, "interrupted");
   } else if (!assembly.closed) {
-    std::vector<std::string> open;
-    for (const JointGap& gap : assembly.open)
-      open.push_back(fmt::format("'{}' by {:.3g} and {:.3g} rad", gap.name, gap.length, gap.angle));
     report.end(RunOutcome::not_converged,
-               fmt::format("joints stay open: {}; give better guesses, or correct what cannot meet", listed(open)));
+               fmt::format("joints stay open: {}; give better guesses, or correct what cannot meet",
+                           gaps_text(assembly.open, "")));
   } else if (!(assembly.velocity_gap <= 1e-9)) {
-    report.end(RunOutcome::not_converged, fmt::format("no velocities agree with joints and drives: {:.3g} of the "
-                                                      "largest is left",
-                                                      assembly.velocity_gap));
+    report.end(RunOutcome::not_converged,
+               fmt::format("no velocities agree with joints and drives: {:.3g} of the largest is left",
+                           assembly.velocity_gap));
   }
 }
-
-namespace {
-
-/// What the modes are of the coordinates of superelements and modal bodies: a shape is a velocity, and rows of results
-/// hold rates.
-void add_body_coordinates(const Run& run, const ModesReport& modes, Evaluation& evaluation, formats::ResultsRow row,
-                          formats::ModesTable& table) {
-  const Model& model = run.built.model;
-  State moving = run.built.state;
-  const auto count = static_cast<Eigen::Index>(modes.modes.size());
-  table.y.resize(row.y_rate.size(), count);
-  table.w.resize(row.w_rate.size(), count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const Eigen::VectorXcd& shape = modes.modes[k].shape;
-    const auto rates = [&](const Eigen::VectorXd& motion) {
-      moving.v() = motion;
-      for (std::size_t i = 0; i < model.nodes.size(); ++i)
-        if (const int rotation = model.nodes[i].rotation; rotation >= 0)
-          set_rotation(model,
-                       motion_of(evaluation, static_cast<int>(i)).R.transpose() * rotation_at(model, motion, rotation),
-                       rotation, moving.v());
-      fill_row(model, moving, evaluation, row);
-    };
-    rates(shape.real());
-    table.y.col(k).real() = row.y_rate;
-    table.w.col(k).real() = row.w_rate;
-    rates(shape.imag());
-    table.y.col(k).imag() = row.y_rate;
-    table.w.col(k).imag() = row.w_rate;
-  }
-}
-
-/// Of a change of the coefficients from which on it is told.
-constexpr double steady_change = 1e-3;
-
-std::string changing_coefficients(const ModesReport& modes) {
-  const std::string what = fmt::format(
-      "the coefficients of the linearisation are not constant in its axes: they change by {:.2g} of their "
-      "size in a turn of {} rad",
-      modes.change, turned_by);
-  if (modes.axes.norm() > 0.0)
-    return what +
-           ". What does not turn with the axes is not the same on all sides: take axes at rest, `modes: "
-           "{rotation: [0, 0, 0]}`, if what turns is";
-  return fmt::format(
-      "{} of '{}', which is not the same on all sides: take axes that turn with it, `modes: {{rotation: "
-      "[{:.6g}, {:.6g}, {:.6g}]}}`, if what stands still is",
-      what, modes.spins, modes.spin.x(), modes.spin.y(), modes.spin.z());
-}
-
-}  // namespace
 
 void find_modes(Run& run, RowWriter& out) {
   const Model& model = run.built.model;
@@ -216,18 +200,17 @@ void find_modes(Run& run, RowWriter& out) {
     if (lowest == 0.0) lowest = std::abs(mode.eigenvalue);
   if (modes.largest_acceleration > 1e-6 * lowest * lowest)
     report.notes.push_back(fmt::format(
-        "the state is not steady in the axes of the linearisation (in the time in which the lowest mode turns by a radian "
-        "it moves by {:.2g} of its length, or radians): modes of frozen coefficients. Of a scene that turns steadily, begin "
-        "with `statics: {{rotation: ..}}`, or give `modes: {{rotation: [x, y, z]}}`",
+        "the state is not steady in the axes of the linearisation (in the time in which the lowest mode turns by a "
+        "radian it moves by {:.2g} of its length, or radians): modes of frozen coefficients. Of a scene that turns "
+        "steadily, begin with `statics: {{rotation: ..}}`, or give `modes: {{rotation: [x, y, z]}}`",
         0.5 * modes.largest_acceleration / (lowest * lowest)));
   else if (modes.change > steady_change)
     report.doubts.push_back(changing_coefficients(modes));
   if (!modes.undecided.empty())
     report.doubts.push_back(
         fmt::format("the frequencies of '{}' are those in axes that turn with it: its modes move no node of the scene "
-                    "on its axis, so "
-                    "they cannot be taken in other axes. Take axes that turn with it, `modes: {{rotation: [{:.6g}, "
-                    "{:.6g}, {:.6g}]}}`",
+                    "on its axis, so they cannot be taken in other axes. Take axes that turn with it, `modes: "
+                    "{{rotation: [{:.6g}, {:.6g}, {:.6g}]}}`",
                     modes.undecided, modes.axes.x() + modes.spin.x(), modes.axes.y() + modes.spin.y(),
                     modes.axes.z() + modes.spin.z()));
   if (const auto unstable = std::ranges::count_if(modes.modes, &Mode::unstable); unstable > 0)

@@ -1,4 +1,5 @@
-// When steps end and when rows are written: the grid of steps, breakpoints of loads, halving after a failure.
+// When steps end and when rows are written: the grid of steps, breakpoints of loads, halving after a failure. Rows of
+// method: bdf are in bdf_run.cpp.
 #pragma once
 
 #include <cstddef>

@@ -94,8 +94,7 @@ Eigen::Matrix3Xd node_references(const formats::Scene& scene, const Model& model
     NodeMotion node;
     if (marker.node >= 0) {
       node.x = start.x().col(marker.node);
-      const Eigen::Vector4d q = start.Q().col(marker.node);
-      node.R = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+      node.R = quaternion(start.Q().col(marker.node)).toRotationMatrix();
     }
     formats::Pose part;
     if (body_of_node[i] >= 0)
@@ -111,9 +110,9 @@ Eigen::Matrix3Xd node_references(const formats::Scene& scene, const Model& model
 class StoredNodes {
  public:
   explicit StoredNodes(const Model& model) : model_(model) {
-    for (std::size_t i = 0; i < model.places.size(); ++i) {
-      by_name_[model.places[i].name] = static_cast<int>(i);
-      on_node_.emplace(model.places[i].marker.node, static_cast<int>(i));
+    for (int i = 0; i < std::ssize(model.places); ++i) {
+      by_name_[model.places[i].name] = i;
+      on_node_.emplace(model.places[i].marker.node, i);
     }
     for (const PlaceAlias& alias : model.place_aliases) by_name_[alias.name] = alias.place;
   }

@@ -32,9 +32,8 @@ struct StoredRow {
     } catch (const Error& error) {
       throw Error(
           error.what(), "",
-          "to go on from an instant, results need nodes, superelements and joints/coordinate among "
-          "output.channels; and the scene must be that of the file, with its effects (the same bodies flexible, "
-          "planar or not)");
+          "to go on from an instant, results need nodes, superelements and joints/coordinate among output.channels; "
+          "and the scene must be that of the file, with its effects (the same bodies flexible, planar or not)");
     }
   }
   Vector3d vector(const std::string& dataset, const std::string& item) const {
@@ -81,12 +80,10 @@ class LeftOut {
   void require_nothing(const std::string& file) const {
     const auto require = [&file](const Largest& one, const char* what, double size, const char* beside) {
       if (one.size <= share * size) return;  // not where it is no number
-      throw Error(
-          fmt::format(
-              "holds a motion out of the plane of the scene: {} of '{}' is {:.3g} along the normal, beside {} of "
-              "{:.3g}",
-              what, one.name, one.size, beside, size),
-          file, "go on without planar: on");
+      throw Error(fmt::format("holds a motion out of the plane of the scene: {} of '{}' is {:.3g} along the normal, "
+                              "beside {} of {:.3g}",
+                              what, one.name, one.size, beside, size),
+                  file, "go on without planar: on");
     };
     // Of what has come to rest round-off is left: less than this of the scene's size within the step.
     constexpr double rest = 1e-12;
@@ -126,8 +123,8 @@ void read_nodes(const Model& model, const StoredRow& stored, State& state, LeftO
     Eigen::Quaterniond R = Eigen::Quaterniond::Identity();
     Vector3d omega = Vector3d::Zero();
     if (node.rotation >= 0) {
-      const Eigen::Vector4d Q = stored.quaternion("nodes/rotation", place.name);
-      R = Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]).normalized() * Eigen::Quaterniond(place.marker.R).conjugate();
+      R = quaternion(stored.quaternion("nodes/rotation", place.name)).normalized() *
+          Eigen::Quaterniond(place.marker.R).conjugate();
       if (model.planar) R = turn_in_plane(Eigen::Quaterniond(model.axes).conjugate() * R);
       omega = to_axes(model, stored.vector("nodes/angular_velocity", place.name));
       state.Q().col(column) = wxyz(R);
@@ -162,8 +159,7 @@ void read_superelements(const Model& model, const StoredRow& stored, State& stat
     const std::string& name = model.superelements[i].name;
     state.frames().col(i) = stored.quaternion("superelements/frame_rotation", name);
     if (model.planar) {
-      const Eigen::Vector4d Q = state.frames().col(i);
-      const Eigen::Quaterniond R(Q[0], Q[1], Q[2], Q[3]);
+      const Eigen::Quaterniond R = quaternion(state.frames().col(i));
       state.frames().col(i) =
           wxyz(turn_in_plane(Eigen::Quaterniond(model.axes).conjugate() * R * Eigen::Quaterniond(body.axes)));
     }

@@ -10,7 +10,6 @@
 #include "mechanism/solver/back_ends.hpp"
 
 namespace tisserand::mechanism::back_end {
-
 namespace {
 
 /// KLU's functions for one kind of numbers; complex ones lie as pairs in the same arrays of double.
@@ -111,33 +110,6 @@ KluFactors* factor_anew(const SparsePattern& pattern, double* values, KluFactors
   return &worse == &by_columns ? &by_diagonal : &by_columns;
 }
 
-}  // namespace
-
-Effort klu_effort(const SparsePattern& pattern) {
-  klu_common common = settings();
-  KluFactors factors;
-  factors.analyse(pattern, by_amd, common);
-  const Effort effort{factors.symbolic->est_flops, factors.symbolic->lnz + factors.symbolic->unz};
-  factors.free(common);
-  return effort;
-}
-
-Effort klu_trial(const SparsePattern& pattern) {
-  klu_common common = settings();
-  std::vector<double> values = made_up_values(pattern);
-  KluFactors by_diagonal, by_columns;
-  by_diagonal.analyse(pattern, by_amd, common);
-  const KluFactors* factors = factor_anew(pattern, values.data(), by_diagonal, by_columns, common);
-  Effort effort{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  if (factors != nullptr && klu_flops(factors->symbolic, factors->numeric, &common))
-    effort = {common.flops, factors->entries()};
-  by_diagonal.free(common);
-  by_columns.free(common);
-  return effort;
-}
-
-namespace {
-
 class Klu : public BackEnd {
  public:
   Klu(const SparsePattern& pattern, Numbers numbers)
@@ -202,6 +174,29 @@ class Klu : public BackEnd {
 };
 
 }  // namespace
+
+Effort klu_effort(const SparsePattern& pattern) {
+  klu_common common = settings();
+  KluFactors factors;
+  factors.analyse(pattern, by_amd, common);
+  const Effort effort{factors.symbolic->est_flops, factors.symbolic->lnz + factors.symbolic->unz};
+  factors.free(common);
+  return effort;
+}
+
+Effort klu_trial(const SparsePattern& pattern) {
+  klu_common common = settings();
+  std::vector<double> values = made_up_values(pattern);
+  KluFactors by_diagonal, by_columns;
+  by_diagonal.analyse(pattern, by_amd, common);
+  const KluFactors* factors = factor_anew(pattern, values.data(), by_diagonal, by_columns, common);
+  Effort effort{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  if (factors != nullptr && klu_flops(factors->symbolic, factors->numeric, &common))
+    effort = {common.flops, factors->entries()};
+  by_diagonal.free(common);
+  by_columns.free(common);
+  return effort;
+}
 
 std::unique_ptr<BackEnd> make_klu(const SparsePattern& pattern, Numbers numbers) {
   return std::make_unique<Klu>(pattern, numbers);

@@ -160,20 +160,10 @@ struct LinearSolver::Engine {
   }
 };
 
+/// By the order of the kinds.
 const char* solver_name(SolverKind kind) {
-  switch (kind) {
-    case SolverKind::klu:
-      return "KLU";
-    case SolverKind::umfpack:
-      return "UMFPACK";
-    case SolverKind::dense:
-      return "dense LU";
-    case SolverKind::lapack:
-      return "dense LU (LAPACK)";
-    case SolverKind::qr:
-      return "sparse QR";
-  }
-  return "";
+  constexpr const char* names[] = {"KLU", "UMFPACK", "dense LU", "dense LU (LAPACK)", "sparse QR"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 SparsePattern::Storage solver_storage(SolverKind kind) {

@@ -25,6 +25,12 @@ class SparsePattern {
   int nonzeros() const { return nonzeros_; }
   /// Index into the values of position (row, column), which must be in the pattern.
   int slot(int row, int column) const;
+  /// visit(row, slot) for each position of a column, ascending.
+  template <class Visit>
+  void for_each_in(int column, Visit visit) const {
+    for (int at = column_start_[column]; at < column_start_[static_cast<std::size_t>(column) + 1]; ++at)
+      visit(rows_[at], storage_ == Storage::dense ? rows_[at] + column * size_ : at);
+  }
 
   const std::vector<int>& column_start() const { return column_start_; }
   const std::vector<int>& rows() const { return rows_; }

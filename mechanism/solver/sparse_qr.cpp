@@ -9,7 +9,6 @@
 #include "mechanism/solver/back_ends.hpp"
 
 namespace tisserand::mechanism::back_end {
-
 namespace {
 
 class SparseQr : public BackEnd {

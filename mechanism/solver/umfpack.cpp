@@ -18,21 +18,6 @@ void require_umfpack_memory(int status) {
   if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
 }
 
-}  // namespace
-
-Effort umfpack_effort(const SparsePattern& pattern) {
-  std::array<double, UMFPACK_INFO> info{};
-  void* symbolic = nullptr;
-  const int status = umfpack_di_symbolic(pattern.size(), pattern.size(), pattern.column_start().data(),
-                                         pattern.rows().data(), nullptr, &symbolic, nullptr, info.data());
-  require_umfpack_memory(status);
-  TISSERAND_ENSURE(status == UMFPACK_OK, "UMFPACK status {}", status);
-  umfpack_di_free_symbolic(&symbolic);
-  return {info[UMFPACK_FLOPS_ESTIMATE], info[UMFPACK_LNZ_ESTIMATE] + info[UMFPACK_UNZ_ESTIMATE]};
-}
-
-namespace {
-
 template <Numbers numbers>
 class Umfpack : public BackEnd {
  public:
@@ -123,6 +108,17 @@ class Umfpack : public BackEnd {
 };
 
 }  // namespace
+
+Effort umfpack_effort(const SparsePattern& pattern) {
+  std::array<double, UMFPACK_INFO> info{};
+  void* symbolic = nullptr;
+  const int status = umfpack_di_symbolic(pattern.size(), pattern.size(), pattern.column_start().data(),
+                                         pattern.rows().data(), nullptr, &symbolic, nullptr, info.data());
+  require_umfpack_memory(status);
+  TISSERAND_ENSURE(status == UMFPACK_OK, "UMFPACK status {}", status);
+  umfpack_di_free_symbolic(&symbolic);
+  return {info[UMFPACK_FLOPS_ESTIMATE], info[UMFPACK_LNZ_ESTIMATE] + info[UMFPACK_UNZ_ESTIMATE]};
+}
 
 std::unique_ptr<BackEnd> make_umfpack(const SparsePattern& pattern, Numbers numbers) {
   if (numbers == Numbers::real) return std::make_unique<Umfpack<Numbers::real>>(pattern);

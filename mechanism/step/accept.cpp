@@ -48,31 +48,32 @@ bool begin(const Model& model, const StepScheme& scheme, const State& state, Wor
   return false;
 }
 
-void finish(const Model& model, const formats::IntegratorSpec& options, const StepScheme& scheme, State& state,
-            Workspace& workspace, StepReport& report) {
-  StepMemory& memory = workspace.memory;
+void finish(Iteration& it) {
+  const formats::IntegratorSpec& options = it.options;
+  const double step = it.scheme.step;
+  StepMemory& memory = it.workspace.memory;
   if (options.error_control.active) {
-    Eigen::VectorXd& error = workspace.matrix.increment;
-    estimate_error(options, scheme.step, state, memory.previous, error);
+    Eigen::VectorXd& error = it.workspace.matrix.increment;
+    estimate_error(options, step, it.state, memory.previous, error);
     const LocalError worst =
-        measure_error(model, options.error_control, scheme.step / (options.end - options.start), error);
-    report.error_ratio = worst.ratio;
+        measure_error(it.model, options.error_control, step / (options.end - options.start), error);
+    it.report.error_ratio = worst.ratio;
     if (!(worst.ratio <= 1.0)) {
-      report.outcome = StepOutcome::inaccurate;
-      report.worst_coordinate = worst.worst_coordinate;
-      report.worst_constraint = -1;
-      state.block() = memory.previous.block();
+      it.report.outcome = StepOutcome::inaccurate;
+      it.report.worst_coordinate = worst.worst_coordinate;
+      it.report.worst_constraint = -1;
+      it.state.block() = memory.previous.block();
       return;
     }
   }
   // Index 3 doubly integrates what Newton leaves of its constraints: there a step has to end far below the tolerance,
   // as it does from the constant prediction.
   if (options.formulation == formats::Formulation::stabilised_index2) {
-    learn(model, scheme.step, memory.tuning.smooth_rate, memory.previous, state, memory.predictor);
-    age_projection(model, memory.tuning, workspace.now, memory.projection);
+    memory.predictor.learn(it.model, step, memory.tuning.smooth_rate, memory.previous, it.state);
+    age_projection(it.model, memory.tuning, it.workspace.now, memory.projection);
   }
-  accept(model, scheme.step, workspace.now, memory.dissipation, state);
-  memory.rows.note_turn(model, scheme.step, state);
+  accept(it.model, step, it.workspace.now, memory.dissipation, it.state);
+  memory.rows.note_turn(it.model, step, it.state);
 }
 
 bool rows_are_doubtful(const Model& model, const StepReport& report, const State& state, const Evaluation& evaluation) {

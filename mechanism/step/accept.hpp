@@ -2,8 +2,7 @@
 // keeps, and doubts about the rows that were solved for.
 #pragma once
 
-#include "mechanism/step/step_report.hpp"
-#include "mechanism/step/workspace.hpp"
+#include "mechanism/step/newton.hpp"
 
 namespace tisserand::mechanism {
 
@@ -16,8 +15,7 @@ bool begin(const Model& model, const StepScheme& scheme, const State& state, Wor
 
 /// The solution of a step becomes the state and is learnt from, unless its error is too large: `inaccurate`, and the
 /// state as before.
-void finish(const Model& model, const formats::IntegratorSpec& options, const StepScheme& scheme, State& state,
-            Workspace& workspace, StepReport& report);
+void finish(Iteration& it);
 
 /// Whether the rank of the constraints may have changed in the step: rows that are left out are open, or an
 /// overconstrained or singular step failed.

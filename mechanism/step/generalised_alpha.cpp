@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "mechanism/equations/increments.hpp"
 #include "mechanism/step/tuning.hpp"
 
 namespace tisserand::mechanism {
@@ -67,15 +66,13 @@ void add_acceleration(const StepScheme& scheme, const Eigen::VectorXd& change, S
   evaluation.displacement += (alpha.beta * scheme.step * scheme.step) * change;
 }
 
-void correct(const Model& model, const StepScheme& scheme, const State& begin, const IterationMatrix& matrix,
-             State& state, Evaluation& evaluation) {
+void correct(const StepScheme& scheme, const IterationMatrix& matrix, State& state, Evaluation& evaluation) {
   const TangentCoefficients& c = scheme.request.coefficients;
   state.algorithmic() += matrix.increment / (scheme.alpha.beta * scheme.step * scheme.step);
   state.v() += c.damping * matrix.increment;
   state.vdot() += c.mass * matrix.increment;
   evaluation.displacement += matrix.increment + matrix.correction;
   state.lambda() += matrix.multipliers;
-  retract(model, begin, evaluation.displacement, state);
 }
 
 }  // namespace tisserand::mechanism

@@ -40,9 +40,8 @@ void predict(const StepScheme& scheme, State& state, Evaluation& evaluation);
 /// Changes a_{n+1} by `change`, and with it what (2) to (4) make of it; positions follow with retract().
 void add_acceleration(const StepScheme& scheme, const Eigen::VectorXd& change, State& state, Evaluation& evaluation);
 
-/// Adds the increment h² β Δa of the matrix to acceleration, velocity and position, its multipliers, and its correction
-/// δ to the position alone: (6) of step.hpp. `begin`: the state from which the step is taken.
-void correct(const Model& model, const StepScheme& scheme, const State& begin, const IterationMatrix& matrix,
-             State& state, Evaluation& evaluation);
+/// Adds the increment h² β Δa of the matrix to acceleration, velocity and displacement, its multipliers, and its
+/// correction δ to the displacement alone: (6) of step.hpp; positions follow with retract().
+void correct(const StepScheme& scheme, const IterationMatrix& matrix, State& state, Evaluation& evaluation);
 
 }  // namespace tisserand::mechanism

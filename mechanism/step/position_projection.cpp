@@ -54,14 +54,11 @@ void find_held(const Model& model, PositionProjection& projection) {
 
 /// Where the matrix holds B₀ᵀ.
 std::vector<PositionProjection::Entry> entries_of_rows(const Model& model) {
-  const SparsePattern& pattern = *model.pattern;
   std::vector<PositionProjection::Entry> entries;
-  for (int row = 0; row < model.sizes.constraints; ++row) {
-    const int column = model.sizes.boundary + row;
-    for (int at = pattern.column_start()[column]; at < pattern.column_start()[column + 1]; ++at)
-      if (const int i = pattern.rows()[at]; i < model.sizes.boundary)
-        entries.push_back({pattern.slot(i, column), i, row, 0.0});
-  }
+  for (int row = 0; row < model.sizes.constraints; ++row)
+    model.pattern->for_each_in(model.sizes.boundary + row, [&](int i, int slot) {
+      if (i < model.sizes.boundary) entries.push_back({slot, i, row, 0.0});
+    });
   return entries;
 }
 

@@ -13,10 +13,9 @@ void foresee(const Predictor& predictor, const StepScheme& scheme, const State& 
   add_acceleration(scheme, predictor.acceleration, state, evaluation);
 }
 
-void learn(const Model& model, double step, double smooth_rate, const State& last, const State& state,
-           Predictor& predictor) {
+void Predictor::learn(const Model& model, double step, double smooth_rate, const State& last, const State& state) {
   if (last.step() != step) {
-    predictor.forget();
+    forget();
     return;
   }
   // The largest change of an acceleration, rotations times the length; and what the change before leaves of it.
@@ -24,12 +23,12 @@ void learn(const Model& model, double step, double smooth_rate, const State& las
   for (int i = 0; i < model.sizes.boundary; ++i) {
     const double one = state.algorithmic()[i] - last.algorithmic()[i];
     change = std::max(change, std::abs(one) / model.equation_scale[i]);
-    rest = std::max(rest, std::abs(one - predictor.acceleration[i]) / model.equation_scale[i]);
+    rest = std::max(rest, std::abs(one - acceleration[i]) / model.equation_scale[i]);
   }
-  predictor.smooth = predictor.known && rest < smooth_rate * change;
-  predictor.known = true;
-  predictor.acceleration = state.algorithmic() - last.algorithmic();
-  predictor.multipliers = state.lambda() - last.lambda();
+  smooth = known && rest < smooth_rate * change;
+  known = true;
+  acceleration = state.algorithmic() - last.algorithmic();
+  multipliers = state.lambda() - last.lambda();
 }
 
 }  // namespace tisserand::mechanism

@@ -16,6 +16,8 @@ struct Predictor {
       : acceleration(Eigen::VectorXd::Zero(sizes.velocities())),
         multipliers(Eigen::VectorXd::Zero(sizes.constraints)) {}
   void forget() { known = smooth = false; }
+  /// Learns from the step just solved, from `last` to `state`. smooth_rate: StepTuning.
+  void learn(const Model& model, double step, double smooth_rate, const State& last, const State& state);
 
   Eigen::VectorXd acceleration, multipliers;
   bool known = false;   ///< the last step had the size of this one
@@ -25,9 +27,5 @@ struct Predictor {
 /// Adds the change to acceleration and multipliers of a step that is `predict`ed; `last`: the state where it begins.
 void foresee(const Predictor& predictor, const StepScheme& scheme, const State& last, State& state,
              Evaluation& evaluation);
-
-/// Learns from the step just solved, from `last` to `state`. smooth_rate: StepTuning.
-void learn(const Model& model, double step, double smooth_rate, const State& last, const State& state,
-           Predictor& predictor);
 
 }  // namespace tisserand::mechanism

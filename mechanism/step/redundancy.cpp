@@ -46,7 +46,7 @@ WeightedJacobian weighted_jacobian(const Model& model, const Evaluation& evaluat
   WeightedJacobian result;
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](const std::vector<int>& coordinates, int column, const auto& row) {
-    for (int j = 0; j < static_cast<int>(coordinates.size()); ++j)
+    for (int j = 0; j < std::ssize(coordinates); ++j)
       if (coordinates[j] >= 0 && row[j] != 0.0)
         entries.emplace_back(coordinates[j], column, row[j] * model.equation_scale[coordinates[j]]);
   };
@@ -84,20 +84,6 @@ WeightedJacobian weighted_jacobian(const Model& model, const Evaluation& evaluat
   return result;
 }
 
-}  // namespace
-
-bool is_overconstrained(const State& state) { return state.active().size() > 0 && state.active().minCoeff() == 0.0; }
-
-bool choose_active_rows(const Model& model, State& state, Evaluation& evaluation) {
-  Eigen::VectorXd chosen = Eigen::VectorXd::Ones(model.sizes.constraints);
-  for (const int row : count_mobility(model, state, evaluation).redundant) chosen[row] = 0.0;
-  if (chosen == state.active()) return false;
-  state.active() = chosen;
-  return true;
-}
-
-namespace {
-
 /// Parts that are no branch of a tree: what is left when parts with one joint or none are taken away again and again.
 /// The ground is no part. Parts of couplings stay.
 std::vector<bool> parts_in_loops(const Model& model, const Parts& parts) {
@@ -127,6 +113,16 @@ std::vector<bool> parts_in_loops(const Model& model, const Parts& parts) {
 }
 
 }  // namespace
+
+bool is_overconstrained(const State& state) { return state.active().size() > 0 && state.active().minCoeff() == 0.0; }
+
+bool choose_active_rows(const Model& model, State& state, Evaluation& evaluation) {
+  Eigen::VectorXd chosen = Eigen::VectorXd::Ones(model.sizes.constraints);
+  for (const int row : count_mobility(model, state, evaluation).redundant) chosen[row] = 0.0;
+  if (chosen == state.active()) return false;
+  state.active() = chosen;
+  return true;
+}
 
 RowWatch::RowWatch(const Model& model) {
   const Parts parts = find_parts(model);

@@ -21,14 +21,14 @@ bool iterate(Iteration& it, const StepEnd& end) {
   start_projection(it.workspace.memory.projection);
   predict(it.scheme, it.state, now);  // (2) to (4)
   foresee(memory.predictor, it.scheme, memory.previous, it.state, now);
-  retract(it.model, memory.previous, now.displacement, it.state);
   for (;; ++it.count) {
+    retract(it.model, memory.previous, now.displacement, it.state);
     evaluate_in_step(it.model, it.state, now);  // (1)
     if (converged(it)) return true;
     if (it.report.outcome != StepOutcome::accepted) return false;
     if (!ready_factors(it)) return false;
-    solve(it);                                                                          // (7), (5)
-    correct(it.model, it.scheme, memory.previous, it.workspace.matrix, it.state, now);  // (6)
+    solve(it);                                               // (7), (5)
+    correct(it.scheme, it.workspace.matrix, it.state, now);  // (6)
     ++it.report.iterations;
   }
 }
@@ -44,7 +44,7 @@ StepReport take_step(const Model& model, const formats::IntegratorSpec& options,
   const auto succeeds_with = [&](Factors factors) {
     Iteration iteration{model, options, scheme, state, workspace, report, factors};
     if (!iterate(iteration, end)) return false;
-    finish(model, options, scheme, state, workspace, report);
+    finish(iteration);
     return true;
   };
   if (workspace.matrix.serves(scheme.request, workspace.now) && memory.reuse.tries_kept()) {

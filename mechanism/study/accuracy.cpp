@@ -169,6 +169,13 @@ formats::Method chosen_method(const formats::Scene& scene) {
                                                                              : formats::Method::radau;
 }
 
+/// What `output.channels` must name for this channel: nodes alone, of other things the dataset ("joints/force").
+std::string dataset_of(const std::string& channel) {
+  if (channel.starts_with("nodes/")) return channel;
+  const std::size_t group = channel.find('/');
+  return group == std::string::npos ? channel : channel.substr(0, channel.find('/', group + 1));
+}
+
 class Search {
  public:
   Search(const RunRequest& request, const RunControl& control)
@@ -183,7 +190,26 @@ class Search {
     use(method == formats::Method::automatic ? chosen_method(request.scene) : method);
   }
 
-  RunEnd run();
+  RunEnd run() {
+    const Modes half = halved();
+    RunEnd end = begin(half);
+    if (end.report.outcome != RunOutcome::completed) return end;
+    double tolerance = tolerance_.first(accuracy_.error), next = tolerance_.second(tolerance);
+    previous_ = {recorder_.history, end.report.steps};
+    modes_.mixed = !half.empty();
+    if (modes_.mixed) modes_.half = previous_.history;
+    for (int run = 2;; ++run) {
+      const double before = std::exchange(tolerance, next);
+      const bool last = run == most_runs || tolerance <= least_tolerance;
+      recorder_.judge = [&](RunReport& report) { judge(report, before, tolerance, last); };
+      end = take(tolerance, modes_.left, request_.path, recorder_);
+      recorder_.judge = nullptr;
+      if (end.report.outcome != RunOutcome::completed || last || too_long_ || is_reached()) return end;
+      previous_.history = recorder_.history;
+      if (run == 2) leave_out_modes(tolerance);
+      next = tolerance_.next(tolerance, room_);
+    }
+  }
 
  private:
   /// What a run was, beside its report.
@@ -200,22 +226,192 @@ class Search {
     double left_out = 0.0;    ///< what modes that are left out would change
   };
 
-  void use(formats::Method method);
+  void use(formats::Method method) {
+    method_ = method;
+    Rates rates = method == formats::Method::radau ? of_radau : shared;
+    if (method == formats::Method::radau && !is_place(accuracy_.of) && may_vibrate(request_.scene))
+      rates.first = first_of_rates, rates.second_part = second_of_rates;
+    tolerance_ = FallingTolerance(rates);
+  }
+
   /// At the first tolerance; another method, where the chosen one cannot. Nothing is stored, unless it fails.
-  RunEnd begin(const Modes& modes);
-  RunEnd take(double tolerance, const Modes& modes, const std::string& path, Recorder& recorder);
-  formats::Scene scene_with(double tolerance, const Modes& modes) const;
-  Modes halved() const;
-  void leave_out_modes(double tolerance);
+  RunEnd begin(const Modes& modes) {
+    const bool replaceable =
+        request_.scene.integrator.method == formats::Method::automatic && method_ == formats::Method::radau;
+    most_steps_ = replaceable ? most_first_steps : 0;
+    std::optional<RunEnd> end;
+    try {
+      end = take(tolerance_.first(accuracy_.error), modes, "", recorder_);
+    } catch (const Error&) {
+      if (!replaceable) throw;
+    }
+    most_steps_ = 0;
+    const bool fits =
+        end && (end->report.outcome == RunOutcome::completed ||
+                (end->report.outcome == RunOutcome::interrupted && end->report.steps <= most_first_steps));
+    if (replaceable && !fits) {
+      use(formats::Method::generalised_alpha);
+      end = take(tolerance_.first(accuracy_.error), modes, "", recorder_);
+    }
+    first_took_ = now() - began_;
+    if (end->report.outcome != RunOutcome::completed)
+      end = take(tolerance_.first(accuracy_.error), {}, request_.path, recorder_);
+    return std::move(*end);
+  }
+
+  RunEnd take(double tolerance, const Modes& modes, const std::string& path, Recorder& recorder) {
+    const formats::Scene scene = scene_with(tolerance, modes);
+    RunRequest request{scene, request_.files, request_.begin, path};
+    request.listener = &recorder;
+    RunControl control = control_;
+    long steps = 0;
+    if (most_steps_ > 0) {
+      control.interrupted = [&] { return steps > most_steps_ || (control_.interrupted && control_.interrupted()); };
+      control.progress = [&](double time) {
+        ++steps;
+        if (control_.progress) control_.progress(time);
+      };
+    }
+    began_ = now();
+    RunEnd end = simulate(request, control);
+    cost_.push_back(
+        fmt::format("{:.2g} ({:.2g} s{})", tolerance, now() - began_, modes.empty() ? "" : ", fewer modes"));
+    return end;
+  }
+
+  formats::Scene scene_with(double tolerance, const Modes& modes) const {
+    formats::Scene scene = request_.scene;
+    formats::IntegratorSpec& integrator = scene.integrator;
+    integrator.accuracy.reset();
+    integrator.method = method_;
+    integrator.error_control.tolerance = integrator.bdf.relative_tolerance = tolerance;
+    integrator.bdf.absolute_tolerance = 1e-2 * tolerance;
+    if (!scene.output.interval) scene.output.interval = (integrator.end - integrator.start) / instants;
+    scene.output.every = 1;
+    scene.checkpoint = {};
+    if (!scene.output.channels.empty()) scene.output.channels.push_back(dataset_of(accuracy_.of));
+    for (formats::BodySpec& body : scene.bodies)
+      if (auto* spec = std::get_if<formats::SuperelementBodySpec>(&body); spec != nullptr)
+        if (const auto found = modes.find(spec->name); found != modes.end()) spec->modes = found->second;
+    return scene;
+  }
+
+  /// Half of the modes of every superelement whose modes the scene leaves open; empty: there is nothing to halve.
+  Modes halved() const {
+    Modes half;
+    bool any = false;
+    for (const formats::BodySpec& body : request_.scene.bodies) {
+      const auto* spec = std::get_if<formats::SuperelementBodySpec>(&body);
+      if (spec == nullptr || spec->rigid || spec->modes || spec->cutoff || !spec->damping.ratios.empty() ||
+          !spec->damping.ratios_internal.empty())
+        continue;
+      const std::vector<int>& node = request_.files.superelements.at(spec->file).superelement.dof_node;
+      const auto all = static_cast<int>(std::ranges::count(node, -1));
+      const auto found = modes_.left.find(spec->name);
+      const int now = found == modes_.left.end() ? all : found->second;
+      half[spec->name] = now / 2;
+      any = any || now > 1;
+    }
+    return any ? half : Modes{};
+  }
+
+  /// After the second run, while halves of the modes change what it found by little: further runs go without them.
+  void leave_out_modes(double tolerance) {
+    if (modes_.half.x.empty() || modes_.upper_half > modes_part * accuracy_.error) return;
+    modes_.left_out = modes_.upper_half;
+    modes_.left = halved();
+    for (Modes half = halved(); !half.empty(); half = halved()) {
+      if (take(tolerance, half, "", recorder_).report.outcome != RunOutcome::completed) return;
+      const double change = error_of(recorder_.history, previous_.history, quantity_);
+      if (change > modes_part * accuracy_.error) return;
+      modes_.left_out = change;
+      modes_.left = std::move(half);
+    }
+  }
+
   /// Returns what modes that are missing may change.
-  double compare(double fall, long steps);
+  double compare(double fall, long steps) {
+    const double change = error_of(previous_.history, recorder_.history, quantity_);
+    tolerance_.observe(change, fall, static_cast<double>(steps) / static_cast<double>(std::max(1L, previous_.steps)));
+    const double missing = modes_.mixed          ? modes_fall * change
+                           : modes_.left.empty() ? modes_fall * modes_.upper_half
+                                                 : modes_.left_out;
+    // What files do not hold is no matter of the tolerance; a doubt will say so.
+    room_ = missing > most_missing * accuracy_.error ? accuracy_.error : accuracy_.error - missing;
+    return missing;
+  }
+
   /// The run before with all of its modes, where it had half of them and differs by too much.
-  void separate(double tolerance);
-  void judge(RunReport& report, double before, double tolerance, bool last);
+  void separate(double tolerance) {
+    modes_.mixed = false;
+    tolerance_.forget();
+    const double began = began_;
+    Recorder whole(accuracy_.of, request_.scene.file);
+    const RunEnd end = take(tolerance, {}, "", whole);
+    began_ = began + now() - began_;
+    if (end.report.outcome != RunOutcome::completed) {
+      modes_.half = {};
+      return;
+    }
+    modes_.upper_half = error_of(modes_.half, whole.history, quantity_);
+    previous_ = {std::move(whole.history), end.report.steps};
+  }
+
+  void judge(RunReport& report, double before, double tolerance, bool last) {
+    const double fall = before / tolerance;
+    double missing = compare(fall, report.steps);
+    if (modes_.mixed && (!is_reached() || missing > most_missing * accuracy_.error)) {
+      separate(before);
+      missing = compare(fall, report.steps);
+    }
+    previous_.steps = report.steps;
+    const double next = tolerance_.next(tolerance, room_),
+                 needed = tolerance_.foretold(now() - began_, tolerance, next);
+    too_long_ = !is_reached() && needed > std::max(longest_run, longest_of_first * first_took_);
+    report.notes.push_back(fmt::format(
+        "accuracy: the error of '{}' is {} ({:g} asked for), with tolerance {:.3g}{}{}; runs before, by tolerance: {}",
+        accuracy_.of, told_of_error(tolerance_.error() + missing), accuracy_.error, tolerance, told_of_method(),
+        told_of_modes(), join(cost_, ", ")));
+    if (!last && !too_long_ && !is_reached()) return;
+    if (modes_.left.empty() && missing > most_missing * accuracy_.error)
+      report.doubts.push_back(
+          fmt::format("'{}' may miss modes that the superelement files do not hold: the upper half of those that they "
+                      "hold changes it by {:.2g}; raise 'modes' in the part",
+                      accuracy_.of, modes_.upper_half));
+    if (is_reached()) return;
+    const char* const other = method_ == formats::Method::radau ? "" : ", or take method: radau";
+    const std::string cost =
+        !too_long_ ? "" : fmt::format(", and the next run would take some {:.0f} min", needed / 60.0);
+    const std::string longer =
+        !too_long_ ? "" : fmt::format(", or give error_control: {{tolerance: {:.2g}}} in place of accuracy", next);
+    report.doubts.push_back(fmt::format("an error of {:g} of '{}' was not reached: it is {}{}; ask for less{}{}",
+                                        accuracy_.error, accuracy_.of, told_of_error(tolerance_.error()), cost, other,
+                                        longer));
+  }
+
   bool is_reached() const { return tolerance_.error() <= room_; }
-  std::string told_of_modes() const;
-  std::string told_of_method() const;
-  static std::string told_of_error(double error);
+  std::string told_of_modes() const {
+    if (modes_.half.x.empty()) return {};
+    if (modes_.mixed)
+      return fmt::format("; half of the modes and the tolerance before together change it by {:.2g}",
+                         tolerance_.change());
+    if (modes_.left.empty())
+      return fmt::format("; the upper half of the modes changes it by {:.2g}", modes_.upper_half);
+    std::vector<std::string> counts;
+    for (const auto& [name, count] : modes_.left) counts.push_back(fmt::format("{} of '{}'", count, name));
+    return fmt::format("; modes: {}, the others change it by {:.1g}", listed(counts), modes_.left_out);
+  }
+
+  std::string told_of_method() const {
+    if (method_ == request_.scene.integrator.method) return {};
+    return method_ == formats::Method::radau ? " of radau" : " of generalised_alpha";
+  }
+
+  std::string told_of_error(double error) {
+    return std::isfinite(error) ? fmt::format("estimated at {:.2g}", error)
+                                : "not estimated, since runs with other tolerances took the same steps";
+  }
+
   double now() const { return control_.clock ? control_.clock() : 0.0; }
 
   const RunRequest& request_;
@@ -234,217 +430,6 @@ class Search {
   bool too_long_ = false;  ///< the next run would be
   double room_ = 0.0;      ///< for the error that the tolerance leaves
 };
-
-namespace {
-
-/// What `output.channels` must name for this channel: nodes alone, of other things the dataset ("joints/force").
-std::string dataset_of(const std::string& channel) {
-  if (channel.starts_with("nodes/")) return channel;
-  const std::size_t group = channel.find('/');
-  return group == std::string::npos ? channel : channel.substr(0, channel.find('/', group + 1));
-}
-
-}  // namespace
-
-formats::Scene Search::scene_with(double tolerance, const Modes& modes) const {
-  formats::Scene scene = request_.scene;
-  formats::IntegratorSpec& integrator = scene.integrator;
-  integrator.accuracy.reset();
-  integrator.method = method_;
-  integrator.error_control.tolerance = integrator.bdf.relative_tolerance = tolerance;
-  integrator.bdf.absolute_tolerance = 1e-2 * tolerance;
-  if (!scene.output.interval) scene.output.interval = (integrator.end - integrator.start) / instants;
-  scene.output.every = 1;
-  scene.checkpoint = {};
-  if (!scene.output.channels.empty()) scene.output.channels.push_back(dataset_of(accuracy_.of));
-  for (formats::BodySpec& body : scene.bodies)
-    if (auto* spec = std::get_if<formats::SuperelementBodySpec>(&body); spec != nullptr)
-      if (const auto found = modes.find(spec->name); found != modes.end()) spec->modes = found->second;
-  return scene;
-}
-
-RunEnd Search::take(double tolerance, const Modes& modes, const std::string& path, Recorder& recorder) {
-  const formats::Scene scene = scene_with(tolerance, modes);
-  RunRequest request{scene, request_.files, request_.begin, path};
-  request.listener = &recorder;
-  RunControl control = control_;
-  long steps = 0;
-  if (most_steps_ > 0) {
-    control.interrupted = [&] { return steps > most_steps_ || (control_.interrupted && control_.interrupted()); };
-    control.progress = [&](double time) {
-      ++steps;
-      if (control_.progress) control_.progress(time);
-    };
-  }
-  began_ = now();
-  RunEnd end = simulate(request, control);
-  cost_.push_back(fmt::format("{:.2g} ({:.2g} s{})", tolerance, now() - began_, modes.empty() ? "" : ", fewer modes"));
-  return end;
-}
-
-/// Half of the modes of every superelement whose modes the scene leaves open; empty: there is nothing to halve.
-Modes Search::halved() const {
-  Modes half;
-  bool any = false;
-  for (const formats::BodySpec& body : request_.scene.bodies) {
-    const auto* spec = std::get_if<formats::SuperelementBodySpec>(&body);
-    if (spec == nullptr || spec->rigid || spec->modes || spec->cutoff || !spec->damping.ratios.empty() ||
-        !spec->damping.ratios_internal.empty())
-      continue;
-    const std::vector<int>& node = request_.files.superelements.at(spec->file).superelement.dof_node;
-    const auto all = static_cast<int>(std::ranges::count(node, -1));
-    const auto found = modes_.left.find(spec->name);
-    const int now = found == modes_.left.end() ? all : found->second;
-    half[spec->name] = now / 2;
-    any = any || now > 1;
-  }
-  return any ? half : Modes{};
-}
-
-/// After the second run, while halves of the modes change what it found by little: further runs go without them.
-void Search::leave_out_modes(double tolerance) {
-  if (modes_.half.x.empty() || modes_.upper_half > modes_part * accuracy_.error) return;
-  modes_.left_out = modes_.upper_half;
-  modes_.left = halved();
-  for (Modes half = halved(); !half.empty(); half = halved()) {
-    if (take(tolerance, half, "", recorder_).report.outcome != RunOutcome::completed) return;
-    const double change = error_of(recorder_.history, previous_.history, quantity_);
-    if (change > modes_part * accuracy_.error) return;
-    modes_.left_out = change;
-    modes_.left = std::move(half);
-  }
-}
-
-std::string Search::told_of_modes() const {
-  if (modes_.half.x.empty()) return {};
-  if (modes_.mixed)
-    return fmt::format("; half of the modes and the tolerance before together change it by {:.2g}",
-                       tolerance_.change());
-  if (modes_.left.empty()) return fmt::format("; the upper half of the modes changes it by {:.2g}", modes_.upper_half);
-  std::vector<std::string> counts;
-  for (const auto& [name, count] : modes_.left) counts.push_back(fmt::format("{} of '{}'", count, name));
-  return fmt::format("; modes: {}, the others change it by {:.1g}", listed(counts), modes_.left_out);
-}
-
-double Search::compare(double fall, long steps) {
-  const double change = error_of(previous_.history, recorder_.history, quantity_);
-  tolerance_.observe(change, fall, static_cast<double>(steps) / static_cast<double>(std::max(1L, previous_.steps)));
-  const double missing = modes_.mixed          ? modes_fall * change
-                         : modes_.left.empty() ? modes_fall * modes_.upper_half
-                                               : modes_.left_out;
-  // What files do not hold is no matter of the tolerance; a doubt will say so.
-  room_ = missing > most_missing * accuracy_.error ? accuracy_.error : accuracy_.error - missing;
-  return missing;
-}
-
-void Search::separate(double tolerance) {
-  modes_.mixed = false;
-  tolerance_.forget();
-  const double began = began_;
-  Recorder whole(accuracy_.of, request_.scene.file);
-  const RunEnd end = take(tolerance, {}, "", whole);
-  began_ = began + now() - began_;
-  if (end.report.outcome != RunOutcome::completed) {
-    modes_.half = {};
-    return;
-  }
-  modes_.upper_half = error_of(modes_.half, whole.history, quantity_);
-  previous_ = {std::move(whole.history), end.report.steps};
-}
-
-void Search::judge(RunReport& report, double before, double tolerance, bool last) {
-  const double fall = before / tolerance;
-  double missing = compare(fall, report.steps);
-  if (modes_.mixed && (!is_reached() || missing > most_missing * accuracy_.error)) {
-    separate(before);
-    missing = compare(fall, report.steps);
-  }
-  previous_.steps = report.steps;
-  const double next = tolerance_.next(tolerance, room_), needed = tolerance_.foretold(now() - began_, tolerance, next);
-  too_long_ = !is_reached() && needed > std::max(longest_run, longest_of_first * first_took_);
-  report.notes.push_back(
-      fmt::format("accuracy: the error of '{}' is {} ({:g} asked for), with tolerance {:.3g}{}{}; "
-                  "runs before, by tolerance: {}",
-                  accuracy_.of, told_of_error(tolerance_.error() + missing), accuracy_.error, tolerance,
-                  told_of_method(), told_of_modes(), join(cost_, ", ")));
-  if (!last && !too_long_ && !is_reached()) return;
-  if (modes_.left.empty() && missing > most_missing * accuracy_.error)
-    report.doubts.push_back(
-        fmt::format("'{}' may miss modes that the superelement files do not hold: the upper half of "
-                    "those that they hold changes it by {:.2g}; raise 'modes' in the part",
-                    accuracy_.of, modes_.upper_half));
-  if (is_reached()) return;
-  const char* const other = method_ == formats::Method::radau ? "" : ", or take method: radau";
-  const std::string cost =
-      !too_long_ ? "" : fmt::format(", and the next run would take some {:.0f} min", needed / 60.0);
-  const std::string longer =
-      !too_long_ ? "" : fmt::format(", or give error_control: {{tolerance: {:.2g}}} in place of accuracy", next);
-  report.doubts.push_back(fmt::format("an error of {:g} of '{}' was not reached: it is {}{}; ask for less{}{}",
-                                      accuracy_.error, accuracy_.of, told_of_error(tolerance_.error()), cost, other,
-                                      longer));
-}
-
-std::string Search::told_of_error(double error) {
-  return std::isfinite(error) ? fmt::format("estimated at {:.2g}", error)
-                              : "not estimated, since runs with other tolerances took the same steps";
-}
-
-std::string Search::told_of_method() const {
-  if (method_ == request_.scene.integrator.method) return {};
-  return method_ == formats::Method::radau ? " of radau" : " of generalised_alpha";
-}
-
-void Search::use(formats::Method method) {
-  method_ = method;
-  Rates rates = method == formats::Method::radau ? of_radau : shared;
-  if (method == formats::Method::radau && !is_place(accuracy_.of) && may_vibrate(request_.scene))
-    rates.first = first_of_rates, rates.second_part = second_of_rates;
-  tolerance_ = FallingTolerance(rates);
-}
-
-RunEnd Search::begin(const Modes& modes) {
-  const bool replaceable =
-      request_.scene.integrator.method == formats::Method::automatic && method_ == formats::Method::radau;
-  most_steps_ = replaceable ? most_first_steps : 0;
-  std::optional<RunEnd> end;
-  try {
-    end = take(tolerance_.first(accuracy_.error), modes, "", recorder_);
-  } catch (const Error&) {
-    if (!replaceable) throw;
-  }
-  most_steps_ = 0;
-  const bool fits = end && (end->report.outcome == RunOutcome::completed ||
-                            (end->report.outcome == RunOutcome::interrupted && end->report.steps <= most_first_steps));
-  if (replaceable && !fits) {
-    use(formats::Method::generalised_alpha);
-    end = take(tolerance_.first(accuracy_.error), modes, "", recorder_);
-  }
-  first_took_ = now() - began_;
-  if (end->report.outcome != RunOutcome::completed)
-    end = take(tolerance_.first(accuracy_.error), {}, request_.path, recorder_);
-  return std::move(*end);
-}
-
-RunEnd Search::run() {
-  const Modes half = halved();
-  RunEnd end = begin(half);
-  if (end.report.outcome != RunOutcome::completed) return end;
-  double tolerance = tolerance_.first(accuracy_.error), next = tolerance_.second(tolerance);
-  previous_ = {recorder_.history, end.report.steps};
-  modes_.mixed = !half.empty();
-  if (modes_.mixed) modes_.half = previous_.history;
-  for (int run = 2;; ++run) {
-    const double before = std::exchange(tolerance, next);
-    const bool last = run == most_runs || tolerance <= least_tolerance;
-    recorder_.judge = [&](RunReport& report) { judge(report, before, tolerance, last); };
-    end = take(tolerance, modes_.left, request_.path, recorder_);
-    recorder_.judge = nullptr;
-    if (end.report.outcome != RunOutcome::completed || last || too_long_ || is_reached()) return end;
-    previous_.history = recorder_.history;
-    if (run == 2) leave_out_modes(tolerance);
-    next = tolerance_.next(tolerance, room_);
-  }
-}
 
 }  // namespace
 

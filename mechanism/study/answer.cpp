@@ -18,7 +18,6 @@
 #include "mechanism/study/tables.hpp"
 
 namespace tisserand::mechanism {
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,7 +88,7 @@ std::string measure_key(const formats::Study& study, const StudyCells& plan) {
 std::vector<int> asked_quantities(const formats::Study& study, const std::string& name) {
   std::vector<int> indices;
   std::vector<std::string> names;
-  for (int q = 0; q < static_cast<int>(study.quantities.size()); ++q) {
+  for (int q = 0; q < std::ssize(study.quantities); ++q) {
     names.push_back(study.quantities[q].name);
     if (name.empty() || names.back() == name) indices.push_back(q);
   }

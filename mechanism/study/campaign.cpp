@@ -19,7 +19,6 @@
 #include "mechanism/study/parts.hpp"
 
 namespace tisserand::mechanism {
-
 namespace {
 
 namespace fs = std::filesystem;

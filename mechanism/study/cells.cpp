@@ -16,7 +16,6 @@
 #include "formats/yaml/emit.hpp"
 
 namespace tisserand::mechanism {
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -108,7 +107,7 @@ struct Planner {
     for (const formats::StudyAxis& axis : series.axes) {
       cell.values.push_back(formats::flow_text(point.at(axis.name)));
       int index = -1;
-      for (int i = 0; i < static_cast<int>(axis.values.size()); ++i)
+      for (int i = 0; i < std::ssize(axis.values); ++i)
         if (formats::flow_text(axis.values[i]) == cell.values.back()) index = i;
       cell.index.push_back(index);
       cell.label += fmt::format("{} {} = {}", cell.label.empty() ? ":" : ",", axis.name, cell.values.back());
@@ -146,7 +145,7 @@ struct Planner {
 
   Cell reference(const formats::StudyRun& run) {
     int number = 0;
-    for (int i = 0; i < static_cast<int>(study.series.size()); ++i)
+    for (int i = 0; i < std::ssize(study.series); ++i)
       if (study.series[i].name == run.series) number = i;
     formats::StudyPoint point = run.at;
     for (const formats::StudyAxis& axis : study.series[number].axes) point.try_emplace(axis.name, axis.values.back());
@@ -164,7 +163,7 @@ StudyCells plan_cells(const formats::Study& study, const std::string& folder) {
     for (const formats::StudyRun& run : study.reference.runs.empty() ? finest : study.reference.runs)
       plan.references.push_back(planner.reference(run));
   }
-  for (int i = 0; i < static_cast<int>(study.series.size()); ++i)
+  for (int i = 0; i < std::ssize(study.series); ++i)
     for (Cell& cell : planner.product(i)) plan.cells.push_back(std::move(cell));
   return plan;
 }

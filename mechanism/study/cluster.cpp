@@ -9,7 +9,6 @@
 #include "common/text.hpp"
 
 namespace tisserand::mechanism {
-
 namespace {
 
 namespace fs = std::filesystem;

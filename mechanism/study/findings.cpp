@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 namespace tisserand::mechanism {
-
 namespace {
 
 int axis_of_lines(const formats::Study& study, int series) {
@@ -52,7 +51,7 @@ std::vector<StudyRow> rows_of(const formats::Study& study, const StudyCells& pla
     rows.push_back(std::move(row));
   }
   for (const StudyLine& line : lines_of(study, rows))
-    for (int q = 0; q < static_cast<int>(study.quantities.size()); ++q) {
+    for (int q = 0; q < std::ssize(study.quantities); ++q) {
       const std::vector<std::optional<double>> orders = observed_orders(rows, line, q);
       for (std::size_t k = 0; k < orders.size(); ++k) rows[line.rows[k]].orders.push_back(orders[k]);
     }
@@ -62,7 +61,7 @@ std::vector<StudyRow> rows_of(const formats::Study& study, const StudyCells& pla
 std::vector<StudyLine> lines_along(const formats::Study& study, const std::vector<StudyRow>& rows, int series,
                                    int axis) {
   std::map<std::vector<int>, StudyLine> lines;
-  for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
+  for (int i = 0; i < std::ssize(rows); ++i) {
     const Cell& cell = *rows[i].cell;
     if (cell.series != series) continue;
     std::vector<int> common = cell.index;
@@ -72,7 +71,7 @@ std::vector<StudyLine> lines_along(const formats::Study& study, const std::vecto
       line.series = series;
       line.axis = axis;
       std::string text;
-      for (int k = 0; k < static_cast<int>(cell.values.size()); ++k)
+      for (int k = 0; k < std::ssize(cell.values); ++k)
         if (k != axis)
           text +=
               fmt::format("{} {} = {}", text.empty() ? ":" : ",", study.series[series].axes[k].name, cell.values[k]);
@@ -87,7 +86,7 @@ std::vector<StudyLine> lines_along(const formats::Study& study, const std::vecto
 
 std::vector<StudyLine> lines_of(const formats::Study& study, const std::vector<StudyRow>& rows) {
   std::vector<StudyLine> lines;
-  for (int series = 0; series < static_cast<int>(study.series.size()); ++series)
+  for (int series = 0; series < std::ssize(study.series); ++series)
     for (StudyLine& line : lines_along(study, rows, series, axis_of_lines(study, series)))
       lines.push_back(std::move(line));
   return lines;
@@ -130,7 +129,7 @@ std::vector<std::optional<double>> observed_orders(const std::vector<StudyRow>& 
 
 std::vector<int> pareto_front(const std::vector<StudyRow>& rows, int quantity) {
   std::vector<int> order;
-  for (int i = 0; i < static_cast<int>(rows.size()); ++i)
+  for (int i = 0; i < std::ssize(rows); ++i)
     if (rows[i].is_measured()) order.push_back(i);
   std::ranges::sort(order, [&](int a, int b) {
     const auto key = [&](int i) { return std::pair(rows[i].time.median, rows[i].errors[quantity]); };

@@ -14,7 +14,6 @@
 #include "common/text.hpp"
 
 namespace tisserand::mechanism {
-
 namespace {
 
 using Json = nlohmann::ordered_json;

@@ -9,7 +9,6 @@
 #include "mechanism/histories/difference.hpp"
 
 namespace tisserand::mechanism {
-
 namespace {
 
 using formats::ErrorNorm;

@@ -14,7 +14,6 @@
 #include "mechanism/histories/plot.hpp"
 
 namespace tisserand::mechanism {
-
 namespace {
 
 constexpr std::size_t most_lines = 7;  // as many as the plotter has colours
@@ -78,9 +77,10 @@ std::string plateau_text(const formats::Study& study, const std::vector<StudyRow
   std::vector<std::string> more;
   for (std::size_t k = *from + 1; k < line.rows.size(); ++k) more.push_back(value(k));
   const double error = rows[line.rows.back()].errors[q];
-  return fmt::format("{} {} {} nothing beyond {}: the error of {} stays at {:.2g} ({:.2g} %), which something else causes.",
-                     study.series[line.series].axes[line.axis].name, listed(more), more.size() > 1 ? "change" : "changes",
-                     value(*from), study.quantities[q].name, error, 100.0 * error);
+  return fmt::format(
+      "{} {} {} nothing beyond {}: the error of {} stays at {:.2g} ({:.2g} %), which something else causes.",
+      study.series[line.series].axes[line.axis].name, listed(more), more.size() > 1 ? "change" : "changes",
+      value(*from), study.quantities[q].name, error, 100.0 * error);
 }
 
 struct Book {
@@ -126,7 +126,7 @@ struct Book {
           add_point(failures, rows[i].time.median, 2.0 * greatest);
       }
     }
-    for (int i = 0; i < static_cast<int>(rows.size()); ++i)
+    for (int i = 0; i < std::ssize(rows); ++i)
       if (!drawn.contains(i) && rows[i].is_measured()) add_point(others, rows[i].time.median, rows[i].errors[q]);
     series.insert(series.begin(), {std::move(front), std::move(others)});
     series.push_back(std::move(failures));
@@ -164,13 +164,13 @@ struct Book {
   /// The line along an axis with all other axes at their last value.
   std::vector<StudyLine> finest_lines(const std::string& axis) const {
     std::vector<StudyLine> finest;
-    for (int s = 0; s < static_cast<int>(study.series.size()); ++s)
-      for (int a = 0; a < static_cast<int>(study.series[s].axes.size()); ++a) {
+    for (int s = 0; s < std::ssize(study.series); ++s)
+      for (int a = 0; a < std::ssize(study.series[s].axes); ++a) {
         if (study.series[s].axes[a].name != axis || study.series[s].axes[a].values.size() < 2) continue;
         for (StudyLine& line : lines_along(study, rows, s, a)) {
           const std::vector<int>& index = rows[line.rows.front()].cell->index;
           bool is_finest = true;
-          for (int k = 0; k < static_cast<int>(index.size()); ++k)
+          for (int k = 0; k < std::ssize(index); ++k)
             is_finest =
                 is_finest && (k == a || index[k] + 1 == static_cast<int>(study.series[s].axes[k].values.size()));
           if (is_finest) finest.push_back(std::move(line));
@@ -221,7 +221,9 @@ struct Book {
   }
 
   void table() {
-    html += "<h2>All settings</h2>\n<div class=wide><table><tr><th>setting<th>CPU time [s]<th>between<th>runs<th>steps<th>iterations";
+    html +=
+        "<h2>All settings</h2>\n<div class=wide><table><tr><th>setting<th>CPU time "
+        "[s]<th>between<th>runs<th>steps<th>iterations";
     for (const formats::StudyQuantity& quantity : study.quantities)
       html += fmt::format("<th>error of {}<th>order", escaped(quantity.name));
     html += "</tr>\n";
@@ -269,7 +271,7 @@ void write_page(const formats::Study& study, const std::vector<StudyRow>& rows, 
       "process, medians{2}. Wide and grey: the least time for each error.</p>\n",
       escaped(study.name), escaped(reference_text(study, agreement)),
       study.timing == formats::StudyTiming::together ? " of runs side by side, so rough" : "");
-  for (int q = 0; q < static_cast<int>(study.quantities.size()); ++q) {
+  for (int q = 0; q < std::ssize(study.quantities); ++q) {
     book.html += fmt::format("<h2>What accuracy costs: {}</h2>\n", escaped(study.quantities[q].name));
     book.work_precision(q);
   }
@@ -280,9 +282,10 @@ void write_page(const formats::Study& study, const std::vector<StudyRow>& rows, 
       if (lines.empty() || !done.insert(axis.name).second) continue;
       book.html += fmt::format("<h2>Along {}</h2>\n", escaped(axis.name));
       for (const StudyLine& line : lines)
-        for (int q = 0; q < static_cast<int>(study.quantities.size()); ++q)
+        for (int q = 0; q < std::ssize(study.quantities); ++q)
           if (const std::string text = plateau_text(study, rows, line, q); !text.empty())
-            book.html += fmt::format("<p>{}{}</p>\n", escaped(lines.size() > 1 ? line.label + ": " : ""), escaped(text));
+            book.html +=
+                fmt::format("<p>{}{}</p>\n", escaped(lines.size() > 1 ? line.label + ": " : ""), escaped(text));
       book.along_axis(axis.name, lines);
     }
   book.table();

@@ -8,7 +8,6 @@
 #include "common/text.hpp"
 
 namespace tisserand::mechanism {
-
 namespace {
 
 /// Beside this program, else on the PATH; empty: nowhere.

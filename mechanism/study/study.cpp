@@ -11,7 +11,6 @@
 #include "mechanism/study/tables.hpp"
 
 namespace tisserand::mechanism {
-
 namespace {
 
 std::string folder_of(const StudyRequest& request) {

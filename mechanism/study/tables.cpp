@@ -9,7 +9,6 @@
 #include "common/text.hpp"
 
 namespace tisserand::mechanism {
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -128,8 +127,8 @@ std::string summary_text(const formats::Study& study, const std::vector<StudyRow
                                  study.name, measured, failed, over, left);
   for (std::size_t q = 0; q < agreement.size(); ++q)
     text += fmt::format("  {:<16} the references agree to {:.1e}\n", study.quantities[q].name, agreement[q]);
-  for (std::size_t q = 0; q < study.quantities.size(); ++q)
-    for (const int i : pareto_front(rows, static_cast<int>(q)))
+  for (int q = 0; q < std::ssize(study.quantities); ++q)
+    for (const int i : pareto_front(rows, q))
       text += fmt::format("  {:<16} error {:.1e} in {:.3g} s [{:.3g}, {:.3g}]: {}\n", study.quantities[q].name,
                           rows[i].errors[q], rows[i].time.median, rows[i].time.least, rows[i].time.greatest,
                           rows[i].cell->label);

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "mechanism/bodies/superelement/body.hpp"
+#include "mechanism/bodies/superelement/constants/body.hpp"
 
 namespace tisserand::mechanism {
 

@@ -50,7 +50,7 @@ Matrix rigid_motions(const Model& model, const Parts& parts, const Evaluation& n
         if (block(i, j) != 0.0) entries.emplace_back(row + i, column + j, block(i, j));
   };
   std::vector<int> first(static_cast<std::size_t>(parts.count()), -1);
-  for (int i = 0; i < static_cast<int>(model.nodes.size()); ++i) {
+  for (int i = 0; i < std::ssize(model.nodes); ++i) {
     const Node& node = model.nodes[i];
     if (node.translation < 0 && node.rotation < 0) continue;
     const int part = parts.of_node[i], column = 6 * part;

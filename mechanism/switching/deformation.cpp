@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mechanism/bodies/superelement/kinematics.hpp"
+#include "mechanism/bodies/superelement/frame/kinematics.hpp"
 #include "mechanism/doubts/held_body.hpp"
 
 namespace tisserand::mechanism {
@@ -57,8 +57,8 @@ double largest_speed(const Model& model, const State& state) {
 
 std::vector<int> welded_parts(const Model& model) {
   std::vector<int> part = welded_beams(model), owner(model.nodes.size(), -1);
-  for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    for (const int node : model.superelements[i].nodes) owner[node] = static_cast<int>(i);
+  for (int i = 0; i < std::ssize(model.superelements); ++i)
+    for (const int node : model.superelements[i].nodes) owner[node] = i;
   for (std::size_t i = part.size(); i < deforming_bodies(model); ++i) part.push_back(static_cast<int>(i));
   const auto before = static_cast<int>(model.superelements.size());
   for (const ModalNode& node : model.modal_nodes) owner[node.node] = before + node.body;

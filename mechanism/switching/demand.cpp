@@ -31,12 +31,12 @@ Demand::Demand(const Model& whole, const std::vector<EffectUse>& uses, double to
       judged_(uses.size()),
       start_(start),
       time_(start) {
-  for (std::size_t k = 0; k < uses.size(); ++k) {
+  for (int k = 0; k < std::ssize(uses); ++k) {
     if (uses[k].on) continue;
     const std::size_t index = deforming_body(whole, uses[k].owner);
     TISSERAND_ENSURE(index < bodies_.size(), "no body '{}' that deforms", uses[k].owner);
     Body& body = bodies_[index];
-    (uses[k].effect == formats::Effect::flexibility ? body.flexibility : body.stiffening) = static_cast<int>(k);
+    (uses[k].effect == formats::Effect::flexibility ? body.flexibility : body.stiffening) = k;
     if (const int modal = modal_body_of(whole, index); modal >= 0)
       body.compliance = &modal_compliances_.try_emplace(modal, whole, static_cast<std::size_t>(modal)).first->second;
     else

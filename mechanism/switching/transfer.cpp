@@ -84,7 +84,7 @@ StateTransfer::StateTransfer(const Model& from, const Model& to) : from_(from), 
     const auto found = std::ranges::find(pool, name, member);
     return found == pool.end() ? -1 : static_cast<int>(std::distance(pool.begin(), found));
   };
-  for (std::size_t i = 0; i < to.nodes.size(); ++i) sources_.push_back(source_of(static_cast<int>(i)));
+  for (int i = 0; i < std::ssize(to.nodes); ++i) sources_.push_back(source_of(i));
   for (const SuperelementUse& use : to.superelements) {
     superelements_.push_back(index_of(from.superelements, use.name, &SuperelementUse::name));
     const int rigid = index_of(from.rigid_bodies, use.name, &RigidBody::name);
@@ -102,10 +102,10 @@ StateTransfer::StateTransfer(const Model& from, const Model& to) : from_(from), 
 /// The node of that name, what becomes rigid, or a place on a rigid body.
 StateTransfer::Source StateTransfer::source_of(int node) const {
   const std::string& name = to_.nodes[node].name;
-  for (std::size_t i = 0; i < from_.nodes.size(); ++i)
-    if (from_.nodes[i].name == name) return {static_cast<int>(i), std::nullopt, -1};
-  for (std::size_t i = 0; i < from_.superelements.size(); ++i)
-    if (from_.superelements[i].name == name) return {-1, std::nullopt, static_cast<int>(i)};
+  for (int i = 0; i < std::ssize(from_.nodes); ++i)
+    if (from_.nodes[i].name == name) return {i, std::nullopt, -1};
+  for (int i = 0; i < std::ssize(from_.superelements); ++i)
+    if (from_.superelements[i].name == name) return {-1, std::nullopt, i};
   for (const Place& place : from_.places)
     if (place.name == name) return {-1, place.marker, -1};
   throw Error(fmt::format("node '{}' has no counterpart", name), "", "leave this effect out with --effect");
@@ -218,7 +218,7 @@ void StateTransfer::apply(const State& state, const Evaluation& now, State& resu
   result.acceleration_scale() = state.acceleration_scale();
   result.load_power() = state.load_power();
   result.damping_power() = state.damping_power();
-  for (std::size_t i = 0; i < to_.nodes.size(); ++i) set_node(static_cast<int>(i), state, now, result);
+  for (int i = 0; i < std::ssize(to_.nodes); ++i) set_node(i, state, now, result);
   set_superelements(state, result);
   set_modal_bodies(state, now, result);
   set_treads(state, result);

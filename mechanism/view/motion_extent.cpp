@@ -73,11 +73,11 @@ int MotionExtent::followed() const {
   if (box_.isEmpty() || !(box_.diagonal().norm() > leaves_its_place * size())) return -1;
   int best = -1;
   double heaviest = -1.0;
-  for (std::size_t b = 0; b < run_.bodies.size(); ++b) {
+  for (int b = 0; b < std::ssize(run_.bodies); ++b) {
     const ViewedBody& body = run_.bodies[b];
     const double mass = std::isfinite(body.file.mass) ? body.file.mass : 0.0;
     const bool goes = box_of(body.frame.position).diagonal().norm() > 0.5 * box_.diagonal().norm();
-    if (goes && mass > heaviest) heaviest = mass, best = static_cast<int>(b);
+    if (goes && mass > heaviest) heaviest = mass, best = b;
   }
   return best;
 }

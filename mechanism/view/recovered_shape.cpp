@@ -99,6 +99,15 @@ MatrixXd beside(const MatrixXd& A, const MatrixXd& B) {
   return both;
 }
 
+/// What the shape of a deformable body is made of: its run and body, the recovery file, what carries the vertices.
+struct Sources {
+  ViewedRun& run;
+  const ViewedBody& body;
+  const Found& found;
+  const UnitConversion& to_scene;
+  std::vector<formats::SkinCarrier> carriers;
+};
+
 /// Columns behind those of the coordinates, each with its displacement, stress and amplitudes.
 void add_columns(const MatrixXd& modes, const MatrixXd& stress, const MatrixXd& amplitudes, BodyShape& shape) {
   formats::Deformation& d = shape.deformation;
@@ -112,13 +121,12 @@ void add_columns(const MatrixXd& modes, const MatrixXd& stress, const MatrixXd& 
 /// Columns that move vertices by lengths of the file, and stress them: factors and columns change places so that
 /// amplitudes are up to 1, for a page keeps what is large beside the largest column (formats/page/deformation.hpp).
 /// `stress`: without columns if there is none.
-void add_answers(const Found& found, const UnitConversion& to_scene, MatrixXd modes, MatrixXd stress, MatrixXd factor,
-                 BodyShape& shape) {
-  modes *= to_scene.length;
+void add_answers(const Sources& from, MatrixXd modes, MatrixXd stress, MatrixXd factor, BodyShape& shape) {
+  modes *= from.to_scene.length;
   for (Index v = 0; v < modes.rows(); v += 3)
-    modes.middleRows(v, 3) = (found.axes.asDiagonal() * modes.middleRows(v, 3)).eval();
+    modes.middleRows(v, 3) = (from.found.axes.asDiagonal() * modes.middleRows(v, 3)).eval();
   if (stress.size() > 0)
-    convert_tensors(to_scene, found.axes, stress);
+    convert_tensors(from.to_scene, from.found.axes, stress);
   else if (shape.stress.size() > 0)
     stress = MatrixXd::Zero(shape.stress.rows(), modes.cols());
   for (Index a = 0; a < factor.cols(); ++a) {
@@ -132,29 +140,28 @@ void add_answers(const Found& found, const UnitConversion& to_scene, MatrixXd mo
 }
 
 /// What moves vertices inside beyond y where the body is bent and stiffened: displacement of second order.
-void add_second_order(ViewedRun& run, const ViewedBody& body, const Found& found, const UnitConversion& to_scene,
-                      const std::vector<formats::SkinCarrier>& carriers, const Eigen::RowVectorXd& stiffened,
-                      const std::vector<Index>& dropped, BodyShape& shape) {
+void add_second_order(const Sources& from, const Eigen::RowVectorXd& stiffened, const std::vector<Index>& dropped,
+                      BodyShape& shape) {
   if (!(stiffened.maxCoeff() > 0.0)) return;
-  const Recovery& recovery = found.reader->recovery();
+  const Recovery& recovery = from.found.reader->recovery();
   if (!recovery.second_order) {
-    run.notes.push_back(fmt::format("body '{}': {}", body.name, formats::no_second_order_note));
+    from.run.notes.push_back(fmt::format("body '{}': {}", from.body.name, formats::no_second_order_note));
     return;
   }
   const int count = recovery.coordinates();
   MatrixXd y = shape.deformation.amplitudes.leftCols(count).transpose();
-  formats::to_part(recovery, found.axes, to_scene.length, y);
+  formats::to_part(recovery, from.found.axes, from.to_scene.length, y);
   const MatrixXd amplitudes = formats::add_second_order(*recovery.second_order, stiffened, dropped, y);
   for (const Index k : dropped) shape.deformation.amplitudes.col(k) = y.row(k).transpose();  // internal: as in the file
   if (amplitudes.rows() > 0)
-    add_answers(found, to_scene, formats::second_order_shapes_at(*found.reader, carriers), MatrixXd(),
+    add_answers(from, formats::second_order_shapes_at(*from.found.reader, from.carriers), MatrixXd(),
                 amplitudes.transpose(), shape);
 }
 
 /// What there is beyond y: the second-order strain of stress, its displacement, and the answers to inertia loads, which
 /// move vertices and stress them.
-void add_strain_and_loads(ViewedRun& run, const ViewedBody& body, const Found& found, const UnitConversion& to_scene,
-                          const std::vector<formats::SkinCarrier>& carriers, BodyShape& shape) {
+void add_strain_and_loads(const Sources& from, BodyShape& shape) {
+  const auto& [run, body, found, to_scene, carriers] = from;
   const Recovery& recovery = found.reader->recovery();
   const int first = run.layout().modes_offset[body.superelement], count = recovery.coordinates();
   formats::Deformation& d = shape.deformation;
@@ -170,12 +177,12 @@ void add_strain_and_loads(ViewedRun& run, const ViewedBody& body, const Found& f
     for (const Index k : dropped)
       d.amplitudes.col(k) = (recovery.loads->share.row(k) * loads.factor / recovery.loads->stiffness[k]).transpose();
   const MatrixXd linear = d.amplitudes, of_coordinates = shape.stress;
-  add_second_order(run, body, found, to_scene, carriers, stiffened, dropped, shape);
+  add_second_order(from, stiffened, dropped, shape);
   if (shape.stress.size() > 0 && has_strain)
     add_columns(MatrixXd::Zero(d.modes.rows(), count), of_coordinates,
                 strain - y + linear - d.amplitudes.leftCols(count), shape);
   if (!loads.known()) return;
-  add_answers(found, to_scene, formats::load_shapes_at(*found.reader, carriers),
+  add_answers(from, formats::load_shapes_at(*found.reader, carriers),
               shape.stress.size() > 0 ? formats::load_stresses_at(*found.reader, carriers) : MatrixXd(),
               loads.factor.transpose(), shape);
 }
@@ -195,9 +202,9 @@ std::optional<BodyShape> recovered_shape(ViewedRun& run, const ViewedBody& body,
   shape.source = "recovery";
   shape.all_vertices = skin.surface.size();
   Thinned few = thinned(skin.surface, most_vertices);
-  std::vector<formats::SkinCarrier> carriers;
+  Sources from{run, body, *found, to_scene, {}};
   for (const int v : few.kept) {
-    carriers.push_back(skin.carriers[v]);
+    from.carriers.push_back(skin.carriers[v]);
     shape.surface.vertices.push_back(length * found->axes.cwiseProduct(skin.surface.vertices[v]) - body.origin);
   }
   if (few.triangles.size() == skin.triangle_element.size()) shape.elements = skin.triangle_element;
@@ -215,10 +222,10 @@ std::optional<BodyShape> recovered_shape(ViewedRun& run, const ViewedBody& body,
         y.cols() == 0 ? "superelements/y is not stored" : "its recovery file has another number of coordinates"));
     return shape;
   }
-  shape.deformation.modes = formats::shapes_at(*found->reader, carriers);
+  shape.deformation.modes = formats::shapes_at(*found->reader, from.carriers);
   convert_columns(recovery, length, found->axes, shape.deformation.modes);
   if (options.stress) {
-    shape.stress = formats::stresses_at(*found->reader, carriers);
+    shape.stress = formats::stresses_at(*found->reader, from.carriers);
     convert_stresses(recovery, to_scene, found->axes, shape.stress);
   }
   shape.deformation.amplitudes = y.middleCols(first, count);
@@ -230,7 +237,7 @@ std::optional<BodyShape> recovered_shape(ViewedRun& run, const ViewedBody& body,
     shape.coordinate_node.push_back(node == nodes.end() ? -1 : static_cast<int>(node - nodes.begin()));
     shape.coordinate_component.push_back(recovery.dof_component[k]);
   }
-  add_strain_and_loads(run, body, *found, to_scene, carriers, shape);
+  add_strain_and_loads(from, shape);
   return shape;
 }
 

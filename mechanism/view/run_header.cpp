@@ -101,15 +101,15 @@ double stack_stress(BodyShape& shape) {
 void add_bodies(ViewedRun& run, const ShapeOptions& options, ModesOfBodies& modes, PageBlocks& blocks, Json& json) {
   MotionExtent extent(run);
   json["bodies"] = json["shapes"] = Json::array();
-  for (std::size_t i = 0; i < run.bodies.size(); ++i) {
+  for (int i = 0; i < std::ssize(run.bodies); ++i) {
     const ViewedBody& body = run.bodies[i];
     BodyShape shape = shape_of_body(run, body, options);
     extent.add(shape.surface, body.frame);
     const Json stressed = largest_stress(run, body, shape);
-    modes.take(run, static_cast<int>(i), shape);
+    modes.take(run, i, shape);
     const double stress_scale = stack_stress(shape);
     const FewModes few = few_modes(shape.deformation, relative_error, formats::size_of(shape.surface));
-    modes.reduce(static_cast<int>(i), few, run.times.size());
+    modes.reduce(i, few, run.times.size());
     Json one{{"name", body.name},
              {"kind", body.kind},
              {"shape", json["shapes"].size()},
@@ -129,7 +129,8 @@ void add_bodies(ViewedRun& run, const ShapeOptions& options, ModesOfBodies& mode
   Eigen::AlignedBox3d ground;
   for (const Scenery& one : scenery_of(run)) {
     if (one.kind == "road")
-      for (const Vector3d& vertex : one.surface.vertices) ground.extend(one.frame.position.row(0).transpose() + one.frame.turn(0) * vertex);
+      for (const Vector3d& vertex : one.surface.vertices)
+        ground.extend(one.frame.position.row(0).transpose() + one.frame.turn(0) * vertex);
     else
       extent.add(one.surface, one.frame);
     json["bodies"].push_back({{"name", one.name},
@@ -157,8 +158,8 @@ void add_nodes(const ViewedRun& run, Places& places, PageBlocks& blocks, Json& j
   std::map<int, Json> other_names;
   for (const formats::ResultsLayout::Alias& alias : layout.node_aliases) other_names[alias.node].push_back(alias.name);
   std::size_t values = 0, left_out = 0;
-  for (std::size_t i = 0; i < run.nodes.size(); ++i) {
-    const int owner = run.body_of_node[i], node = static_cast<int>(i);
+  for (int i = 0; i < std::ssize(run.nodes); ++i) {
+    const int owner = run.body_of_node[i], node = i;
     if (owner < 0 || !run.nodes[i].has_position()) continue;
     if (!run.bodies[owner].is_part_frame) values += run.rows.size();
     if (values > most_node_values) {
@@ -261,10 +262,10 @@ void add_links(const ViewedRun& run, Places& places, const PageChannels& channel
     json["report"]["notes"].push_back("the motion of what these hang on is not stored, so that they are not shown: " +
                                       listed(unseen));
   const formats::ResultsLayout& layout = run.layout();
-  for (std::size_t i = 0; i < layout.nodes.size(); ++i) {
+  for (int i = 0; i < std::ssize(layout.nodes); ++i) {
     const std::string path = "superelements/boundary_force/" + layout.nodes[i];
     if (channels.find(path + "/force_x") < 0 || !run.nodes[i].has_position()) continue;
-    const Json place = places.at(static_cast<int>(i));
+    const Json place = places.at(i);
     add_arrow(layout.nodes[i], "force", place, components(path, "/force_"), "world", channels, json);
     add_arrow(layout.nodes[i], "moment", place, components(path, "/moment_"), "world", channels, json);
   }

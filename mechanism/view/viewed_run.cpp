@@ -35,8 +35,8 @@ void read_nodes(ViewedRun& run) {
                 "add nodes/position and nodes/rotation to output.channels, or leave the key out, and run again");
   if (rotation.cols() == 0)
     run.notes.push_back("nodes/rotation is not stored: bodies are shown where their nodes are, but do not turn");
-  for (std::size_t i = 0; i < layout.nodes.size(); ++i) {
-    const int item = static_cast<int>(i);
+  for (int i = 0; i < std::ssize(layout.nodes); ++i) {
+    const int item = i;
     run.nodes.push_back({columns_of(position, item, 3, "nodes/position/" + layout.nodes[i], run),
                          columns_of(rotation, item, 4, "nodes/rotation/" + layout.nodes[i], run)});
   }
@@ -132,8 +132,7 @@ void find_frames(ViewedRun& run) {
   const Eigen::MatrixXd position = run.reader->read_dataset("superelements/frame_position", run.rows),
                         rotation = run.reader->read_dataset("superelements/frame_rotation", run.rows);
   std::map<std::string, int> superelements;
-  for (std::size_t i = 0; i < layout.superelements.size(); ++i)
-    superelements[layout.superelements[i]] = static_cast<int>(i);
+  for (int i = 0; i < std::ssize(layout.superelements); ++i) superelements[layout.superelements[i]] = i;
   for (ViewedBody& body : run.bodies) {
     const auto found = superelements.find(body.name);
     if (found != superelements.end() && position.cols() > 0 && rotation.cols() > 0) {
@@ -223,9 +222,8 @@ ViewedRun read_viewed_run(const std::string& file, std::size_t instants) {
   } else {
     take_bodies(run);
   }
-  for (std::size_t i = 0; i < run.body_of_node.size(); ++i)
-    if (run.body_of_node[i] >= 0 && run.nodes[i].has_position())
-      run.bodies[run.body_of_node[i]].nodes.push_back(static_cast<int>(i));
+  for (int i = 0; i < std::ssize(run.body_of_node); ++i)
+    if (run.body_of_node[i] >= 0 && run.nodes[i].has_position()) run.bodies[run.body_of_node[i]].nodes.push_back(i);
   find_frames(run);
   drop_unseen(run);
   return run;

@@ -52,10 +52,10 @@ void check_all(const Mesh& mesh, const std::vector<Element>& elements, ShapeRepo
 /// Appends the places of elements with errors, counted from `first`.
 template <class Element>
 void find_faulty(const Mesh& mesh, const std::vector<Element>& elements, int first, std::vector<int>& faulty) {
-  for (std::size_t i = 0; i < elements.size(); ++i) {
+  for (int i = 0; i < std::ssize(elements); ++i) {
     ShapeFindings findings;
     check_shape(mesh, elements[i], findings);
-    if (!findings.errors.empty()) faulty.push_back(first + static_cast<int>(i));
+    if (!findings.errors.empty()) faulty.push_back(first + i);
   }
 }
 

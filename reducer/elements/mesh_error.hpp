@@ -24,6 +24,12 @@ struct StressSamples {
 void sample_stresses(const Mesh& mesh, const ShellElement& shell, const Eigen::MatrixXd& u, StressSamples& out);
 void sample_stresses(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u, StressSamples& out);
 
+/// Motions of the nodes of an element, rows as in element_matrices(), one column per mode, and ω² of each.
+struct ElementModes {
+  const Eigen::MatrixXd& u;
+  const Eigen::VectorXd& lambda;
+};
+
 /// Per mode E_h + λ (M − M_h) − HR(σ*, u): E_h = uᵀ S u and M_h = uᵀ M u of the element, M of its consistent mass,
 ///   HR(σ*, u) = ∫ 2 σ*·ε(u) − σ*·C⁻¹ σ* dV
 /// Hellinger and Reissner's functional of the smooth stress σ* and of the continuous displacements whose mass the
@@ -44,15 +50,15 @@ struct ShellSurround {
   Eigen::Matrix2d turn = Eigen::Matrix2d::Zero();  ///< by which ∇h changes over the size of the element
   std::array<double, 4> bow{};  ///< mean distance of the curved edge beyond the straight one, of free edges
 };
-Eigen::VectorXd energy_error(const Mesh& mesh, const ShellElement& shell, const Eigen::MatrixXd& u,
-                             const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth, const ShellSurround& around);
-Eigen::VectorXd energy_error(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u,
-                             const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth);
+Eigen::VectorXd energy_error(const Mesh& mesh, const ShellElement& shell, const ElementModes& modes,
+                             const Eigen::MatrixXd& smooth, const ShellSurround& around);
+Eigen::VectorXd energy_error(const Mesh& mesh, const SolidElement& solid, const ElementModes& modes,
+                             const Eigen::MatrixXd& smooth);
 
 /// Per mode what smooth stresses lack of equilibrium inside a solid, as energy: ∫ (h/π)² |div σ* + λ ρ u|²/G dV, h the
 /// shortest of its three sizes.
-Eigen::VectorXd imbalance(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u,
-                          const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth);
+Eigen::VectorXd imbalance(const Mesh& mesh, const SolidElement& solid, const ElementModes& modes,
+                          const Eigen::MatrixXd& smooth);
 
 /// Per mode the size of the element times the mean over points of sᵀ C⁻¹ s, `stress` as in StressSamples.
 Eigen::VectorXd stress_energy(const Mesh& mesh, const ShellElement& shell, const Eigen::MatrixXd& stress, int modes);
@@ -60,8 +66,7 @@ Eigen::VectorXd stress_energy(const Mesh& mesh, const SolidElement& solid, const
 
 /// energy_error() of a beam, which is exact for loads at its ends: the energy that its own inertia, spread evenly, has
 /// between held ends: q² L⁵/(720 EI) + q² L³/(12 GA) across, p² L³/(12 EA) along, likewise of torsion ([Prz68] 5.6).
-Eigen::VectorXd energy_error(const Mesh& mesh, const BeamElement& beam, const Eigen::MatrixXd& u,
-                             const Eigen::VectorXd& lambda);
+Eigen::VectorXd energy_error(const Mesh& mesh, const BeamElement& beam, const ElementModes& modes);
 
 /// Corners of a solid, the first of its nodes, and the two corners between which each later node lies.
 int corner_count(SolidShape shape);

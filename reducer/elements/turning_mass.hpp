@@ -90,7 +90,6 @@ struct TurningForms {
   explicit TurningForms(Eigen::Index n);
   Eigen::MatrixXd& of(int item);  ///< TurningPivot::Item
 };
-TurningForms turning_forms(const TurningMass& mass);
 
 /// C and E of translations: Σ m u_a u_bᵀ as product(a, b), a ≤ b in the order xx xy xz yy yz zz, added to `forms`.
 void add_translations(const std::array<Eigen::MatrixXd, 6>& product, TurningForms& forms);

@@ -253,10 +253,10 @@ std::string dmig_text(const formats::Superelement& element) {
                         "", real_field(x[0], 'E'), real_field(x[1], 'E'), real_field(x[2], 'E'));
   }
   text += table(scalar, "SPOINT", "");
-  for (std::size_t b = 0; b < element.node_name.size(); ++b) {
+  for (int b = 0; b < std::ssize(element.node_name); ++b) {
     std::string components;
     for (std::size_t i = 0; i < keys.size(); ++i)
-      if (element.dof_node[i] == static_cast<int>(b)) components += static_cast<char>('1' + element.dof_component[i]);
+      if (element.dof_node[i] == b) components += static_cast<char>('1' + element.dof_component[i]);
     std::sort(components.begin(), components.end());
     text += fmt::format("ASET1   {:>8}{:>8}\n", components, b + 1);
   }

@@ -32,13 +32,6 @@ struct Outcome {
   std::string remark;  ///< what is kept and what is lost
 };
 
-/// `path` without the first of the endings that it has.
-std::string without(const std::string& path, const std::vector<std::string>& endings) {
-  for (const std::string& ending : endings)
-    if (path.size() > ending.size() && path.ends_with(ending)) return path.substr(0, path.size() - ending.size());
-  return path;
-}
-
 /// Rows by node and component, internal coordinates by number behind them: the order that FEDEM expects.
 formats::Superelement ordered(const formats::Superelement& element) {
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(element.size()));
@@ -77,8 +70,9 @@ Outcome to_fmx(const formats::Superelement& given, const std::string& base) {
 }
 
 Outcome convert(const ExportRequest& request, const formats::Superelement& element) {
-  const std::string base = without(request.output.empty() ? request.input : request.output,
-                                   {".superelement.h5", ".h5", ".S.mtx", "_S.fmx", ".mtx", ".fmx", ".pch", ".fem"});
+  const std::string base =
+      without_ending(request.output.empty() ? request.input : request.output,
+                     {".superelement.h5", ".h5", ".S.mtx", "_S.fmx", ".mtx", ".fmx", ".pch", ".fem"});
   const bool asked = !request.output.empty();
   if (request.to == "dmig")
     return {{{asked ? request.output : base + ".pch", dmig_text(element)}},
@@ -99,7 +93,8 @@ Outcome convert(const ExportRequest& request, const formats::Superelement& eleme
 void export_matrices(const ExportRequest& request) {
   const formats::LoadedSuperelement loaded = formats::read_superelement(request.input);
   const Outcome outcome = convert(request, loaded.superelement);
-  for (const OutputFile& file : outcome.files) require_output(file.path, {".pch", ".bdf", ".mtx", ".fmx", ".fem", ".csv"}, {request.input});
+  for (const OutputFile& file : outcome.files)
+    require_output(file.path, {".pch", ".bdf", ".mtx", ".fmx", ".fem", ".csv"}, {request.input});
   std::list<TextFile> open;
   for (const OutputFile& file : outcome.files) open.emplace_back(file.path).write(file.bytes);
   for (TextFile& file : open) file.publish();

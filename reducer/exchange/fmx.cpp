@@ -9,7 +9,6 @@
 
 #include "common/error.hpp"
 #include "reducer/decks/nastran/cards.hpp"
-#include "reducer/exchange/rows_table.hpp"
 #include "reducer/exchange/text_lines.hpp"
 
 namespace tisserand::reducer::exchange {
@@ -62,13 +61,10 @@ TextMatrix read_matrix(const std::string& path, FmxKind kind, const std::vector<
 
 }  // namespace
 
-ReducedMatrices read_fmx(const FmxSource& source) {
-  ReducedMatrices matrices;
-  matrices.format = "fmx";
-  matrices.source = source.stiffness;
-  read_rows(source.rows, matrices);
-  const TextMatrix stiffness = read_matrix(source.stiffness, FmxKind::stiffness, matrices.rows);
-  fill(stiffness, read_matrix(source.mass, FmxKind::mass, matrices.rows), matrices);
+ReducedMatrices read_fmx(const TabledFiles& files) {
+  ReducedMatrices matrices = read_rows("fmx", files);
+  const TextMatrix stiffness = read_matrix(files.stiffness, FmxKind::stiffness, matrices.rows);
+  fill(stiffness, read_matrix(files.mass, FmxKind::mass, matrices.rows), matrices);
   return matrices;
 }
 

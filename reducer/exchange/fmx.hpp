@@ -6,18 +6,12 @@
 
 #include <Eigen/Core>
 
-#include "reducer/exchange/reduced_matrices.hpp"
+#include "reducer/exchange/rows_table.hpp"
 
 namespace tisserand::reducer::exchange {
 
-struct FmxSource {
-  std::string stiffness;  ///< ..._S.fmx
-  std::string mass;       ///< ..._M.fmx
-  std::string rows;       ///< table of rows
-};
-
-/// Throws Error.
-ReducedMatrices read_fmx(const FmxSource& source);
+/// Of ..._S.fmx, ..._M.fmx and the table of rows. Throws Error.
+ReducedMatrices read_fmx(const TabledFiles& files);
 
 enum class FmxKind { stiffness, mass, gravity };
 

@@ -119,24 +119,16 @@ ReducedMatrices read_matrices(const ImportRequest& request) {
     matrices.modal = modal;
     return matrices;
   }
-  if (format == "matrixmarket")
-    return read_matrix_market({input, companion(request, request.mass, replaced(input, ".S.mtx", ".M.mtx"), "--mass"),
-                               companion(request, request.rows, replaced(input, ".S.mtx", ".rows.csv"), "--rows")});
-  if (format == "fmx")
-    return read_fmx({input, companion(request, request.mass, replaced(input, "_S.fmx", "_M.fmx"), "--mass"),
-                     companion(request, request.rows, replaced(input, "_S.fmx", ".rows.csv"), "--rows")});
+  const auto with_table = [&](const std::string& stiffness, const std::string& mass) {
+    return TabledFiles{input, companion(request, request.mass, replaced(input, stiffness, mass), "--mass"),
+                       companion(request, request.rows, replaced(input, stiffness, ".rows.csv"), "--rows")};
+  };
+  if (format == "matrixmarket") return read_matrix_market(with_table(".S.mtx", ".M.mtx"));
+  if (format == "fmx") return read_fmx(with_table("_S.fmx", "_M.fmx"));
   ReducedMatrices matrices =
       format == "calculix" ? read_calculix_matrices(input, modal) : read_abaqus_matrices({input, request.mass}, modal);
   if (!request.positions.empty()) matrices.places = read_places(request.positions);
   return matrices;
-}
-
-/// A file without its known endings.
-std::string stem(const std::string& file) {
-  for (const std::string ending :
-       {".S.mtx", "_S.fmx", ".mtx", ".sti", ".pch", ".bdf", ".dat", ".nas", ".inp", ".txt", ".superelement.h5", ".h5"})
-    if (const std::string path = replaced(file, ending, ""); !path.empty()) return path;
-  return file;
 }
 
 std::string import_text(const ImportCertificate& c) {
@@ -153,12 +145,14 @@ std::string import_text(const ImportCertificate& c) {
 }  // namespace
 
 void import_matrices(const ImportRequest& request) {
-  const std::string output = request.output.empty() ? stem(request.input) + ".superelement.h5" : request.output;
+  const std::string base = without_ending(
+      request.input, {".S.mtx", "_S.fmx", ".mtx", ".sti", ".pch", ".bdf", ".dat", ".nas", ".inp", ".txt"});
+  const std::string output = request.output.empty() ? base + ".superelement.h5" : request.output;
   require_output(output, {".superelement.h5", ".h5"}, {request.input, request.mass, request.rows, request.positions});
   ImportOptions options;
   options.units = units_of(request.units);
   options.node_names = names_of(request.names);
-  options.name = stem(output.substr(output.rfind('/') + 1));
+  options.name = without_ending(output.substr(output.rfind('/') + 1), {".superelement.h5", ".h5"});
   Imported imported = to_superelement(read_matrices(request), options);
   const FileCertificate file = certify(imported.element, imported.report);
   formats::write_superelement(output, imported.element);

@@ -7,7 +7,6 @@
 
 #include "common/error.hpp"
 #include "reducer/decks/nastran/cards.hpp"
-#include "reducer/exchange/rows_table.hpp"
 #include "reducer/exchange/text_lines.hpp"
 
 namespace tisserand::reducer::exchange {
@@ -115,13 +114,10 @@ TextMatrix read_matrix(const std::string& path, const std::string& title, const 
 
 }  // namespace
 
-ReducedMatrices read_matrix_market(const MarketSource& source) {
-  ReducedMatrices matrices;
-  matrices.format = "matrixmarket";
-  matrices.source = source.stiffness;
-  read_rows(source.rows, matrices);
-  const TextMatrix stiffness = read_matrix(source.stiffness, "the stiffness matrix", matrices.rows);
-  fill(stiffness, read_matrix(source.mass, "the mass matrix", matrices.rows), matrices);
+ReducedMatrices read_matrix_market(const TabledFiles& files) {
+  ReducedMatrices matrices = read_rows("matrixmarket", files);
+  const TextMatrix stiffness = read_matrix(files.stiffness, "the stiffness matrix", matrices.rows);
+  fill(stiffness, read_matrix(files.mass, "the mass matrix", matrices.rows), matrices);
   return matrices;
 }
 

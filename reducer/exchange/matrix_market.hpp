@@ -5,18 +5,12 @@
 
 #include <Eigen/Core>
 
-#include "reducer/exchange/reduced_matrices.hpp"
+#include "reducer/exchange/rows_table.hpp"
 
 namespace tisserand::reducer::exchange {
 
-struct MarketSource {
-  std::string stiffness;
-  std::string mass;
-  std::string rows;
-};
-
 /// Reads coordinate and array files, real or integer, symmetric or general, and the table of rows. Throws Error.
-ReducedMatrices read_matrix_market(const MarketSource& source);
+ReducedMatrices read_matrix_market(const TabledFiles& files);
 
 /// Coordinate, real, symmetric: the lower triangle without zeros, column by column, 17 digits.
 std::string matrix_market_text(const Eigen::MatrixXd& A, const std::string& comment);

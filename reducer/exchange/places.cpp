@@ -87,8 +87,8 @@ Places places_of(NastranModel& model) {
   place_grids(model);
   model.faults.raise();
   Places places;
-  for (std::size_t i = 0; i < model.grid_id.size(); ++i) {
-    const int node = static_cast<int>(i);
+  for (int i = 0; i < std::ssize(model.grid_id); ++i) {
+    const int node = i;
     places.emplace(model.grid_id[i], NodePlace{"", model.position(node), model.displacement_axes(node)});
   }
   return places;

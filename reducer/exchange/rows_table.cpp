@@ -22,8 +22,8 @@ constexpr const char* heading = "row,node,component,x,y,z";
 /// 0 to 5, scalar_component, or nothing.
 std::optional<int> component_of(std::string_view cell) {
   if (same_word(cell, mode_word)) return scalar_component;
-  for (std::size_t k = 0; k < component_words.size(); ++k)
-    if (same_word(cell, component_words[k])) return static_cast<int>(k);
+  for (int k = 0; k < std::ssize(component_words); ++k)
+    if (same_word(cell, component_words[k])) return k;
   const std::optional<long> number = parse_integer(cell);
   if (number && *number >= 1 && *number <= 6) return static_cast<int>(*number) - 1;
   return std::nullopt;
@@ -80,8 +80,11 @@ void RowReader::row(const std::vector<std::string_view>& cells) {
 
 }  // namespace
 
-void read_rows(const std::string& path, ReducedMatrices& matrices) {
-  TextLines lines(path);
+ReducedMatrices read_rows(const std::string& format, const TabledFiles& files) {
+  ReducedMatrices matrices;
+  matrices.format = format;
+  matrices.source = files.stiffness;
+  TextLines lines(files.rows);
   RowReader reader{lines, matrices, {}};
   std::string_view line;
   bool first = true;
@@ -93,7 +96,8 @@ void read_rows(const std::string& path, ReducedMatrices& matrices) {
     first = false;
     if (!is_heading) reader.row(cells);
   }
-  if (matrices.rows.empty()) throw Error("has no rows", path, fmt::format("give lines {}", heading));
+  if (matrices.rows.empty()) throw Error("has no rows", files.rows, fmt::format("give lines {}", heading));
+  return matrices;
 }
 
 std::string rows_text(const formats::Superelement& element) {

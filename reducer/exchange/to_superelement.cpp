@@ -100,16 +100,16 @@ formats::Superelement describe(const ReducedMatrices& matrices, const ImportOpti
   element.units = options.units;
   element.node_position.resize(static_cast<Eigen::Index>(order.nodes.size()), 3);
   std::map<long, int> node_row;
-  for (std::size_t b = 0; b < order.nodes.size(); ++b) {
+  for (int b = 0; b < std::ssize(order.nodes); ++b) {
     element.node_name.push_back(name_of(matrices, options, order.nodes[b]));
     element.node_position.row(b) = matrices.places.at(order.nodes[b]).position.transpose();
-    node_row.emplace(order.nodes[b], static_cast<int>(b));
+    node_row.emplace(order.nodes[b], b);
   }
-  for (std::size_t i = 0; i < order.row.size(); ++i) {
+  for (int i = 0; i < std::ssize(order.row); ++i) {
     const RowKey& key = matrices.rows[order.row[i]];
-    const bool boundary = static_cast<Eigen::Index>(i) < order.boundary;
+    const bool boundary = i < order.boundary;
     element.dof_node.push_back(boundary ? node_row.at(key.node) : -1);
-    element.dof_component.push_back(boundary ? key.component : static_cast<int>(i) - static_cast<int>(order.boundary));
+    element.dof_component.push_back(boundary ? key.component : i - static_cast<int>(order.boundary));
   }
   element.stiffness = matrices.stiffness(order.row, order.row);
   element.mass = matrices.mass(order.row, order.row);

@@ -19,13 +19,6 @@ constexpr double exact_angle = 1e-3, guess_angle = 0.5;                         
 constexpr double most_turn = 52.0 * std::numbers::pi / 180.0;                     // of one cell
 constexpr std::size_t least_normals = 3;
 
-Vector3d middle_of(const Cell& cell, const Positions& x) {
-  const int corners = form_of(cell.shape).corners;
-  Vector3d sum = Vector3d::Zero();
-  for (int k = 0; k < corners; ++k) sum += x[cell.nodes[k]];
-  return sum / corners;
-}
-
 /// Normal times area, by the right-hand rule of the corners.
 Vector3d area_vector(const Cell& cell, const Positions& x) {
   const auto at = [&](int k) { return x[cell.nodes[k]]; };
@@ -41,7 +34,7 @@ SurfaceSamples samples_of(const FaceCells& face, const Positions& x) {
     if (!(area.norm() > 0.0)) continue;
     samples.place.push_back(middle_of(cell, x));
     samples.normal.push_back(area.normalized());
-    corners.insert(cell.nodes.begin(), cell.nodes.begin() + form_of(cell.shape).corners);
+    corners.insert(corners_of(cell).begin(), corners_of(cell).end());
   }
   for (const int node : corners) samples.point.push_back(x[node]);
   samples.angle = guess_angle;

@@ -16,15 +16,6 @@ namespace tisserand::reducer {
 namespace {
 
 using Eigen::Vector3d;
-using Key = std::array<int, 4>;
-
-Key key_of(const Cell& cell) {
-  Key key{-1, -1, -1, -1};
-  const int corners = form_of(cell.shape).corners;
-  std::copy_n(cell.nodes.begin(), corners, key.begin());
-  std::ranges::sort(key);
-  return key;
-}
 
 /// Whether two cells of the same corners run round them in the same sense.
 bool agree(const Cell& a, const Cell& b) {
@@ -43,11 +34,12 @@ std::vector<int> signs_of_solids(const CellMesh& mesh) {
     solid.nodes = cell.nodes;
     solids.solids.push_back(solid);
   }
-  std::map<Key, Cell> outer;
-  for (const Cell& face : outer_faces(solids, [](int) { return true; })) outer.emplace(key_of(face), face);
+  std::map<FaceKey, Cell> outer;
+  for (const Cell& face : outer_faces(solids, [](int) { return true; }))
+    outer.emplace(face_key(corners_of(face)), face);
   std::vector<int> sign(mesh.cells[2].size(), 0);
   for (std::size_t c = 0; c < sign.size(); ++c)
-    if (const auto found = outer.find(key_of(mesh.cells[2][c])); found != outer.end())
+    if (const auto found = outer.find(face_key(corners_of(mesh.cells[2][c]))); found != outer.end())
       sign[c] = agree(found->second, mesh.cells[2][c]) ? 1 : -1;
   return sign;
 }

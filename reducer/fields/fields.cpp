@@ -85,7 +85,7 @@ PointTable point_table(const Mesh& mesh, const formats::Recovery& tables) {
   PointTable table;
   table.first.push_back(0);
   table.around.assign(static_cast<std::size_t>(points) + 1, 0);
-  for (int s = 0; s < static_cast<int>(mesh.solids.size()); ++s) {
+  for (int s = 0; s < std::ssize(mesh.solids); ++s) {
     const SolidElement& solid = mesh.solids[s];
     for (const int node : nodes_of(solid)) {
       int point = of_node[node];
@@ -98,7 +98,7 @@ PointTable point_table(const Mesh& mesh, const formats::Recovery& tables) {
   std::partial_sum(table.around.begin(), table.around.end(), table.around.begin());
   table.solid.resize(table.point.size());
   std::vector<int> next = table.around;
-  for (int s = 0; s + 1 < static_cast<int>(table.first.size()); ++s)
+  for (int s = 0; s + 1 < std::ssize(table.first); ++s)
     for (int k = table.first[s]; k < table.first[s + 1]; ++k) table.solid[next[table.point[k]]++] = s;
   return table;
 }

@@ -22,13 +22,13 @@ struct MotionSource {
 struct RecoverySource {
   const Mesh& mesh;
   const Coordinates& coordinates;
-  MotionSource motion;        ///< of each coordinate of the file
-  MotionSource loads = {};    ///< static answers to the inertia loads of head.loads; no columns where there are none
+  MotionSource motion;      ///< of each coordinate of the file
+  MotionSource loads = {};  ///< static answers to the inertia loads of head.loads; no columns where there are none
   MotionSource second_order = {};  ///< shapes of second order of head.second_order; no columns where there are none
   MotionSource load_forces = {};   ///< on the nodes, as motions are; without `motions` where there are none
   MotionSource mode_forces = {};   ///< likewise
-  formats::Recovery head;                 ///< names, units, identity, coordinates: what is not of the mesh
-  bool is_modal = false;                  ///< of the modal body, not of the superelement
+  formats::Recovery head;          ///< names, units, identity, coordinates: what is not of the mesh
+  bool is_modal = false;           ///< of the modal body, not of the superelement
 };
 
 /// Hears of it (phase "recovery").
@@ -36,12 +36,11 @@ using RecoveryListener = std::function<void(const RecoverySource& source)>;
 
 /// With the static answers to inertia loads, but of MacNeal's method, whose coordinates move masses of their own, and
 /// with the displacement of second order where the part has it. The arguments live as long as the result.
-RecoverySource recovery_source(const InternalProblem& problem, const BoundaryModes& boundary,
-                               const InternalModes& internal, const formats::Superelement& superelement,
-                               std::optional<SecondOrderDisplacement> second_order);
-/// `q`: its modes in the system's coordinates; `answers`: displacements of all coordinates x under `loads`.
+RecoverySource recovery_source(const ReducedPart& part, std::optional<SecondOrderDisplacement> second_order);
+/// `q`: its modes in the system's coordinates; `answers`: displacements of all coordinates x under `head.loads`, which
+/// the caller adds.
 RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eigen::MatrixXd& q,
-                               const formats::ModalBody& body, formats::RecoveryLoads loads, Eigen::MatrixXd answers);
+                               const formats::ModalBody& body, Eigen::MatrixXd answers);
 
 /// Takes the next rows of a field.
 using FieldSink = std::function<void(formats::RecoveryField field, const Eigen::MatrixXd& rows)>;

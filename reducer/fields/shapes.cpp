@@ -13,12 +13,15 @@ struct Share {
 
 }  // namespace
 
-FullShapes::FullShapes(const System& system, const Partition& partition, const BoundaryModes& boundary,
-                       const InternalModes& internal)
-    : system_(system), boundary_(boundary), internal_(internal), n_B_(partition.n_B()), place_(system.size(), 0) {
-  for (int k = 0; k < static_cast<int>(partition.boundary.size()); ++k) place_[partition.boundary[k]] = k;
-  for (int k = 0; k < static_cast<int>(partition.internal.size()); ++k)
-    place_[partition.internal[k]] = static_cast<int>(n_B_) + k;
+FullShapes::FullShapes(const ReducedPart& part)
+    : system_(part.system),
+      boundary_(part.boundary),
+      internal_(part.internal),
+      n_B_(part.partition.n_B()),
+      place_(system_.size(), 0) {
+  const Partition& partition = part.partition;
+  for (int k = 0; k < std::ssize(partition.boundary); ++k) place_[partition.boundary[k]] = k;
+  for (int k = 0; k < std::ssize(partition.internal); ++k) place_[partition.internal[k]] = static_cast<int>(n_B_) + k;
 }
 
 Eigen::MatrixXd FullShapes::motions(const std::vector<int>& nodes) const {
@@ -32,7 +35,7 @@ Eigen::MatrixXd FullShapes::motions(const std::vector<int>& nodes) const {
       inside.push_back({row, place - n_B_, coefficient});
   };
   const Coordinates& numbers = system_.coordinates;
-  for (int i = 0; i < static_cast<int>(nodes.size()); ++i)
+  for (int i = 0; i < std::ssize(nodes); ++i)
     for (int x = numbers.first[nodes[i]]; x < numbers.first[nodes[i] + 1]; ++x) {
       const Eigen::Index row = 6 * i + numbers.component[x];
       const int source = system_.T.row[x];

@@ -5,19 +5,15 @@
 
 #include <Eigen/Core>
 
-#include "reducer/modes/boundary_modes.hpp"
 #include "reducer/modes/internal_modes.hpp"
-#include "reducer/system/partition.hpp"
-#include "reducer/system/system.hpp"
 
 namespace tisserand::reducer {
 
 /// x = T [1 0; Ψ Φ] y, row by row, as needed: T resolves ties and leaves coordinates without stiffness at zero.
 class FullShapes {
  public:
-  /// The arguments live as long as this.
-  FullShapes(const System& system, const Partition& partition, const BoundaryModes& boundary,
-             const InternalModes& internal);
+  /// What `part` names lives as long as this.
+  explicit FullShapes(const ReducedPart& part);
 
   Eigen::Index coordinates() const { return n_B_ + internal_.Phi.cols(); }
   /// [translation; rotation] of each node in part axes: (6 nodes) x coordinates; zero rotations where it has none.

@@ -49,7 +49,7 @@ Faces faces_of(SolidShape shape) {
 }
 
 int middle(const Faces& faces, int a, int b) {
-  for (int e = 0; e < static_cast<int>(faces.edges.size()); ++e) {
+  for (int e = 0; e < std::ssize(faces.edges); ++e) {
     const int first = static_cast<int>(faces.edges[e][0]), second = static_cast<int>(faces.edges[e][1]);
     if ((first == a && second == b) || (first == b && second == a)) return faces.corner_count + e;
   }
@@ -107,9 +107,9 @@ struct Meeting {
 
 std::vector<Meeting> outer_faces(const Mesh& mesh) {
   std::vector<Meeting> all;
-  for (int s = 0; s < static_cast<int>(mesh.solids.size()); ++s) {
+  for (int s = 0; s < std::ssize(mesh.solids); ++s) {
     const Faces faces = faces_of(mesh.solids[s].shape);
-    for (int f = 0; f < static_cast<int>(faces.corners.size()); ++f) {
+    for (int f = 0; f < std::ssize(faces.corners); ++f) {
       Meeting meeting{{-1, -1, -1, -1}, s, f};
       for (int k = 0; k < 4; ++k)
         if (faces.corners[f][k] >= 0) meeting.corners[k] = mesh.solids[s].nodes[faces.corners[f][k]];

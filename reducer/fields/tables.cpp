@@ -108,44 +108,6 @@ void add_solids(const Mesh& mesh, int first_group, ElementTable& table, Recovery
   }
 }
 
-}  // namespace
-
-Recovery mesh_tables(const Mesh& mesh) {
-  Recovery r;
-  for (const MeshBoundary& boundary : mesh.boundary) {
-    r.boundary_name.push_back(boundary.name);
-    r.boundary_node.push_back(boundary.node);
-  }
-  r.position = mesh.position;
-  r.node_label = mesh.node_label;
-  r.node_number = mesh.node_number;
-  r.node_number.resize(r.node_label.size(), 0);
-  for (const BeamProperty& property : mesh.beam_properties) r.group_name.push_back(property.name);
-  for (const ShellProperty& property : mesh.shell_properties) r.group_name.push_back(property.name);
-  for (const SolidProperty& property : mesh.solid_properties) r.group_name.push_back(property.name);
-  const int shell_groups = static_cast<int>(mesh.beam_properties.size());
-  const int solid_groups = shell_groups + static_cast<int>(mesh.shell_properties.size());
-  ElementTable table(r.elements);
-  add_beams(mesh, table, r);
-  add_shells(mesh, shell_groups, table);
-  add_solids(mesh, solid_groups, table, r);
-  const Surface seen = surface(mesh);
-  r.triangle.resize(3, static_cast<Eigen::Index>(seen.triangle.size()));
-  for (std::size_t k = 0; k < seen.triangle.size(); ++k)
-    r.triangle.col(static_cast<Eigen::Index>(k)) = seen.triangle[k];
-  r.triangle_element = seen.element;
-  return r;
-}
-
-Recovery solved_tables(const Mesh& mesh, const Coordinates& coordinates) {
-  Recovery r = mesh_tables(mesh);
-  for (int n = 0; n < mesh.nodes(); ++n) r.rotates.push_back(coordinates.rotates(n) ? 1 : 0);
-  add_shell_data(mesh, r);
-  return r;
-}
-
-namespace {
-
 /// Motions of nodes of displacements of all coordinates of the mesh.
 MotionSource motions_of(std::shared_ptr<const Eigen::MatrixXd> x, const Coordinates& numbers) {
   const Eigen::Index columns = x->cols();
@@ -196,53 +158,51 @@ MotionSource nodal_forces_of(const System& system, CoordinateForces forces) {
 }
 
 /// S_II φ of each internal coordinate; of modes by their eigenvalue, without the round-off of S.
-CoordinateForces mode_forces(const InternalProblem& problem, const InternalModes& internal) {
+CoordinateForces mode_forces(const ReducedPart& part) {
+  const InternalModes& internal = part.internal;
   const Eigen::Index m = internal.Phi.cols(), vectors = internal.free_modes ? m : internal.moments;
   CoordinateForces forces{Eigen::MatrixXd(internal.Phi.rows(), m),
-                          std::vector<int>(static_cast<std::size_t>(problem.system.size()), -1)};
+                          std::vector<int>(static_cast<std::size_t>(part.system.size()), -1)};
   if (vectors < m)
-    forces.rows.leftCols(m - vectors) = multiply(problem.blocks.M_II, internal.Phi.leftCols(m - vectors)) *
-                                        internal.lambda.head(m - vectors).asDiagonal();
-  if (vectors > 0) forces.rows.rightCols(vectors) = multiply(problem.blocks.S_II, internal.Phi.rightCols(vectors));
-  for (std::size_t i = 0; i < problem.partition.internal.size(); ++i)
-    forces.row_of[problem.partition.internal[i]] = static_cast<int>(i);
+    forces.rows.leftCols(m - vectors) =
+        multiply(part.blocks.M_II, internal.Phi.leftCols(m - vectors)) * internal.lambda.head(m - vectors).asDiagonal();
+  if (vectors > 0) forces.rows.rightCols(vectors) = multiply(part.blocks.S_II, internal.Phi.rightCols(vectors));
+  for (int i = 0; i < std::ssize(part.partition.internal); ++i) forces.row_of[part.partition.internal[i]] = i;
   return forces;
 }
 
-void add_forces(const InternalProblem& problem, const InternalModes& internal, Eigen::MatrixXd load_force,
-                const formats::Superelement& superelement, RecoverySource& source) {
-  std::vector<int> all(static_cast<std::size_t>(problem.system.size()));
+void add_forces(const ReducedPart& part, Eigen::MatrixXd load_force, RecoverySource& source) {
+  std::vector<int> all(static_cast<std::size_t>(part.system.size()));
   std::iota(all.begin(), all.end(), 0);
-  source.load_forces = nodal_forces_of(problem.system, {std::move(load_force), std::move(all)});
-  source.mode_forces = nodal_forces_of(problem.system, mode_forces(problem, internal));
-  const Eigen::Index n_B = problem.partition.n_B();
+  source.load_forces = nodal_forces_of(part.system, {std::move(load_force), std::move(all)});
+  source.mode_forces = nodal_forces_of(part.system, mode_forces(part));
+  const Eigen::Index n_B = part.partition.n_B();
   if (source.load_forces.motions && source.mode_forces.motions)
-    source.head.loads->boundary_stiffness = superelement.stiffness.topLeftCorner(n_B, n_B);
+    source.head.loads->boundary_stiffness = part.element.stiffness.topLeftCorner(n_B, n_B);
 }
 
 /// Load cases of the part behind the twelve.
-void add_load_cases(const InternalProblem& problem, const InternalModes& internal, InertiaAnswers& answers,
-                    formats::RecoveryLoads& loads) {
-  if (problem.mesh.load_cases.empty()) return;
-  const System& system = problem.system;
-  const Eigen::MatrixXd f = load_vectors(problem.mesh, system).q;
-  answers.x = beside(answers.x, expand(system.T, residual_displacements(problem, internal, f)));
+void add_load_cases(const ReducedPart& part, InertiaAnswers& answers, formats::RecoveryLoads& loads) {
+  if (part.mesh.load_cases.empty()) return;
+  const System& system = part.system;
+  const InternalModes& internal = part.internal;
+  const Eigen::MatrixXd f = load_vectors(part.mesh, system).q;
+  answers.x = beside(answers.x, expand(system.T, residual_displacements(part, f)));
   Eigen::MatrixXd share = Eigen::MatrixXd::Zero(internal.lambda.size(), f.cols());
-  if (problem.partition.n_I() > 0) share = internal.Phi.transpose() * rows(f, problem.partition.internal);
+  if (part.partition.n_I() > 0) share = internal.Phi.transpose() * rows(f, part.partition.internal);
   share.topRows(internal.loose()).setZero();
   answers.share = beside(answers.share, share);
   answers.force = beside(answers.force, f);
-  for (const MeshLoadCase& load : problem.mesh.load_cases) loads.applied.push_back({load.name, "", 0});
+  for (const MeshLoadCase& load : part.mesh.load_cases) loads.applied.push_back({load.name, "", 0});
 }
 
-void add_loads(const InternalProblem& problem, const InternalModes& internal, const formats::Superelement& superelement,
-               RecoverySource& source) {
-  const formats::RigidProperties rigid = formats::rigid_properties(superelement);
-  InertiaAnswers answers = inertia_answers(problem, internal, rigid.center_of_mass);
+void add_loads(const ReducedPart& part, RecoverySource& source) {
+  const InternalModes& internal = part.internal;
+  InertiaAnswers answers = inertia_answers(part, formats::rigid_properties(part.element).center_of_mass);
   formats::RecoveryLoads loads;
   loads.reference_point = answers.reference_point;
-  add_load_cases(problem, internal, answers, loads);
-  const Eigen::Index n = superelement.size(), m = internal.lambda.size();
+  add_load_cases(part, answers, loads);
+  const Eigen::Index n = part.element.size(), m = internal.lambda.size();
   loads.share = Eigen::MatrixXd::Zero(n, loads.columns());
   loads.share.bottomRows(m) = answers.share;
   loads.stiffness = Eigen::VectorXd::Zero(n);
@@ -251,28 +211,61 @@ void add_loads(const InternalProblem& problem, const InternalModes& internal, co
       .setConstant(m > internal.loose() ? internal.lambda[internal.loose()] : 1.0);
   loads.left_out = internal.first_dropped.value_or(m > 0 && m < internal.available ? internal.lambda.maxCoeff() : 0.0);
   source.head.loads = std::move(loads);
-  add_forces(problem, internal, std::move(answers.force), superelement, source);
-  source.loads = motions_of(std::make_shared<const Eigen::MatrixXd>(std::move(answers.x)), problem.system.coordinates);
+  add_forces(part, std::move(answers.force), source);
+  source.loads = motions_of(std::make_shared<const Eigen::MatrixXd>(std::move(answers.x)), part.system.coordinates);
 }
 
 }  // namespace
 
-RecoverySource recovery_source(const InternalProblem& problem, const BoundaryModes& boundary,
-                               const InternalModes& internal, const formats::Superelement& superelement,
-                               std::optional<SecondOrderDisplacement> second_order) {
-  const System& system = problem.system;
-  const auto shapes = std::make_shared<const FullShapes>(system, problem.partition, boundary, internal);
+Recovery mesh_tables(const Mesh& mesh) {
+  Recovery r;
+  for (const MeshBoundary& boundary : mesh.boundary) {
+    r.boundary_name.push_back(boundary.name);
+    r.boundary_node.push_back(boundary.node);
+  }
+  r.position = mesh.position;
+  r.node_label = mesh.node_label;
+  r.node_number = mesh.node_number;
+  r.node_number.resize(r.node_label.size(), 0);
+  for (const BeamProperty& property : mesh.beam_properties) r.group_name.push_back(property.name);
+  for (const ShellProperty& property : mesh.shell_properties) r.group_name.push_back(property.name);
+  for (const SolidProperty& property : mesh.solid_properties) r.group_name.push_back(property.name);
+  const int shell_groups = static_cast<int>(mesh.beam_properties.size());
+  const int solid_groups = shell_groups + static_cast<int>(mesh.shell_properties.size());
+  ElementTable table(r.elements);
+  add_beams(mesh, table, r);
+  add_shells(mesh, shell_groups, table);
+  add_solids(mesh, solid_groups, table, r);
+  const Surface seen = surface(mesh);
+  r.triangle.resize(3, static_cast<Eigen::Index>(seen.triangle.size()));
+  for (std::size_t k = 0; k < seen.triangle.size(); ++k)
+    r.triangle.col(static_cast<Eigen::Index>(k)) = seen.triangle[k];
+  r.triangle_element = seen.element;
+  return r;
+}
+
+Recovery solved_tables(const Mesh& mesh, const Coordinates& coordinates) {
+  Recovery r = mesh_tables(mesh);
+  for (int n = 0; n < mesh.nodes(); ++n) r.rotates.push_back(coordinates.rotates(n) ? 1 : 0);
+  add_shell_data(mesh, r);
+  return r;
+}
+
+RecoverySource recovery_source(const ReducedPart& part, std::optional<SecondOrderDisplacement> second_order) {
+  const System& system = part.system;
+  const formats::Superelement& superelement = part.element;
+  const auto shapes = std::make_shared<const FullShapes>(part);
   Recovery head = head_of(superelement, [&](const Eigen::Vector3d& axes) {
     return formats::mirrored(formats::LoadedSuperelement{superelement, {}}, axes).superelement;
   });
   head.dof_node = superelement.dof_node;
   head.dof_component = superelement.dof_component;
   RecoverySource source{
-      .mesh = problem.mesh,
+      .mesh = part.mesh,
       .coordinates = system.coordinates,
       .motion = {[shapes](const auto& nodes) { return shapes->motions(nodes); }, shapes->coordinates()},
       .head = std::move(head)};
-  if (internal.boundary_mass.size() == 0) add_loads(problem, internal, superelement, source);
+  if (part.internal.boundary_mass.size() == 0) add_loads(part, source);
   if (second_order) {
     source.head.second_order = std::move(second_order->forms);
     source.second_order =
@@ -282,7 +275,7 @@ RecoverySource recovery_source(const InternalProblem& problem, const BoundaryMod
 }
 
 RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eigen::MatrixXd& q,
-                               const formats::ModalBody& body, formats::RecoveryLoads loads, Eigen::MatrixXd answers) {
+                               const formats::ModalBody& body, Eigen::MatrixXd answers) {
   Recovery head = head_of(body, [&](const Eigen::Vector3d& axes) {
     return formats::mirrored(formats::LoadedModalBody{body, {}}, axes).body;
   });
@@ -290,7 +283,6 @@ RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eig
     head.dof_node.push_back(-1);
     head.dof_component.push_back(k);
   }
-  head.loads = std::move(loads);
   return {.mesh = mesh,
           .coordinates = system.coordinates,
           .motion = motions_of(std::make_shared<const Eigen::MatrixXd>(expand(system.T, q)), system.coordinates),

@@ -166,7 +166,7 @@ void set_limits(double seconds, double bytes) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   limit(RLIMIT_CORE, 0.0);
   limit(RLIMIT_CPU, seconds);
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(TISSERAND_SANITIZED)
   limit(RLIMIT_DATA, bytes);
 #else
   static_cast<void>(bytes);

@@ -7,8 +7,8 @@
 namespace tisserand::reducer {
 
 /// Limits of processor time [s] and memory [bytes], no core files, the end together with the parent. An allocation
-/// beyond the limit ends this process with out_of_memory_code. Under the address sanitizer, which reserves terabytes,
-/// memory is not limited.
+/// beyond the limit ends this process with out_of_memory_code. Sanitizers reserve terabytes:
+/// in a build with them memory is not limited.
 void set_limits(double seconds, double bytes);
 
 /// Landlock: from here on only `file` can be read, or all in its folder and below. False if the kernel has no Landlock,

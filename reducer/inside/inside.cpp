@@ -27,10 +27,10 @@ NullSpace mechanisms(const Mesh& mesh, const System& system, const formats::Part
   NullSpace null = null_space(inside.blocks.S_II, inside.S_II);
   const Eigen::Index count = null.vectors.cols();
   if (count == 0 || part.modes.mechanism == formats::Mechanisms::refuse)
-    require_stiffness(null, inside.S_II, mesh, system, inside.partition, boundary_held(), part.file);
-  if (std::string doubt = softness_doubt(null, mesh, system, inside.partition); !doubt.empty())
+    require_stiffness(null, inside.S_II, {mesh, system, inside.partition}, boundary_held(), part.file);
+  if (std::string doubt = softness_doubt(null, {mesh, system, inside.partition}); !doubt.empty())
     inside.warnings.push_back(std::move(doubt));
-  if (count > 0) inside.notes.push_back(mechanism_note(mechanism_words(mesh, system, inside.partition, null), count));
+  if (count > 0) inside.notes.push_back(mechanism_note(mechanism_words({mesh, system, inside.partition}, null), count));
   return null;
 }
 
@@ -39,8 +39,8 @@ void check_rigid_defect(const InternalProblem& problem, const BoundaryModes& bou
   constexpr double suspicious = 1e-7;
   const bool searched = problem.S_II.least_pivot() <= trusted_pivot;
   if (!searched && boundary.rigid_defect > suspicious)
-    require_stiffness(searched_null_space(problem.blocks.S_II, problem.S_II), problem.S_II, problem.mesh,
-                      problem.system, problem.partition, boundary_held(), problem.where);
+    require_stiffness(searched_null_space(problem.blocks.S_II, problem.S_II), problem.S_II, problem, boundary_held(),
+                      problem.where);
 }
 
 void find_modes(const InternalProblem& problem, const formats::Part& part, const PhaseListener& begin, Inside& inside) {
@@ -56,7 +56,7 @@ void find_modes(const InternalProblem& problem, const formats::Part& part, const
 InternalProblem problem_of(const Mesh& mesh, const System& system, const Inside& inside, const formats::Part& part,
                            const PhaseListener& begin) {
   const auto seek = [&inside, &part](int modes) { require_memory_of_modes(modes, inside.partition, part.file); };
-  return {mesh, system, inside.partition, inside.blocks, inside.S_II, part.file, begin.share, begin.begin, seek};
+  return {{mesh, system, inside.partition}, inside.blocks, inside.S_II, part.file, begin.share, begin.begin, seek};
 }
 
 Inside reduce_inside(const Mesh& mesh, System& system, const formats::Part& part, const PhaseListener& begin) {

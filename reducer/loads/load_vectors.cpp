@@ -69,11 +69,8 @@ class NodalForces {
   Eigen::VectorXd force_;
 };
 
-/// What a coordinate without stiffness and mass takes is lost, and seen in the resultant.
-void check_nothing_is_lost(const Mesh& mesh, const System& system, const MeshLoadCase& load, const NodalForces& nodal,
-                           double lost, double size) {
-  constexpr double negligible = 1e-9;
-  if (!(lost > negligible * size)) return;
+[[noreturn]] void fail_lost(const Mesh& mesh, const System& system, const MeshLoadCase& load,
+                            const NodalForces& nodal) {
   std::string place = "some node";
   for (const int x : system.inactive)
     if (const int node = system.coordinates.node[x]; !nodal.at(node).isZero(0.0))
@@ -85,6 +82,7 @@ void check_nothing_is_lost(const Mesh& mesh, const System& system, const MeshLoa
 }  // namespace
 
 LoadVectors load_vectors(const Mesh& mesh, const System& system) {
+  constexpr double negligible = 1e-9;
   const auto cases = static_cast<Index>(mesh.load_cases.size());
   LoadVectors loads{Eigen::MatrixXd::Zero(system.coordinates.count(), cases),
                     Eigen::MatrixXd::Zero(system.size(), cases), Eigen::MatrixXd::Zero(6, cases),
@@ -106,9 +104,9 @@ LoadVectors load_vectors(const Mesh& mesh, const System& system) {
     loads.q.col(c) = gather(system.T, nodal.force());
     loads.applied.col(c) = R.transpose() * loads.q.col(c);
     const double far = system.length + system.middle.norm();
-    const Vector6 lost = loads.applied.col(c) - resultant;
-    check_nothing_is_lost(mesh, system, load, nodal, lost.head<3>().norm() + lost.tail<3>().norm() / far,
-                          loads.size[c]);
+    const Vector6 lost = loads.applied.col(c) - resultant;  // what coordinates without stiffness and mass take
+    if (lost.head<3>().norm() + lost.tail<3>().norm() / far > negligible * loads.size[c])
+      fail_lost(mesh, system, load, nodal);
     if (load.gravity.isZero(0.0)) continue;
     const Eigen::VectorXd weight = system.MR.leftCols<3>() * load.gravity;
     loads.q.col(c) += weight;

@@ -18,7 +18,7 @@ struct Follower {
 
 std::map<int, Follower> followers(const Mesh& mesh) {
   std::map<int, Follower> result;
-  for (int s = 0; s < static_cast<int>(mesh.spiders.size()); ++s) {
+  for (int s = 0; s < std::ssize(mesh.spiders); ++s) {
     const Spider& spider = mesh.spiders[s];
     if (spider.kind != SpiderKind::rigid) continue;
     Components components = spider.node_components;
@@ -35,7 +35,7 @@ std::map<int, Follower> followers(const Mesh& mesh) {
 std::vector<OwnedCoordinate> held_coordinates(const Mesh& mesh, const Coordinates& coordinates) {
   const std::map<int, Follower> following = followers(mesh);
   std::map<int, int> held;
-  for (int s = 0; s < static_cast<int>(mesh.supports.size()); ++s) {
+  for (int s = 0; s < std::ssize(mesh.supports); ++s) {
     const MeshSupport& support = mesh.supports[s];
     for (const int node : support.nodes) {
       const bool rotates = coordinates.rotates(node);

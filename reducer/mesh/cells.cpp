@@ -58,6 +58,28 @@ std::optional<CellShape> cell_shape(int gmsh_type) {
   return static_cast<CellShape>(form - forms.begin());
 }
 
+std::span<const int> nodes_of(const Cell& cell) {
+  return {cell.nodes.data(), static_cast<std::size_t>(form_of(cell.shape).nodes)};
+}
+
+std::span<const int> corners_of(const Cell& cell) {
+  return {cell.nodes.data(), static_cast<std::size_t>(form_of(cell.shape).corners)};
+}
+
+Eigen::Vector3d middle_of(const Cell& cell, const Points& position) {
+  const std::span<const int> corners = corners_of(cell);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const int node : corners) sum += position[node];
+  return sum / static_cast<int>(corners.size());
+}
+
+FaceKey face_key(std::span<const int> corners) {
+  FaceKey key{-1, -1, -1, -1};
+  std::ranges::copy(corners, key.begin());
+  std::ranges::sort(key);
+  return key;
+}
+
 const char* dimension_word(int dimension) {
   constexpr std::array<const char*, 4> words{"node", "edge", "face", "volume"};
   return words[dimension];

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,15 @@ struct Cell {
   long id = 0;  ///< number in the file, or in its entity
   std::array<int, 20> nodes{};
 };
+std::span<const int> nodes_of(const Cell& cell);
+std::span<const int> corners_of(const Cell& cell);
+
+/// The mean of its corners.
+Eigen::Vector3d middle_of(const Cell& cell, const std::vector<Eigen::Vector3d>& position);
+
+/// By which a face is found: its corners ascending, −1 before those of a triangle.
+using FaceKey = std::array<int, 4>;
+FaceKey face_key(std::span<const int> corners);
 
 /// One edge, face or volume and its cells: CellMesh::cells[dimension][first .. first + count).
 struct Entity {

@@ -119,6 +119,12 @@ Eigen::MatrixXd rigid_motions(const Mesh& mesh, const Coordinates& coordinates, 
   return R;
 }
 
+std::vector<int> coordinates_of(const std::vector<OwnedCoordinate>& owned) {
+  std::vector<int> x;
+  for (const OwnedCoordinate& one : owned) x.push_back(one.x);
+  return x;
+}
+
 std::string component_text(int component) {
   constexpr std::array<const char*, 6> words{"translation x", "translation y", "translation z",
                                              "rotation x",    "rotation y",    "rotation z"};

@@ -31,6 +31,7 @@ struct OwnedCoordinate {
   int x = 0;
   int owner = 0;  ///< row of Mesh::boundary, ::held or ::supports
 };
+std::vector<int> coordinates_of(const std::vector<OwnedCoordinate>& owned);
 
 /// Nodes of the mesh's elements, in one numbering of all of them: beams, shells, solids, springs.
 struct ElementNodes {

@@ -84,9 +84,9 @@ std::vector<OuterFace> outer_faces_of_solids(const Mesh& mesh) {
     int solid, face;
   };
   std::vector<Seen> seen;
-  for (int s = 0; s < static_cast<int>(mesh.solids.size()); ++s) {
+  for (int s = 0; s < std::ssize(mesh.solids); ++s) {
     const auto& faces = faces_of(form_of(as_cell(mesh.solids[s]).shape).corners).faces;
-    for (int f = 0; f < static_cast<int>(faces.size()); ++f) {
+    for (int f = 0; f < std::ssize(faces); ++f) {
       Seen one{{-1, -1, -1, -1}, s, f};
       for (std::size_t k = 0; k < faces[f].size(); ++k) one.key[k] = mesh.solids[s].nodes[faces[f][k]];
       std::ranges::sort(one.key);

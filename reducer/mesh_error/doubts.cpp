@@ -92,25 +92,16 @@ VectorXd traction_energy(const Mesh& mesh, const SolidElement& solid, const std:
 }  // namespace
 
 const char* explain(MeshDoubt doubt) {
-  switch (doubt) {
-    case MeshDoubt::none:
-      return "";
-    case MeshDoubt::too_large:
-      return "errors above 50 % mix the modes";
-    case MeshDoubt::free_faces:
-      return "smoothed stresses do not vanish at free faces, there are too few elements across";
-    case MeshDoubt::scatter:
-      return "stresses scatter from element to element, there are too few elements per wave";
-    case MeshDoubt::cancelling:
-      return "errors of opposite sign cancel";
-    case MeshDoubt::turned:
-      return "a curve turns by more than 25 degrees from element to element";
-    case MeshDoubt::few_across:
-      return "there are fewer than three elements between folds";
-    case MeshDoubt::double_curvature:
-      return "doubly curved shells turn by more than 1.5 degrees from element to element";
-  }
-  return "";
+  constexpr const char* texts[] = {
+      "",
+      "errors above 50 % mix the modes",
+      "smoothed stresses do not vanish at free faces, there are too few elements across",
+      "stresses scatter from element to element, there are too few elements per wave",
+      "errors of opposite sign cancel",
+      "a curve turns by more than 25 degrees from element to element",
+      "there are fewer than three elements between folds",
+      "doubly curved shells turn by more than 1.5 degrees from element to element"};
+  return texts[static_cast<std::size_t>(doubt)];
 }
 
 MeshMeasures mesh_measures(const Mesh& mesh, const MatrixXd& motion, const VectorXd& lambda) {
@@ -123,13 +114,13 @@ MeshMeasures mesh_measures(const Mesh& mesh, const MatrixXd& motion, const Vecto
   on_threads(core_count(), [&](int t) {
     const Share share = share_of(count, t, core_count());
     for (int e = share.first; e < share.end; ++e) {
-      const auto energy = [&](const auto& element, const MatrixXd& stress) {
+      const auto energy = [&](const auto& element, const MatrixXd& stress) -> Eigen::RowVectorXd {
         return stress_energy(mesh, element, stress, modes).transpose();
       };
       if (e < shells) {
         const ShellElement& shell = mesh.shells[e];
         all.error.row(e) =
-            energy_error(mesh, shell, motion_of(shell, motion), lambda, smooth.of_shell(e), smooth.around(e))
+            energy_error(mesh, shell, {motion_of(shell, motion), lambda}, smooth.of_shell(e), smooth.around(e))
                 .transpose();
         all.strain.row(e) = energy(shell, smooth.samples(e));
         all.scatter.row(e) = energy(shell, smooth.scatter(e));
@@ -137,12 +128,12 @@ MeshMeasures mesh_measures(const Mesh& mesh, const MatrixXd& motion, const Vecto
       }
       const SolidElement& solid = mesh.solids[e - shells];
       const MatrixXd u = motion_of(solid, motion), stress = smooth.of_solid(e - shells);
-      all.error.row(e) = energy_error(mesh, solid, u, lambda, stress).transpose();
+      all.error.row(e) = energy_error(mesh, solid, {u, lambda}, stress).transpose();
       all.strain.row(e) = energy(solid, smooth.samples(e));
       all.scatter.row(e) = energy(solid, smooth.scatter(e));
       for (const std::vector<int>& face : faces[e - shells])
         all.traction.row(e) += traction_energy(mesh, solid, face, stress).transpose();
-      if (!is_second_order(solid.shape)) all.imbalance.row(e) = imbalance(mesh, solid, u, lambda, stress).transpose();
+      if (!is_second_order(solid.shape)) all.imbalance.row(e) = imbalance(mesh, solid, {u, lambda}, stress).transpose();
     }
   });
   return all;

@@ -36,7 +36,7 @@ MatrixXd beam_errors(const Mesh& mesh, const MatrixXd& motion, const VectorXd& l
       const BeamElement& beam = mesh.beams[e];
       MatrixXd u(12, lambda.size());
       u << motion.middleRows<6>(6 * beam.first), motion.middleRows<6>(6 * beam.second);
-      errors.row(e) = energy_error(mesh, beam, u, lambda).transpose();
+      errors.row(e) = energy_error(mesh, beam, {u, lambda}).transpose();
     }
   });
   return errors;

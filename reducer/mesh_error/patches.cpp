@@ -118,7 +118,7 @@ void make_patches(const Mesh& mesh, StressPatches& all) {
     const std::vector<Corner>& corners = at[node];
     const Groups groups = groups_at(mesh, normal, corners, all.ending);
     patch_of.assign(corners.size(), -1);
-    for (int i = 0; i < static_cast<int>(corners.size()); ++i) {
+    for (int i = 0; i < std::ssize(corners); ++i) {
       int& patch = patch_of[groups.of(i)];
       if (patch < 0) {
         patch = static_cast<int>(all.patch.size());

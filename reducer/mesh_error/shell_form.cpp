@@ -36,7 +36,7 @@ using EdgeMap = std::map<std::pair<int, int>, std::vector<ShellEdge>>;
 
 EdgeMap edges_of(const Mesh& mesh) {
   EdgeMap edges;
-  for (int s = 0; s < static_cast<int>(mesh.shells.size()); ++s) {
+  for (int s = 0; s < std::ssize(mesh.shells); ++s) {
     const ShellElement& shell = mesh.shells[s];
     for (int k = 0; k < shell.corners(); ++k)
       edges[std::minmax({shell.nodes[k], shell.nodes[(k + 1) % shell.corners()]})].push_back({s, k});

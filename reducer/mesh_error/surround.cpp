@@ -37,7 +37,7 @@ struct Shells {
 /// Mean normals of patches, along that of their first shell.
 Eigen::Matrix3Xd normals_of_patches(const Shells& all) {
   Eigen::Matrix3Xd normal = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(all.patches.patch.size()));
-  for (int s = 0; s < static_cast<int>(all.axes.size()); ++s)
+  for (int s = 0; s < std::ssize(all.axes); ++s)
     for (int k = 0; k < all.mesh.shells[s].corners(); ++k) {
       const int p = all.patch(s, k), first = all.patches.patch[p].elements.front();
       const double sign = std::copysign(1.0, all.axes[s].col(2).dot(all.axes[first].col(2)));
@@ -91,7 +91,7 @@ std::vector<FreeEdge> free_edges(const Mesh& mesh, const StressPatches& patches)
     return std::minmax({shell.nodes[k], shell.nodes[(k + 1) % shell.corners()]});
   };
   std::vector<FreeEdge> ending, result;
-  for (int s = 0; s < static_cast<int>(mesh.shells.size()); ++s)
+  for (int s = 0; s < std::ssize(mesh.shells); ++s)
     for (int k = 0; k < mesh.shells[s].corners(); ++k)
       if (patches.ending[s][k]) {
         ++users[key(s, k)];
@@ -139,7 +139,7 @@ std::vector<ShellSurround> surroundings(const Mesh& mesh, const StressPatches& p
   for (const ShellElement& shell : mesh.shells) all.axes.push_back(shell_axes(mesh, shell));
   const Eigen::Matrix3Xd normal = normals_of_patches(all);
   std::vector<ShellSurround> around(mesh.shells.size());
-  for (int s = 0; s < static_cast<int>(mesh.shells.size()); ++s) {
+  for (int s = 0; s < std::ssize(mesh.shells); ++s) {
     around[s].ending = patches.ending[s];
     set_slopes(all, normal, s, around[s]);
     set_turn(all, s, around[s]);

@@ -19,7 +19,7 @@ void pack_cells(Packer& to, const std::vector<Cell>& cells) {
   for (const Cell& cell : cells) {
     shapes.push_back(static_cast<std::uint8_t>(cell.shape));
     ids.push_back(cell.id);
-    nodes.insert(nodes.end(), cell.nodes.begin(), cell.nodes.begin() + form_of(cell.shape).nodes);
+    nodes.insert(nodes.end(), nodes_of(cell).begin(), nodes_of(cell).end());
   }
   to.row(shapes);
   to.row(ids);

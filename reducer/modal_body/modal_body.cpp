@@ -83,10 +83,10 @@ struct LumpedModes {
 
 Partition held_partition(const Mesh& mesh, const System& system) {
   std::vector<OwnedCoordinate> held;
-  for (std::size_t k = 0; k < mesh.held.size(); ++k)
+  for (int k = 0; k < std::ssize(mesh.held); ++k)
     for (int component = 0; component < 6; ++component)
       if ((mesh.held[k].components >> component & 1) != 0)
-        held.push_back({system.coordinates.of(mesh.held[k].node, component), static_cast<int>(k)});
+        held.push_back({system.coordinates.of(mesh.held[k].node, component), k});
   return partition(system, held);
 }
 
@@ -105,7 +105,7 @@ LumpedModes held_modes(const Mesh& mesh, const System& system, const formats::Mo
   const Blocks blocks = split(system.matrices, p);
   const Factor S_II(blocks.S_II);
   require_stiffness(
-      null_space(blocks.S_II, S_II), S_II, mesh, system, p,
+      null_space(blocks.S_II, S_II), S_II, {mesh, system, p},
       {"the modal body", "on its reference",
        "give the elements there stiffness in that direction, or split the part at the hinge: a modal body "
        "has no mechanism"},
@@ -116,7 +116,7 @@ LumpedModes held_modes(const Mesh& mesh, const System& system, const formats::Mo
                                          choose_solver(p.n_I(), body.modes, asked), Count::if_cheap);
   LumpedModes modes{spectrum.pairs.value.head(spectrum.kept), {}, report_of(spectrum).text};
   Eigen::MatrixXd Phi = spectrum.pairs.vector.leftCols(spectrum.kept);
-  fix_basis({mesh, system, p, blocks, S_II, body.where}, modes.lambda, Phi);
+  fix_basis({{mesh, system, p}, blocks, S_II, body.where}, modes.lambda, Phi);
   modes.q.setZero(system.size(), spectrum.kept);
   modes.q(p.internal, Eigen::all) = Phi;
   return modes;
@@ -143,7 +143,7 @@ LumpedModes free_modes(const Mesh& mesh, const System& system, const formats::Mo
   LumpedModes modes{pairs->value, pairs->vector, pairs->solver.text};
   const Partition p = held_partition(mesh, system);
   const Factor none;
-  fix_basis({mesh, system, p, Blocks{}, none, body.where}, modes.lambda, modes.q);
+  fix_basis({{mesh, system, p}, Blocks{}, none, body.where}, modes.lambda, modes.q);
   make_orthogonal_to_rigid_motions(system, modes.q);
   return modes;
 }
@@ -243,16 +243,10 @@ ModalBodyCertificate describe(const formats::ModalBody& body, const std::string&
 }
 
 /// What the modes leave out, at all nodes that the part names.
-LumpedAnswers answers_of(const Mesh& mesh, const Mesh& lumped, const System& system, const LumpedModes& modes,
+LumpedAnswers answers_of(const Mesh& mesh, const System& system, const LumpedModes& modes,
                          const std::vector<LumpedNode>& nodes, const formats::ModalBody& body) {
-  AnsweredBody asked{system,
-                     held_partition(lumped, system).boundary,
-                     modes.lambda,
-                     modes.q,
-                     {},
-                     {},
-                     mesh.position,
-                     body.frame_position};
+  AnsweredBody asked{
+      system, held_partition(mesh, system).boundary, modes.lambda, modes.q, {}, {}, mesh.position, body.frame_position};
   for (const LumpedNode& node : nodes) asked.masses.push_back({node.mass, node.arm});
   for (const MeshBoundary& boundary : mesh.boundary) asked.nodes.push_back({boundary.name, boundary.node});
   for (const FrameNode& held : mesh.held)
@@ -303,12 +297,13 @@ FoundBody find_body(const Mesh& mesh, const formats::Part& part, double lowest, 
     fill(mesh, system, modes, nodes, body);
   }
   set_reference(mesh, body);
-  LumpedAnswers answers = answers_of(mesh, lumped, system, modes, all, body);
+  LumpedAnswers answers = answers_of(mesh, system, modes, all, body);
   set_residual(answers, body);
   if (recover) {
-    formats::RecoveryLoads loads{body.frame_position, std::move(answers.forces), std::move(answers.share),
-                                 body.omega2,         body.omega2.maxCoeff(),    {}};
-    recover(recovery_source(mesh, system, modes.q, body, std::move(loads), std::move(answers.x)));
+    RecoverySource source = recovery_source(mesh, system, modes.q, body, std::move(answers.x));
+    source.head.loads = {body.frame_position, std::move(answers.forces), std::move(answers.share),
+                         body.omega2,         body.omega2.maxCoeff(),    {}};
+    recover(source);
   }
   return {std::move(body), modes.solver};
 }
@@ -320,12 +315,8 @@ formats::ModalBody lumped_modal_body(const Mesh& mesh, const formats::Part& part
   return find_body(mesh, part, lowest, recover).body;
 }
 
-std::optional<formats::ModalBody> modal_body_if_asked(const Mesh& mesh, const formats::Part& part,
-                                                      const std::function<void(const std::string&)>& begin,
-                                                      const RecoveryListener& recover, const FileCertificate& file,
-                                                      ModelCertificate& model) {
-  if (!part.modal_body) return std::nullopt;
-  begin("modal body");
+formats::ModalBody modal_body(const Mesh& mesh, const formats::Part& part, const FileCertificate& file,
+                              const RecoveryListener& recover, ModelCertificate& model) {
   const double lowest =
       file.free_frequency.empty() ? 0.0 : std::pow(2.0 * std::numbers::pi * file.free_frequency[0], 2);
   FoundBody found = find_body(mesh, part, lowest, part.recovery ? recover : nullptr);

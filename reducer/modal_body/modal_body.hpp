@@ -1,10 +1,6 @@
 // The floating-frame body of a part (formats/MODAL_BODY.md): lumped masses and modes under reference conditions.
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <string>
-
 #include "formats/modal_body/modal_body.hpp"
 #include "formats/part/part.hpp"
 #include "reducer/fields/fields.hpp"
@@ -26,10 +22,8 @@ namespace tisserand::reducer {
 formats::ModalBody lumped_modal_body(const Mesh& mesh, const formats::Part& part, double lowest,
                                      const RecoveryListener& recover = nullptr);
 
-/// What `part.modal_body` asks for, if it does, in a phase of its own; `file` and `model`: of the superelement.
-std::optional<formats::ModalBody> modal_body_if_asked(const Mesh& mesh, const formats::Part& part,
-                                                      const std::function<void(const std::string&)>& begin,
-                                                      const RecoveryListener& recover, const FileCertificate& file,
-                                                      ModelCertificate& model);
+/// The same and its certificate, as a step of reduce(); `file` and `model`: of the superelement.
+formats::ModalBody modal_body(const Mesh& mesh, const formats::Part& part, const FileCertificate& file,
+                              const RecoveryListener& recover, ModelCertificate& model);
 
 }  // namespace tisserand::reducer

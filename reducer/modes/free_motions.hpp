@@ -1,8 +1,6 @@
 // The lowest modes of the free reduced part on the full model: what its figures are checked with.
 #pragma once
 
-#include "formats/superelement/superelement.hpp"
-#include "reducer/modes/boundary_modes.hpp"
 #include "reducer/modes/internal_modes.hpp"
 
 namespace tisserand::reducer {
@@ -16,7 +14,6 @@ struct FreeMotions {
 
 /// q_B = y_B, q_I = Ψ y_B + Φ y_I for the `most` lowest elastic modes y of (S̄, M̄) with nothing held. Where these do not
 /// exist (something loose, a rigid motion without mass) those of the held boundary.
-FreeMotions free_motions(const InternalProblem& problem, const BoundaryModes& boundary, const InternalModes& internal,
-                         const formats::Superelement& element, int most);
+FreeMotions free_motions(const ReducedPart& part, int most);
 
 }  // namespace tisserand::reducer

@@ -126,48 +126,6 @@ int wanted_modes(const InternalProblem& problem, const formats::ModeSelection& s
                           available < problem.partition.n_I() ? " or masses with rotary inertia" : ""));
 }
 
-}  // namespace
-
-void fail_low_cutoff(const formats::ModeSelection& selection, const char* kind, double lowest) {
-  throw Error(fmt::format("cutoff {:g} is below the first {} mode, {:.4g}: no mode would be kept", *selection.cutoff,
-                          kind, std::sqrt(std::max(0.0, lowest)) / (2.0 * std::numbers::pi)),
-              selection.where, "raise it, or write `modes: 0` in its place if none is wanted");
-}
-
-int finite_mode_count(const Matrix& M) {
-  constexpr Eigen::Index factored = 20000;
-  constexpr double null_pivot = 1e-10, clearly_definite = 1e-8;
-  const Eigen::VectorXd mass = diagonal(M);
-  const auto with_mass = static_cast<int>((mass.array() > 0.0).count());
-  if (with_mass == 0 || mass.size() > factored) return with_mass;
-  const Eigen::VectorXd scale = (mass.array() > 0.0).select(mass.cwiseMax(1e-300).cwiseSqrt().cwiseInverse(), 1.0);
-  const Matrix unit = scaled(M, scale);
-  if (Cholesky(symmetric_rows(unit)).factor() > clearly_definite) return M.size();
-  return M.size() - Factor::indefinite(unit, null_pivot).null();
-}
-
-double least_dropped(const Eigen::VectorXd& value, Eigen::Index kept, Eigen::Index available) {
-  if (kept < value.size()) return value[kept];
-  return kept < available ? value[kept - 1] : std::numeric_limits<double>::infinity();
-}
-
-void fix_basis(const InternalProblem& problem, Eigen::VectorXd& lambda, Eigen::MatrixXd& Phi) {
-  if (lambda.size() == 0) return;
-  const Gauge gauge = make_gauge(problem);
-  for (int first = 0; first < lambda.size();) {
-    const int end = cluster_end(lambda, first + 1, 0.0);
-    if (end - first > 1) {
-      rotate_cluster(problem, gauge, Phi.middleCols(first, end - first));
-      lambda.segment(first, end - first).setConstant(lambda.segment(first, end - first).mean());
-    }
-    for (int k = first; k < end; ++k)
-      if (decisive_number(problem, gauge, Phi.col(k)) < 0.0) Phi.col(k) = -Phi.col(k);
-    first = end;
-  }
-}
-
-namespace {
-
 /// The lowest pairs and their coupling to the boundary, before their basis is fixed.
 struct Candidates {
   Spectrum spectrum;
@@ -271,9 +229,10 @@ bool none_missing(const Pencil& pencil, const formats::ModeSelection& selection,
 }
 
 /// Computes ever more pairs until they meet the accuracy.
-Candidates candidates_for(const InternalProblem& problem, const BoundaryModes& boundary, const Pencil& pencil,
+Candidates candidates_for(const InternalProblem& problem, const BoundaryModes& boundary,
                           const formats::ModeSelection& selection, int least, int available) {
   constexpr int most = 1000;
+  const Pencil pencil = pencil_of(problem);
   const int below = least;
   const auto n_I = static_cast<Eigen::Index>(problem.partition.n_I());
   Count verify = Count::if_cheap;
@@ -327,6 +286,44 @@ Spectrum spectrum_for(const Pencil& pencil, const formats::ModeSelection& select
 
 }  // namespace
 
+void fail_low_cutoff(const formats::ModeSelection& selection, const char* kind, double lowest) {
+  throw Error(fmt::format("cutoff {:g} is below the first {} mode, {:.4g}: no mode would be kept", *selection.cutoff,
+                          kind, std::sqrt(std::max(0.0, lowest)) / (2.0 * std::numbers::pi)),
+              selection.where, "raise it, or write `modes: 0` in its place if none is wanted");
+}
+
+int finite_mode_count(const Matrix& M) {
+  constexpr Eigen::Index factored = 20000;
+  constexpr double null_pivot = 1e-10, clearly_definite = 1e-8;
+  const Eigen::VectorXd mass = diagonal(M);
+  const auto with_mass = static_cast<int>((mass.array() > 0.0).count());
+  if (with_mass == 0 || mass.size() > factored) return with_mass;
+  const Eigen::VectorXd scale = (mass.array() > 0.0).select(mass.cwiseMax(1e-300).cwiseSqrt().cwiseInverse(), 1.0);
+  const Matrix unit = scaled(M, scale);
+  if (Cholesky(symmetric_rows(unit)).factor() > clearly_definite) return M.size();
+  return M.size() - Factor::indefinite(unit, null_pivot).null();
+}
+
+double least_dropped(const Eigen::VectorXd& value, Eigen::Index kept, Eigen::Index available) {
+  if (kept < value.size()) return value[kept];
+  return kept < available ? value[kept - 1] : std::numeric_limits<double>::infinity();
+}
+
+void fix_basis(const InternalProblem& problem, Eigen::VectorXd& lambda, Eigen::MatrixXd& Phi) {
+  if (lambda.size() == 0) return;
+  const Gauge gauge = make_gauge(problem);
+  for (int first = 0; first < lambda.size();) {
+    const int end = cluster_end(lambda, first + 1, 0.0);
+    if (end - first > 1) {
+      rotate_cluster(problem, gauge, Phi.middleCols(first, end - first));
+      lambda.segment(first, end - first).setConstant(lambda.segment(first, end - first).mean());
+    }
+    for (int k = first; k < end; ++k)
+      if (decisive_number(problem, gauge, Phi.col(k)) < 0.0) Phi.col(k) = -Phi.col(k);
+    first = end;
+  }
+}
+
 InternalModes internal_modes(const InternalProblem& problem, const BoundaryModes& boundary,
                              const formats::ModeSelection& selection) {
   if (selection.method != formats::ReductionMethod::craig_bampton)
@@ -339,17 +336,16 @@ InternalModes internal_modes(const InternalProblem& problem, const BoundaryModes
   modes.coupling.resize(boundary.Psi.cols(), 0);
   modes.left_out.G = boundary.flexibility;
   if (modes.available == 0) return modes;
-  const Pencil pencil = pencil_of(problem);
   Spectrum spectrum;
   int kept = 0, moments = selection.moments.value_or(0);
   if (selection.accuracy) {
-    Candidates c = candidates_for(problem, boundary, pencil, selection, modes.requested, modes.available);
+    Candidates c = candidates_for(problem, boundary, selection, modes.requested, modes.available);
     spectrum = std::move(c.spectrum);
     modes.requested = kept = c.kept;
     moments = c.moments;
   } else {
     problem.seek(std::max(1, modes.requested));
-    spectrum = spectrum_for(pencil, selection, n_I, std::max(1, modes.requested), modes.available);
+    spectrum = spectrum_for(pencil_of(problem), selection, n_I, std::max(1, modes.requested), modes.available);
     if (selection.cutoff && modes.requested == 0) fail_low_cutoff(selection, "internal", spectrum.pairs.value[0]);
     kept = modes.requested == 0 ? 0 : spectrum.kept;
   }

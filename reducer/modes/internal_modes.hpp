@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/part/part.hpp"
+#include "formats/superelement/superelement.hpp"
 #include "reducer/modes/boundary_modes.hpp"
 #include "reducer/modes/spectrum.hpp"
 #include "reducer/modes/truncation.hpp"
@@ -34,16 +35,21 @@ struct InternalModes {
 };
 
 /// What the internal modes are computed from.
-struct InternalProblem {
-  const Mesh& mesh;
-  const System& system;
-  const Partition& partition;
+struct InternalProblem : PartitionedPart {
   const Blocks& blocks;
   const Factor& S_II;  ///< of a part with a mechanism: of what its pins leave
   std::string where;
   std::function<void(double)> share = [](double /*done*/) {};  ///< hears how much of a phase is done
   std::function<void(const std::string&)> begin = [](const std::string& /*phase*/) {};  ///< Pencil::begin
   std::function<void(int)> seek = [](int /*modes*/) {};  ///< hears how many modes are about to be sought; may refuse
+};
+
+/// A part and all that its reduction found: what the certificate, the companion and the recovery file are computed
+/// from.
+struct ReducedPart : InternalProblem {
+  const BoundaryModes& boundary;
+  const InternalModes& internal;
+  const formats::Superelement& element;  ///< rows: boundary first
 };
 
 /// Rank of M: the number of finite eigenvalues, since S is regular. Lumped masses without rotary inertia leave

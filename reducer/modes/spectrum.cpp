@@ -134,6 +134,55 @@ void refine_unsharp(const Pencil& pencil, Spectrum& s) {
   }
 }
 
+/// Eigenvalues μ ascending and vectors, Xᵀ B X = 1, of A x = μ B x; `info` as LAPACK gives it: above n, B is not
+/// positive definite.
+struct DensePairs {
+  Eigen::VectorXd mu;
+  Eigen::MatrixXd X;
+  PetscBLASInt info = 0;
+};
+
+/// The `count` largest ones, by bisection and inverse iteration.
+DensePairs largest_pairs(Eigen::MatrixXd A, Eigen::MatrixXd B, int count) {
+  const auto n = static_cast<PetscBLASInt>(A.rows());
+  const PetscBLASInt first = n - count + 1, last = n;
+  PetscBLASInt found = 0, lwork = -1;
+  // Twice the least normal number: with 0 the inverse iteration of dsyevx fails now and then (its documentation).
+  const double unused = 0.0, tolerance = 2.0 * std::numeric_limits<double>::min();
+  DensePairs pairs{Eigen::VectorXd(n), Eigen::MatrixXd(n, count)};
+  std::vector<PetscBLASInt> iwork(static_cast<std::size_t>(5 * n)), fail(static_cast<std::size_t>(n));
+  std::vector<double> work(1);
+  for (int pass = 0; pass < 2; ++pass) {
+    PetscBLASInt type = 1;
+    LAPACKsygvx_(&type, "V", "I", "L", &n, A.data(), &n, B.data(), &n, &unused, &unused, &first, &last, &tolerance,
+                 &found, pairs.mu.data(), pairs.X.data(), &n, work.data(), &lwork, iwork.data(), fail.data(),
+                 &pairs.info);
+    lwork = static_cast<PetscBLASInt>(work[0]);
+    work.resize(static_cast<std::size_t>(lwork));
+  }
+  pairs.mu.conservativeResize(count);
+  if (pairs.info == 0 && found != count) pairs.info = 1;
+  return pairs;
+}
+
+/// The same by the QR algorithm, which finds all of them always.
+DensePairs largest_pairs_by_qr(Eigen::MatrixXd A, Eigen::MatrixXd B, int count) {
+  const auto n = static_cast<PetscBLASInt>(A.rows());
+  const PetscBLASInt type = 1;
+  PetscBLASInt lwork = -1;
+  Eigen::VectorXd mu(n);
+  DensePairs pairs;
+  std::vector<double> work(1);
+  for (int pass = 0; pass < 2; ++pass) {
+    LAPACKsygv_(&type, "V", "L", &n, A.data(), &n, B.data(), &n, mu.data(), work.data(), &lwork, &pairs.info);
+    lwork = static_cast<PetscBLASInt>(work[0]);
+    work.resize(static_cast<std::size_t>(lwork));
+  }
+  pairs.mu = mu.tail(count);
+  pairs.X = A.rightCols(count);
+  return pairs;
+}
+
 }  // namespace
 
 SolverReport report_of(const Spectrum& s) {
@@ -221,59 +270,6 @@ Spectrum lowest_pairs(const Pencil& pencil, int count, int available, EigenSolve
                 "soft ones");
   return s;
 }
-
-namespace {
-
-/// Eigenvalues μ ascending and vectors, Xᵀ B X = 1, of A x = μ B x; `info` as LAPACK gives it: above n, B is not
-/// positive definite.
-struct DensePairs {
-  Eigen::VectorXd mu;
-  Eigen::MatrixXd X;
-  PetscBLASInt info = 0;
-};
-
-/// The `count` largest ones, by bisection and inverse iteration.
-DensePairs largest_pairs(Eigen::MatrixXd A, Eigen::MatrixXd B, int count) {
-  const auto n = static_cast<PetscBLASInt>(A.rows());
-  const PetscBLASInt first = n - count + 1, last = n;
-  PetscBLASInt found = 0, lwork = -1;
-  // Twice the least normal number: with 0 the inverse iteration of dsyevx fails now and then (its documentation).
-  const double unused = 0.0, tolerance = 2.0 * std::numeric_limits<double>::min();
-  DensePairs pairs{Eigen::VectorXd(n), Eigen::MatrixXd(n, count)};
-  std::vector<PetscBLASInt> iwork(static_cast<std::size_t>(5 * n)), fail(static_cast<std::size_t>(n));
-  std::vector<double> work(1);
-  for (int pass = 0; pass < 2; ++pass) {
-    PetscBLASInt type = 1;
-    LAPACKsygvx_(&type, "V", "I", "L", &n, A.data(), &n, B.data(), &n, &unused, &unused, &first, &last, &tolerance,
-                 &found, pairs.mu.data(), pairs.X.data(), &n, work.data(), &lwork, iwork.data(), fail.data(),
-                 &pairs.info);
-    lwork = static_cast<PetscBLASInt>(work[0]);
-    work.resize(static_cast<std::size_t>(lwork));
-  }
-  pairs.mu.conservativeResize(count);
-  if (pairs.info == 0 && found != count) pairs.info = 1;
-  return pairs;
-}
-
-/// The same by the QR algorithm, which finds all of them always.
-DensePairs largest_pairs_by_qr(Eigen::MatrixXd A, Eigen::MatrixXd B, int count) {
-  const auto n = static_cast<PetscBLASInt>(A.rows());
-  const PetscBLASInt type = 1;
-  PetscBLASInt lwork = -1;
-  Eigen::VectorXd mu(n);
-  DensePairs pairs;
-  std::vector<double> work(1);
-  for (int pass = 0; pass < 2; ++pass) {
-    LAPACKsygv_(&type, "V", "L", &n, A.data(), &n, B.data(), &n, mu.data(), work.data(), &lwork, &pairs.info);
-    lwork = static_cast<PetscBLASInt>(work[0]);
-    work.resize(static_cast<std::size_t>(lwork));
-  }
-  pairs.mu = mu.tail(count);
-  pairs.X = A.rightCols(count);
-  return pairs;
-}
-
-}  // namespace
 
 EigenPairs dense_lowest(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, double shift, int count) {
   // M x = μ (S − shift M) x, μ = 1/(λ − shift): the lowest λ are the largest μ, found to full relative accuracy.

@@ -135,61 +135,6 @@ double estimate_of(const EigenPairs& pairs, const LeftOut& out, Eigen::Index k) 
   return std::max(0.0, 0.5 * pairs.value[k] * u.dot(out.residual(pairs.value[k]) * u));
 }
 
-}  // namespace
-
-Eigen::MatrixXd LeftOut::residual(double lambda) const {
-  if (theta.size() == 0) return G;
-  const Eigen::MatrixXd c = (theta.array() - lambda).inverse().matrix().asDiagonal() * coupling.transpose();
-  const Eigen::MatrixXd first = coupling * c, mixed = second * c;
-  Eigen::MatrixXd R = G - first - first.transpose() + c.transpose() * theta.asDiagonal() * c;
-  R += lambda * (mixed + mixed.transpose() - 2.0 * c.transpose() * c) + lambda * lambda * c.transpose() * third * c;
-  return R;
-}
-
-EigenPairs free_modes(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count, int rigid_motions) {
-  const double shift = shift_of(S, M, rigid_motions);
-  if (shift == 0.0) return {};
-  return dense_lowest(S, M, shift, std::min(count, static_cast<int>(S.rows())));
-}
-
-Eigen::VectorXd free_eigenvalues(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count, int rigid_motions) {
-  return free_modes(S, M, count, rigid_motions).value;
-}
-
-TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, int most) {
-  TruncationErrors errors;
-  const double shift = shift_of(S, M, rigid);
-  if (shift == 0.0) return errors;
-  const ReducedModes modes = reduced_modes(S, M, shift, out.G.rows());
-  const EigenPairs& pairs = modes.pairs;
-  Eigen::Index count = 0;
-  while (count < most && rigid + count < pairs.value.size() && pairs.value[rigid + count] < out.first_dropped) ++count;
-  errors.lambda = pairs.value.segment(rigid, count);
-  errors.estimate.resize(count);
-  for (Eigen::Index k = 0; k < count; ++k) errors.estimate[k] = estimate_of(pairs, out, rigid + k);
-  errors.bound = errors.estimate.array() / (1.0 - errors.lambda.array() / out.first_dropped);
-  errors.known.assign(static_cast<std::size_t>(count), true);
-  errors.upper = errors.lambda;
-  errors.lower = errors.lambda;
-  if (!std::isfinite(out.first_dropped) || !(out.G.diagonal().maxCoeff() > 0.0)) return errors;
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const double most_below = largest_share(modes, out, rigid + k, first_share(errors.bound[k]));
-    const bool small = most_below < first_order;
-    const double least_below = small ? least_share(modes, out, rigid + k, errors.estimate[k])
-                                     : share_with(modes, out, rigid + k, 0.0, most_below);
-    errors.lower[k] = errors.lambda[k] * (1.0 - most_below);
-    errors.upper[k] = errors.lambda[k] * (1.0 - least_below);
-    if (small) continue;
-    const double most_error = error_of(most_below), least_error = error_of(least_below);
-    const double likely_error = error_of(share_with(modes, out, rigid + k, likely, most_below));
-    errors.estimate[k] = std::max(likely_error, 0.5 * most_error);
-    errors.known[k] = likely_error >= 0.5 * most_error || most_error <= 4.0 * least_error;
-  }
-  return errors;
-}
-
-namespace {
-
 /// W and E of attached_error(), the least up to Λ: λ/Λ times W(λ) and E(λ) are not below them.
 struct Weights {
   Eigen::MatrixXd mass, strain;
@@ -246,6 +191,57 @@ double largest_quotient(const Eigen::MatrixXd& A, const Eigen::MatrixXd& weight)
 }
 
 }  // namespace
+
+Eigen::MatrixXd LeftOut::residual(double lambda) const {
+  if (theta.size() == 0) return G;
+  const Eigen::MatrixXd c = (theta.array() - lambda).inverse().matrix().asDiagonal() * coupling.transpose();
+  const Eigen::MatrixXd first = coupling * c, mixed = second * c;
+  Eigen::MatrixXd R = G - first - first.transpose() + c.transpose() * theta.asDiagonal() * c;
+  R += lambda * (mixed + mixed.transpose() - 2.0 * c.transpose() * c) + lambda * lambda * c.transpose() * third * c;
+  return R;
+}
+
+EigenPairs free_modes(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count, int rigid_motions) {
+  const double shift = shift_of(S, M, rigid_motions);
+  if (shift == 0.0) return {};
+  return dense_lowest(S, M, shift, std::min(count, static_cast<int>(S.rows())));
+}
+
+Eigen::VectorXd free_eigenvalues(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count, int rigid_motions) {
+  return free_modes(S, M, count, rigid_motions).value;
+}
+
+TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, int most) {
+  TruncationErrors errors;
+  const double shift = shift_of(S, M, rigid);
+  if (shift == 0.0) return errors;
+  const ReducedModes modes = reduced_modes(S, M, shift, out.G.rows());
+  const EigenPairs& pairs = modes.pairs;
+  Eigen::Index count = 0;
+  while (count < most && rigid + count < pairs.value.size() && pairs.value[rigid + count] < out.first_dropped) ++count;
+  errors.lambda = pairs.value.segment(rigid, count);
+  errors.estimate.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) errors.estimate[k] = estimate_of(pairs, out, rigid + k);
+  errors.bound = errors.estimate.array() / (1.0 - errors.lambda.array() / out.first_dropped);
+  errors.known.assign(static_cast<std::size_t>(count), true);
+  errors.upper = errors.lambda;
+  errors.lower = errors.lambda;
+  if (!std::isfinite(out.first_dropped) || !(out.G.diagonal().maxCoeff() > 0.0)) return errors;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double most_below = largest_share(modes, out, rigid + k, first_share(errors.bound[k]));
+    const bool small = most_below < first_order;
+    const double least_below = small ? least_share(modes, out, rigid + k, errors.estimate[k])
+                                     : share_with(modes, out, rigid + k, 0.0, most_below);
+    errors.lower[k] = errors.lambda[k] * (1.0 - most_below);
+    errors.upper[k] = errors.lambda[k] * (1.0 - least_below);
+    if (small) continue;
+    const double most_error = error_of(most_below), least_error = error_of(least_below);
+    const double likely_error = error_of(share_with(modes, out, rigid + k, likely, most_below));
+    errors.estimate[k] = std::max(likely_error, 0.5 * most_error);
+    errors.known[k] = likely_error >= 0.5 * most_error || most_error <= 4.0 * least_error;
+  }
+  return errors;
+}
 
 double attached_error(const BoundaryView& part, const LeftOut& out, double first_coupled, double lambda) {
   constexpr double infinite = std::numeric_limits<double>::infinity();

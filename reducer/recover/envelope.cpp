@@ -11,43 +11,52 @@ namespace {
 bool is_larger(float value, float than) { return value > than + equal_by_symmetry * std::abs(than); }
 
 /// The value of an item of the points, as one of an element whose node `place` it is.
-void take(const LargestOverTime& points, int point, int element, int place, LargestOverTime& elements) {
-  if (points.instant(point) >= 0) elements.raise(element, {points.value(point), place}, points.instant(point));
+void take(const ExtremeOverTime& points, int point, int element, int place, ExtremeOverTime& elements) {
+  if (points.instant(point) >= 0) elements.take(element, {points.value(point), place}, points.instant(point));
 }
 
 }  // namespace
 
-LargestOverTime::LargestOverTime(int items)
-    : value_(static_cast<std::size_t>(items), 0.0f),
+ExtremeOverTime::ExtremeOverTime(Extreme kind, int items)
+    : kind_(kind),
+      height_(static_cast<std::size_t>(items), 0.0f),
       instant_(static_cast<std::size_t>(items), -1),
       place_(static_cast<std::size_t>(items), 0) {}
 
-void LargestOverTime::raise(int item, const Placed& found, int instant) {
-  if (instant_[item] >= 0 && !is_larger(found.value, value_[item])) return;
-  value_[item] = found.value;
+void ExtremeOverTime::take(int item, const Placed& found, int instant) {
+  const float height = kind_ == Extreme::largest ? found.value : -found.value;
+  if (instant_[item] >= 0 && !is_larger(height, height_[item])) return;
+  height_[item] = height;
   instant_[item] = instant;
   place_[item] = found.place;
 }
 
-int LargestOverTime::largest(int first, int end) const {
+std::vector<float> ExtremeOverTime::values() const {
+  std::vector<float> values = height_;
+  if (kind_ == Extreme::smallest)
+    for (float& value : values) value = value == 0.0f ? 0.0f : -value;
+  return values;
+}
+
+int ExtremeOverTime::extreme(int first, int end) const {
   int found = -1;
   for (int i = first; i < end; ++i) {
     if (instant(i) < 0) continue;
-    const bool larger = found < 0 || is_larger(value(i), value(found));
-    const bool equal = found >= 0 && !larger && !is_larger(value(found), value(i));
+    const bool larger = found < 0 || is_larger(height_[i], height_[found]);
+    const bool equal = found >= 0 && !larger && !is_larger(height_[found], height_[i]);
     if (larger || (equal && instant(i) < instant(found))) found = i;
   }
   return found;
 }
 
-void StressEnvelope::raise(int item, const Measures& measures, int instant) {
-  von_mises.raise(item, measures.von_mises, instant);
-  largest.raise(item, measures.largest, instant);
-  negated_smallest.raise(item, {-measures.smallest.value, measures.smallest.place}, instant);
+void StressEnvelope::take(int item, const Measures& measures, int instant) {
+  von_mises.take(item, measures.von_mises, instant);
+  largest.take(item, measures.largest, instant);
+  smallest.take(item, measures.smallest, instant);
 }
 
 Envelope::Envelope(const formats::Recovery& recovery)
-    : displacement(recovery.nodes()),
+    : displacement(Extreme::largest, recovery.nodes()),
       point(recovery.stress_points()),
       element(recovery.elements.count()),
       recovery_(recovery) {}
@@ -59,17 +68,17 @@ void Envelope::add(const FieldBlock& block, const BodyMotion& motion, Index firs
       const int item = block.first + i, instant = static_cast<int>(first + t);
       switch (block.field) {
         case RecoveryField::translation:
-          displacement.raise(item, {block.item<3>(i, t).norm(), 0}, instant);
+          displacement.take(item, {block.item<3>(i, t).norm(), 0}, instant);
           break;
         case RecoveryField::beam_force:
           if (has_stress(recovery_, item))
-            element.raise(item, beam_measures(recovery_, item, block.item<12>(i, t), factor), instant);
+            element.take(item, beam_measures(recovery_, item, block.item<12>(i, t), factor), instant);
           break;
         case RecoveryField::shell_stress:
-          element.raise(recovery_.beams() + item, shell_measures(block.item<6>(i, t)), instant);
+          element.take(recovery_.beams() + item, shell_measures(block.item<6>(i, t)), instant);
           break;
         case RecoveryField::solid_stress:
-          point.raise(item, solid_measures(block.item<6>(i, t)), instant);
+          point.take(item, solid_measures(block.item<6>(i, t)), instant);
           break;
         case RecoveryField::rotation:
           break;
@@ -84,7 +93,7 @@ void Envelope::finish(const SolidPoints& points) {
       const int p = points.point[k], place = k - begin + 1;
       take(point.von_mises, p, e, place, element.von_mises);
       take(point.largest, p, e, place, element.largest);
-      take(point.negated_smallest, p, e, place, element.negated_smallest);
+      take(point.smallest, p, e, place, element.smallest);
     }
   }
 }

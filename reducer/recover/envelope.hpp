@@ -11,32 +11,37 @@
 
 namespace tisserand::reducer {
 
-/// The largest of one quantity over time, for each of many items. Of values that are equal but for round-off
-/// (equal_by_symmetry) the first instant counts.
-class LargestOverTime {
- public:
-  explicit LargestOverTime(int items);
+enum class Extreme { largest, smallest };
 
-  void raise(int item, const Placed& found, int instant);
-  float value(int item) const { return value_[item]; }
+/// The largest or the smallest of one quantity over time, for each of many items. Of values that are equal but for
+/// round-off (equal_by_symmetry) the first instant counts.
+class ExtremeOverTime {
+ public:
+  ExtremeOverTime(Extreme kind, int items);
+
+  void take(int item, const Placed& found, int instant);
+  Extreme kind() const { return kind_; }
+  int items() const { return static_cast<int>(height_.size()); }
+  float value(int item) const { return kind_ == Extreme::largest ? height_[item] : -height_[item]; }
   int instant(int item) const { return instant_[item]; }  ///< −1: none yet
   int place(int item) const { return place_[item]; }      ///< Placed
-  const std::vector<float>& values() const { return value_; }
-  /// The largest of the items [first, end), of equal ones the earliest; −1: there is none.
-  int largest(int first, int end) const;
+  std::vector<float> values() const;
+  /// The extreme of the items [first, end), of equal ones the earliest; −1: there is none.
+  int extreme(int first, int end) const;
 
  private:
-  std::vector<float> value_;
+  Extreme kind_;
+  std::vector<float> height_;  ///< values, with the opposite sign where the smallest is sought
   std::vector<int> instant_, place_;
 };
 
 /// Von Mises stress (beams: |normal stress|), largest and smallest principal stress (beams: normal stress) of items.
-/// Smallest stresses are kept with the opposite sign, as the largest of −s.
 struct StressEnvelope {
-  explicit StressEnvelope(int items) : von_mises(items), largest(items), negated_smallest(items) {}
-  void raise(int item, const Measures& measures, int instant);
+  explicit StressEnvelope(int items)
+      : von_mises(Extreme::largest, items), largest(Extreme::largest, items), smallest(Extreme::smallest, items) {}
+  void take(int item, const Measures& measures, int instant);
 
-  LargestOverTime von_mises, largest, negated_smallest;
+  ExtremeOverTime von_mises, largest, smallest;
 };
 
 /// Grows with the mesh, not with the number of instants.
@@ -49,7 +54,7 @@ class Envelope {
   /// After the last block: solids take the values of their points.
   void finish(const SolidPoints& points);
 
-  LargestOverTime displacement;  ///< nodes
+  ExtremeOverTime displacement;  ///< nodes
   StressEnvelope point;          ///< stress points of solids
   StressEnvelope element;        ///< of solids the place is that of their node, from 1
 

@@ -42,24 +42,23 @@ std::string header_of(const Units& units) {
 }
 
 /// ",value,time,place", empty where the element has no stress.
-std::string cells_of(const Recovery& r, int element, const LargestOverTime& over_time, double sign,
-                     const MotionReader& motion) {
+std::string cells_of(const Recovery& r, int element, const ExtremeOverTime& over_time, const MotionReader& motion) {
   const int instant = over_time.instant(element);
   if (instant < 0) return ",,,";
-  const double value = sign * static_cast<double>(over_time.value(element));
+  const auto value = static_cast<double>(over_time.value(element));
   return fmt::format(",{:.7g},{:.12g},{}", value == 0.0 ? 0.0 : value, motion.time()[instant],
                      quoted(place_text(r, element, over_time.place(element), motion.still().to_scene.length)));
 }
 
-std::vector<float> times_of(const LargestOverTime& over_time, const MotionReader& motion) {
+std::vector<float> times_of(const ExtremeOverTime& over_time, const MotionReader& motion) {
   std::vector<float> times;
-  for (int i = 0; i < static_cast<int>(over_time.values().size()); ++i)
+  for (int i = 0; i < over_time.items(); ++i)
     times.push_back(over_time.instant(i) < 0 ? 0.0f : static_cast<float>(motion.time()[over_time.instant(i)]));
   return times;
 }
 
 /// Places as VTU files have them: faces of shells and ends of beams 1 and 2, nodes of solids from 1; 0: none.
-std::vector<float> places_of(const Recovery& r, const LargestOverTime& over_time) {
+std::vector<float> places_of(const Recovery& r, const ExtremeOverTime& over_time) {
   std::vector<float> places;
   for (int e = 0; e < r.elements.count(); ++e) {
     const int place = over_time.place(e), end = place % 2 == 1 ? 1 : 2;
@@ -68,17 +67,12 @@ std::vector<float> places_of(const Recovery& r, const LargestOverTime& over_time
   return places;
 }
 
-std::vector<float> negated(std::vector<float> values) {
-  for (float& value : values) value = value == 0.0f ? 0.0f : -value;
-  return values;
-}
-
-/// The largest over the points of each node, with the sign; nodes without points: 0.
-std::vector<float> on_nodes(const Recovery& r, const LargestOverTime& points, float sign) {
-  LargestOverTime nodes(r.nodes());
+/// The extreme over the points of each node; nodes without points: 0.
+std::vector<float> on_nodes(const Recovery& r, const ExtremeOverTime& points) {
+  ExtremeOverTime nodes(points.kind(), r.nodes());
   for (int p = 0; p < r.stress_points(); ++p)
-    if (points.instant(p) >= 0) nodes.raise(r.stress_node[p], {points.value(p), 0}, points.instant(p));
-  return sign < 0.0f ? negated(nodes.values()) : nodes.values();
+    if (points.instant(p) >= 0) nodes.take(r.stress_node[p], {points.value(p), 0}, points.instant(p));
+  return nodes.values();
 }
 
 }  // namespace
@@ -109,9 +103,8 @@ void write_envelope_csv(const std::string& path, const Recovery& r, const Motion
     text +=
         fmt::format("{},{},{},{:.9g},{:.9g},{:.9g}", r.elements.id[element],
                     quoted(r.group_name[r.elements.group[element]]), kind_of(r, e), middle.x(), middle.y(), middle.z());
-    text += cells_of(r, e, envelope.element.von_mises, 1.0, motion) +
-            cells_of(r, e, envelope.element.largest, 1.0, motion) +
-            cells_of(r, e, envelope.element.negated_smallest, -1.0, motion) + '\n';
+    text += cells_of(r, e, envelope.element.von_mises, motion) + cells_of(r, e, envelope.element.largest, motion) +
+            cells_of(r, e, envelope.element.smallest, motion) + '\n';
     if (text.size() < flush_bytes) continue;
     file.write(text);
     text.clear();
@@ -127,19 +120,19 @@ void write_envelope_vtu(const std::string& path, const Recovery& r, const Motion
   std::vector<VtuArray> points{{"displacement", 1, envelope.displacement.values()},
                                {"displacement_time", 1, times_of(envelope.displacement, motion)}};
   if (r.stress_points() > 0) {
-    points.push_back({"solid_von_mises", 1, on_nodes(r, envelope.point.von_mises, 1.0f)});
-    points.push_back({"solid_largest_principal", 1, on_nodes(r, envelope.point.largest, 1.0f)});
-    points.push_back({"solid_smallest_principal", 1, on_nodes(r, envelope.point.negated_smallest, -1.0f)});
+    points.push_back({"solid_von_mises", 1, on_nodes(r, envelope.point.von_mises)});
+    points.push_back({"solid_largest_principal", 1, on_nodes(r, envelope.point.largest)});
+    points.push_back({"solid_smallest_principal", 1, on_nodes(r, envelope.point.smallest)});
   }
   std::vector<VtuArray> on_cells;
-  const auto add = [&](const std::string& name, const LargestOverTime& over_time, float sign) {
-    on_cells.push_back({name, 1, sign < 0.0f ? negated(over_time.values()) : over_time.values()});
+  const auto add = [&](const std::string& name, const ExtremeOverTime& over_time) {
+    on_cells.push_back({name, 1, over_time.values()});
     on_cells.push_back({name + "_time", 1, times_of(over_time, motion)});
     on_cells.push_back({name + "_place", 1, places_of(r, over_time)});
   };
-  add("von_mises", envelope.element.von_mises, 1.0f);
-  add("largest_principal", envelope.element.largest, 1.0f);
-  add("smallest_principal", envelope.element.negated_smallest, -1.0f);
+  add("von_mises", envelope.element.von_mises);
+  add("largest_principal", envelope.element.largest);
+  add("smallest_principal", envelope.element.smallest);
   on_cells.push_back({"group", 1, {r.elements.group.begin(), r.elements.group.end()}});
   formats::write_vtu(path, X, cells, points, on_cells);
 }

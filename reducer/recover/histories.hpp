@@ -23,7 +23,7 @@ class HistoryTable {
  public:
   virtual ~HistoryTable() = default;
   virtual std::string header() const = 0;
-  virtual void begin(Eigen::Index instants) = 0;
+  virtual void begin(Eigen::Index /*instants*/) {}
   virtual void take(const FieldBlock& block) = 0;
   /// ",1,2,3" of an instant of the batch.
   virtual std::string cells(const BodyMotion& motion, Eigen::Index instant) const = 0;

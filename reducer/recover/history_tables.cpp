@@ -84,7 +84,7 @@ void NodeTable::take(const FieldBlock& block) {
   for (KeptItems* kept : {&translation_, &beam_, &shell_, &solid_}) kept->take(block);
 }
 
-double NodeTable::stress_at(const Around& around, const BodyMotion& motion, Index t) const {
+float NodeTable::stress_at(const Around& around, const BodyMotion& motion, Index t) const {
   float stress = 0.0f;
   for (const int beam : around.beams)
     stress = std::max(
@@ -105,8 +105,8 @@ std::string NodeTable::cells(const BodyMotion& motion, Index t) const {
     const Eigen::Matrix3Xd place = motion.to_scene.length * motion.mirror.cwiseProduct(recovery_.position.col(node));
     const Eigen::Vector3d u = axes * translation_.of(node).col(t).head<3>().cast<double>();
     const Eigen::Vector3d x = rest_positions(place, motion, frame_, t).col(0) + u;
-    text += comma_cells(u) + fmt::format(",{:.12g},{:.12g},{:.12g},{:.9g}", x.x(), x.y(), x.z(),
-                                         static_cast<float>(stress_at(around_[k], motion, t)));
+    text += comma_cells(u) +
+            fmt::format(",{:.12g},{:.12g},{:.12g},{:.9g}", x.x(), x.y(), x.z(), stress_at(around_[k], motion, t));
   }
   return text;
 }
@@ -186,11 +186,11 @@ std::string StressTable::solid_cells(int element, Index t) const {
   StressEnvelope worst(1);
   for (const int point : points) {
     const Eigen::Matrix<float, 6, 1> s = six_of(solid_.of(point), t);
-    worst.raise(0, solid_measures(s), 0);
+    worst.take(0, solid_measures(s), 0);
     mean += s / static_cast<float>(points.size());
   }
   return fmt::format(",{:.9g},{:.9g},{:.9g}", worst.von_mises.value(0), worst.largest.value(0),
-                     -worst.negated_smallest.value(0)) +
+                     worst.smallest.value(0)) +
          comma_cells(mean);
 }
 

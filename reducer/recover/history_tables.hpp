@@ -37,7 +37,6 @@ class NodeTable : public HistoryTable {
   NodeTable(const formats::Recovery& recovery, const BodyMotion& still, RecoverFrame frame,
             std::vector<ChosenItem> nodes);
   std::string header() const override;
-  void begin(Eigen::Index /*instants*/) override {}
   void take(const FieldBlock& block) override;
   std::string cells(const BodyMotion& motion, Eigen::Index instant) const override;
 
@@ -45,7 +44,7 @@ class NodeTable : public HistoryTable {
   struct Around {
     std::vector<int> beams, shells, points;
   };
-  double stress_at(const Around& around, const BodyMotion& motion, Eigen::Index instant) const;
+  float stress_at(const Around& around, const BodyMotion& motion, Eigen::Index instant) const;
 
   const formats::Recovery& recovery_;
   const BodyMotion& still_;
@@ -63,7 +62,6 @@ class StressTable : public HistoryTable {
  public:
   StressTable(const formats::Recovery& recovery, const BodyMotion& still, std::vector<ChosenItem> elements);
   std::string header() const override;
-  void begin(Eigen::Index /*instants*/) override {}
   void take(const FieldBlock& block) override;
   std::string cells(const BodyMotion& motion, Eigen::Index instant) const override;
 

@@ -71,7 +71,7 @@ NormalStresses normal_stresses(const formats::RecoverySection& section, const Ve
   if (moments.determinant() > 0.0) slope = moments.inverse() * Vector2d(-Mz, My);
   const Vector2d centroid(section.centroid_y, section.centroid_z);
   found.largest = found.smallest = force[0] / section.area;
-  for (int k = 0; k < static_cast<int>(section.outline.size()); ++k) {
+  for (int k = 0; k < std::ssize(section.outline); ++k) {
     const double stress = force[0] / section.area + slope.dot(section.outline[k] - centroid);
     if (k == 0 || stress > found.largest) found.largest = stress, found.largest_corner = k;
     if (k == 0 || stress < found.smallest) found.smallest = stress, found.smallest_corner = k;
@@ -87,7 +87,7 @@ Measures beam_measures(const formats::Recovery& r, int beam, const Eigen::Matrix
     const NormalStresses s = normal_stresses(r.sections[section], at_end);
     const Placed largest{static_cast<float>(factor * s.largest), 2 * s.largest_corner + end},
         smallest{static_cast<float>(factor * s.smallest), 2 * s.smallest_corner + end};
-    extend_measures(largest.value, largest, smallest, end == 1, measures);
+    extend_measures(static_cast<double>(largest.value), largest, smallest, end == 1, measures);
     if (-smallest.value > measures.von_mises.value) measures.von_mises = {-smallest.value, smallest.place};
   }
   return measures;

@@ -20,7 +20,8 @@ using formats::ResultsLayout;
 constexpr double batch_doubles = 4e6;  // of a dataset of the results
 constexpr Index largest_batch = 256;   // of instants: fields of the file are read once for each batch
 
-BodyRow find_body(const ResultsLayout& layout, const formats::ResultsReader& results, const std::string& body) {
+BodyRow find_body(const formats::ResultsReader& results, const std::string& body) {
+  const ResultsLayout& layout = results.layout();
   std::vector<std::string> names = layout.superelements;
   names.insert(names.end(), layout.modal_bodies.begin(), layout.modal_bodies.end());
   const auto at = [&](std::size_t k) {
@@ -84,9 +85,9 @@ std::string content_id_of(const ResultsLayout& layout, const BodyRow& found) {
 }
 
 /// The stored coordinates of the body, in the units of the scene: those that the file has and the body has not are 0.
-MatrixXd coordinates(const ResultsLayout& layout, const formats::ResultsReader& results, const std::string& dataset,
-                     const BodyRow& found, Index n, const std::vector<std::size_t>& rows) {
-  const std::vector<int>& offset = found.is_modal ? layout.modal_offset : layout.modes_offset;
+MatrixXd coordinates(const formats::ResultsReader& results, const std::string& dataset, const BodyRow& found, Index n,
+                     const std::vector<std::size_t>& rows) {
+  const std::vector<int>& offset = found.is_modal ? results.layout().modal_offset : results.layout().modes_offset;
   const MatrixXd all = results.read_dataset(dataset, rows);
   if (all.cols() == 0)
     throw Error(fmt::format("the coordinates of {} are not stored", found.is_modal ? "modal bodies" : "superelements"),
@@ -104,8 +105,9 @@ MatrixXd coordinates(const ResultsLayout& layout, const formats::ResultsReader& 
 }
 
 /// Motion of the floating frame and its origin, as far as they are stored.
-void add_frame(const ResultsLayout& layout, const formats::ResultsReader& results, const BodyRow& found,
-               const std::vector<std::size_t>& rows, BodyMotion& motion) {
+void add_frame(const formats::ResultsReader& results, const BodyRow& found, const std::vector<std::size_t>& rows,
+               BodyMotion& motion) {
+  const ResultsLayout& layout = results.layout();
   const auto node = std::ranges::find(layout.nodes, found.name) - layout.nodes.begin();
   const Index row = found.is_modal ? node : static_cast<Index>(found.row);
   const std::string group = found.is_modal ? "nodes/" : "superelements/frame_";
@@ -139,7 +141,7 @@ Index batch_of(const ResultsLayout& layout) {
 
 MotionReader::MotionReader(const formats::Recovery& recovery, const formats::ResultsReader& results,
                            const RecoverRequest& request)
-    : recovery_(recovery), results_(results), body_(find_body(results.layout(), results, request.body)) {
+    : recovery_(recovery), results_(results), body_(find_body(results, request.body)) {
   const ResultsLayout& layout = results.layout();
   still_.body = body_.name;
   still_.mirror =
@@ -166,16 +168,15 @@ BodyMotion MotionReader::stored(Index first, Index count) const {
   const std::vector<std::size_t> rows(begin, begin + count);
   BodyMotion motion = still_;
   motion.time.assign(time_.begin() + first, time_.begin() + first + count);
-  const ResultsLayout& layout = results_.layout();
   const Index n = recovery_.coordinates();
-  motion.y = coordinates(layout, results_, body_.is_modal ? "modal_bodies/w" : "superelements/y", body_, n, rows);
-  motion.y_strain = has_strain_ ? coordinates(layout, results_, "superelements/y_strain", body_, n, rows) : motion.y;
+  motion.y = coordinates(results_, body_.is_modal ? "modal_bodies/w" : "superelements/y", body_, n, rows);
+  motion.y_strain = has_strain_ ? coordinates(results_, "superelements/y_strain", body_, n, rows) : motion.y;
   motion.stiffened = formats::stiffened_instants(motion.y, motion.y_strain);
   formats::to_part(recovery_, motion.mirror, motion.to_scene.length, motion.y);
   formats::to_part(recovery_, motion.mirror, motion.to_scene.length, motion.y_strain);
   if (body_.is_modal) motion.y /= std::sqrt(motion.to_scene.mass) * motion.to_scene.length;
   if (body_.is_modal) motion.y_strain = motion.y;
-  add_frame(layout, results_, body_, rows, motion);
+  add_frame(results_, body_, rows, motion);
   if (has_loads_) add_load_factors(recovery_, results_, rows, body_, motion);
   return motion;
 }

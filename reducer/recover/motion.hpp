@@ -55,6 +55,7 @@ class MotionReader {
   const std::vector<double>& time() const { return time_; }
   const BodyMotion& still() const { return still_; }  ///< all that does not depend on time
   const BodyRow& body() const { return body_; }
+  const formats::ResultsReader& results() const { return results_; }
   const std::vector<std::size_t>& rows() const { return rows_; }    ///< of the results
   const std::vector<std::string>& notes() const { return notes_; }  ///< what the user should know, without a full stop
   /// Modes that the body of the scene does not have and its loads move.

@@ -107,15 +107,15 @@ LoadBalance load_balance(const Recovery& r, const NodalLoads& loads) {
   return balance;
 }
 
-void compare_with_run(const formats::ResultsReader& results, const MotionReader& reader, const BodyMotion& motion,
-                      Index instant, Index row, const NodalLoads& loads, LoadBalance& balance) {
+void compare_with_run(const MotionReader& reader, const BodyMotion& motion, Index instant, const NodalLoads& loads,
+                      LoadBalance& balance) {
   if (motion.rotation.cols() == 0 || !motion.rotation.allFinite()) return;
-  const formats::ResultsLayout& layout = results.layout();
+  const formats::ResultsLayout& layout = reader.results().layout();
   if (reader.body().row + 1 >= layout.boundary_offset.size()) return;
   const Index first = layout.boundary_offset[reader.body().row], count = loads.boundary.cols();
-  const MatrixXd stored = results.read_dataset("superelements/boundary_force", {reader.rows()[row]});
+  const MatrixXd stored = reader.results().read_dataset("superelements/boundary_force", {reader.rows()[instant]});
   if (stored.cols() < 6 * (first + count) || !stored.allFinite()) return;
-  const Eigen::Matrix3d R = frame_axes(motion, RecoverFrame::world, instant);
+  const Eigen::Matrix3d R = frame_axes(motion, RecoverFrame::world, 0);
   balance.compared = true;
   for (Index k = 0; k < count; ++k) {
     const Vector3d world = stored.row(0).segment<3>(6 * (first + k)).transpose();

@@ -39,9 +39,9 @@ struct LoadBalance {
 
 LoadBalance load_balance(const formats::Recovery& recovery, const NodalLoads& loads);
 
-/// Compares forces (no moments) with /superelements/boundary_force of the run. Leaves `compared` false where the
-/// results lack them.
-void compare_with_run(const formats::ResultsReader& results, const MotionReader& reader, const BodyMotion& motion,
-                      Eigen::Index instant, Eigen::Index row, const NodalLoads& loads, LoadBalance& balance);
+/// Compares forces (no moments) with /superelements/boundary_force of the run. `motion`: instant number `instant` of
+/// `reader` alone. Leaves `compared` false where the results lack them.
+void compare_with_run(const MotionReader& reader, const BodyMotion& motion, Eigen::Index instant,
+                      const NodalLoads& loads, LoadBalance& balance);
 
 }  // namespace tisserand::reducer

@@ -40,7 +40,7 @@ Eigen::Vector3d element_middle(const formats::Recovery& r, int element) {
 
 SolidPoints solid_points(const formats::Recovery& r) {
   std::vector<int> order(r.stress_node.size());
-  for (std::size_t p = 0; p < order.size(); ++p) order[p] = static_cast<int>(p);
+  for (int p = 0; p < std::ssize(order); ++p) order[p] = p;
   const auto key = [&r](int p) { return std::pair(r.stress_node[p], r.stress_group[p]); };
   std::sort(order.begin(), order.end(), [&key](int a, int b) { return key(a) < key(b); });
   SolidPoints points;

@@ -21,7 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Index;
 using formats::Recovery;
-using formats::VtuArray;
 using formats::VtuCells;
 
 constexpr double batch_bytes = 256e6;
@@ -30,7 +29,6 @@ constexpr double batch_bytes = 256e6;
 struct Files {
   fs::path folder;
   std::string stem;
-  std::vector<std::pair<double, std::string>> series;
 
   std::string path(const std::string& name) const { return (folder / name).string(); }
 };
@@ -57,19 +55,6 @@ Labels labels_of(const Units& units) {
   return {unit_label(units, 1, 0, 0), unit_label(units, 0, 0, 1), unit_label(units, -1, 1, -2)};
 }
 
-/// "largest ...   12 Pa at 0.1 s at " of the item of an envelope that is largest within [first, end), and where; empty
-/// without one.
-template <class Place>
-std::string peak_line(const char* what, const LargestOverTime& over_time, double sign, int first, int end,
-                      const std::string& unit, const MotionReader& motion, const Place& place) {
-  const int at = over_time.largest(first, end);
-  if (at < 0) return "";
-  const double value = sign * static_cast<double>(over_time.value(at));
-  const double time = motion.time()[over_time.instant(at)];
-  return fmt::format("{:<29}{:.6g}{} at {:.6g}{} at {}\n", what, value, after_number(unit), time,
-                     after_number(labels_of(motion.still().scene_units).time), place(at));
-}
-
 /// "shell 17 of 'skin' (0.025, 0, 0)": the middle of an element of the undeformed body, part frame, units of the scene.
 std::string element_place(const Recovery& r, const BodyMotion& still, int element) {
   const Eigen::Vector3d middle = still.to_scene.length * still.mirror.cwiseProduct(element_middle(r, element));
@@ -91,28 +76,36 @@ std::string left_out_line(const Recovery& r, const LeftOutStress& stress, const 
       "stress left out by modes", stress.added, after, answered_loads(r), stress.remaining, after);
 }
 
-/// The largest of everything over time.
+/// The largest of everything over time: "largest ...   12 Pa at 0.1 s at tip (0.3, 0, 0)".
 std::string peaks_text(const Recovery& r, const MotionReader& motion, const Envelope& envelope) {
   const Labels labels = labels_of(motion.still().scene_units);
   const int beams = r.beams(), shells = beams + r.shells(), all = r.elements.count();
+  const StressEnvelope &of = envelope.element, &points = envelope.point;
   const auto node = [&](int n) { return node_place(r, motion.still(), n); };
   const auto element = [&](int e) { return element_place(r, motion.still(), e); };
   const auto point = [&](int p) { return node(r.stress_node[p]); };
-  const auto placed = [&](const LargestOverTime& over_time) {
+  const auto placed = [&](const ExtremeOverTime& over_time) {
     return [&](int e) {
       return element(e) + ", " +
              printable_line(place_text(r, e, over_time.place(e), motion.still().to_scene.length), 60);
     };
   };
-  const StressEnvelope& of = envelope.element;
-  return peak_line("largest displacement", envelope.displacement, 1.0, 0, r.nodes(), labels.length, motion, node) +
-         peak_line("largest stress of beams", of.von_mises, 1.0, 0, beams, labels.stress, motion, element) +
-         peak_line("largest von Mises of shells", of.von_mises, 1.0, beams, shells, labels.stress, motion, element) +
-         peak_line("largest von Mises of solids", envelope.point.von_mises, 1.0, 0, r.stress_points(), labels.stress,
-                   motion, point) +
-         peak_line("largest principal stress", of.largest, 1.0, 0, all, labels.stress, motion, placed(of.largest)) +
-         peak_line("smallest principal stress", of.negated_smallest, -1.0, 0, all, labels.stress, motion,
-                   placed(of.negated_smallest));
+  std::string text;
+  const auto add = [&](const char* what, const ExtremeOverTime& over_time, int at, const auto& place,
+                       const std::string& unit) {
+    if (at < 0) return;
+    const auto value = static_cast<double>(over_time.value(at));
+    text += fmt::format("{:<29}{:.6g}{} at {:.6g}{} at {}\n", what, value, after_number(unit),
+                        motion.time()[over_time.instant(at)], after_number(labels.time), place(at));
+  };
+  add("largest displacement", envelope.displacement, envelope.displacement.extreme(0, r.nodes()), node, labels.length);
+  add("largest stress of beams", of.von_mises, of.von_mises.extreme(0, beams), element, labels.stress);
+  add("largest von Mises of shells", of.von_mises, of.von_mises.extreme(beams, shells), element, labels.stress);
+  add("largest von Mises of solids", points.von_mises, points.von_mises.extreme(0, r.stress_points()), point,
+      labels.stress);
+  add("largest principal stress", of.largest, of.largest.extreme(0, all), placed(of.largest), labels.stress);
+  add("smallest principal stress", of.smallest, of.smallest.extreme(0, all), placed(of.smallest), labels.stress);
+  return text;
 }
 
 std::string written_text(std::vector<std::string> paths, const RecoverRequest& request) {
@@ -122,19 +115,28 @@ std::string written_text(std::vector<std::string> paths, const RecoverRequest& r
   return text;
 }
 
-/// Whole fields of a batch, an instant after the other.
-void write_series(const Recovery& r, const RecoveredFields& fields, const BodyMotion& motion, Index first,
-                  const RecoverRequest& request, const VtuCells& cells, const SolidPoints& points, Files& files) {
-  const Eigen::Matrix3Xd places = motion.to_scene.length * (motion.mirror.asDiagonal() * r.position);
-  for (Index t = 0; t < motion.instants(); ++t) {
-    const InstantValues values = instant_values(r, points, fields, t);
-    const Eigen::Matrix3Xd rest = rest_positions(places, motion, request.frame, t);
-    const Eigen::Matrix3d axes = frame_axes(motion, request.frame, t);
-    files.series.emplace_back(motion.time[t], fmt::format("{}_{:05}.vtu", files.stem, first + t));
-    formats::write_vtu(files.path(files.series.back().second), rest.cast<float>(), cells,
-                       vtu_point_data(r, fields, values, axes, t), vtu_cell_data(r, fields, values, t));
+/// Whole fields on the mesh, a file for each instant.
+struct Series {
+  const Recovery& r;
+  const VtuCells& cells;
+  const SolidPoints& points;
+  RecoverFrame frame;
+  const Files& files;
+  std::vector<std::pair<double, std::string>> written = {};
+
+  /// A batch of instants, the first of which is number `first`.
+  void add(const RecoveredFields& fields, const BodyMotion& motion, Index first) {
+    const Eigen::Matrix3Xd places = motion.to_scene.length * (motion.mirror.asDiagonal() * r.position);
+    for (Index t = 0; t < motion.instants(); ++t) {
+      const InstantValues values = instant_values(r, points, fields, t);
+      const Eigen::Matrix3Xd rest = rest_positions(places, motion, frame, t);
+      const Eigen::Matrix3d axes = frame_axes(motion, frame, t);
+      written.emplace_back(motion.time[t], fmt::format("{}_{:05}.vtu", files.stem, first + t));
+      formats::write_vtu(files.path(written.back().second), rest.cast<float>(), cells,
+                         vtu_point_data(r, fields, values, axes, t), vtu_cell_data(r, fields, values, t));
+    }
   }
-}
+};
 
 /// Instants of a batch: whole fields are held of a series only.
 Index batch_of(const Recovery& r, const MotionReader& motion, const RecoverRequest& request) {
@@ -164,9 +166,8 @@ void require_some_load(const LoadInstant& instant, const MotionReader& motion) {
 }
 
 /// Load cases of all chosen instants. What is said of them, and the files.
-std::string write_loads(const formats::RecoveryReader& file, const formats::ResultsReader& results,
-                        const MotionReader& motion, const RecoverRequest& request, const Files& files,
-                        std::vector<std::string>& written) {
+std::string write_loads(const formats::RecoveryReader& file, const MotionReader& motion, const RecoverRequest& request,
+                        const Files& files, std::vector<std::string>& written) {
   if (request.loads.empty()) return "";
   const Recovery& r = file.recovery();
   const NodeNumbers numbers = node_numbers(r);
@@ -181,7 +182,7 @@ std::string write_loads(const formats::RecoveryReader& file, const formats::Resu
     const BodyMotion now = motion.read(k, 1);
     LoadInstant instant{now.time[0], nodal_loads(file, now, 0), {}};
     instant.balance = load_balance(r, instant.loads);
-    compare_with_run(results, motion, now, 0, k, instant.loads, instant.balance);
+    compare_with_run(motion, now, k, instant.loads, instant.balance);
     require_some_load(instant, motion);
     for (const auto& output : outputs) output->add(instant);
     text += balance_text(r, instant, motion.still());
@@ -200,10 +201,11 @@ std::string recover(const RecoverRequest& request) {
   if (!request.loads.empty()) require_nodal_loads(file, motion);
   if (!request.loads.empty()) require_few_load_cases(motion);
   ChosenHistories chosen = chosen_histories(r, motion.still(), request);
-  Files files = make_folder(request, motion.body().name);
+  const Files files = make_folder(request, motion.body().name);
   Histories histories(std::move(chosen), motion.still(), files.path(files.stem));
   const VtuCells cells = formats::vtu_cells(r.elements);
   const SolidPoints points = solid_points(r);
+  Series series{r, cells, points, request.frame, files};
   Envelope envelope(r);
   const Index batch = batch_of(r, motion, request);
   for (Index first = 0; first < motion.instants(); first += batch) {
@@ -216,20 +218,20 @@ std::string recover(const RecoverRequest& request) {
     if (request.envelope_only)
       for_field_blocks(file, now, take);
     else
-      write_series(r, recover_fields(file, now, take), now, first, request, cells, points, files);
+      series.add(recover_fields(file, now, take), now, first);
     histories.end(now);
   }
   envelope.finish(points);
   std::vector<std::string> written;
   const auto add = [&](const std::string& ending) { return written.emplace_back(files.path(files.stem + ending)); };
-  if (!request.envelope_only) formats::write_pvd(add(".pvd"), files.series);
+  if (!request.envelope_only) formats::write_pvd(add(".pvd"), series.written);
   write_envelope_vtu(add("_envelope.vtu"), r, motion, cells, envelope);
   write_envelope_csv(add("_envelope.csv"), r, motion, envelope);
   for (const std::string& path : histories.publish()) written.push_back(path);
   std::string text = fmt::format("body '{}', {} instants\n", motion.body().name, motion.instants());
   text += "displacements count from the floating frame of the body\n" + peaks_text(r, motion, envelope);
   text += left_out_line(r, left_out_stress(file, motion), motion.still());
-  text += write_loads(file, results, motion, request, files, written);
+  text += write_loads(file, motion, request, files, written);
   for (const std::string& note : motion.notes()) text += fmt::format("{:<29}{}\n", "note", note);
   return text + written_text(written, request);
 }

@@ -15,14 +15,6 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double block_doubles = 4e6;  // of the values of a block
 
-/// scale · (field · y + answers to loads · factor) of some items; no columns of factors: no loads.
-MatrixXf product(const formats::RecoveryReader& file, RecoveryField field, int first, int count, const MatrixXd& y,
-                 const MatrixXd& factor, double scale) {
-  MatrixXd values = scale * (file.read(field, first, count).cast<double>() * y);
-  if (factor.cols() > 0) values.noalias() += scale * (file.read_loads(field, first, count).cast<double>() * factor);
-  return values.cast<float>();
-}
-
 /// Of the image: vectors and axes of tensors follow `mirror`, so that xy turns its sign with x or y.
 void mirror_vectors(const Vector3d& mirror, MatrixXf& vectors) {
   for (Index i = 0; i < vectors.rows(); ++i)
@@ -100,8 +92,10 @@ void for_field_blocks(const formats::RecoveryReader& file, const BodyMotion& mot
     const int block = chunk * static_cast<int>(std::max(block_doubles / per_chunk, 1.0));
     for (int first = 0; first < items; first += block) {
       const int count = std::min(block, items - first);
-      FieldBlock out{field, first, count,
-                     product(file, field, first, count, moves ? motion.y : motion.y_strain, motion.load_factor, scale)};
+      MatrixXd values = scale * (file.read(field, first, count).cast<double>() * (moves ? motion.y : motion.y_strain));
+      if (motion.load_factor.cols() > 0)
+        values.noalias() += scale * (file.read_loads(field, first, count).cast<double>() * motion.load_factor);
+      FieldBlock out{field, first, count, values.cast<float>()};
       if (moves && motion.second_order.rows() > 0)
         out.values +=
             (scale * (file.read_second_order(field, first, count).cast<double>() * motion.second_order)).cast<float>();

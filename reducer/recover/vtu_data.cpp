@@ -1,6 +1,8 @@
 // Values on all cells and points, zero where a kind has none.
 #include "reducer/recover/vtu_data.hpp"
 
+#include <utility>
+
 namespace tisserand::reducer {
 
 using Eigen::Index;
@@ -9,38 +11,42 @@ using formats::VtuArray;
 
 namespace {
 
-/// Rows [from, from + width) of every `stride` rows, one set per element of a kind, on all cells: zero for others.
-VtuArray on_cells(const std::string& name, const Eigen::MatrixXf& all, Index instant, int stride, int from, int width,
-                  int first_cell, int cells) {
-  VtuArray array{name, width, std::vector<float>(static_cast<std::size_t>(cells) * static_cast<std::size_t>(width))};
-  for (Index item = 0; item < all.rows() / stride; ++item)
-    for (Index k = 0; k < width; ++k)
-      array.values[(first_cell + item) * width + k] = all(item * stride + from + k, instant);
-  return array;
-}
+/// Values of one kind of elements, whose cells follow one another.
+struct KindField {
+  const Eigen::MatrixXf& all;  ///< rows per element x instants
+  int rows = 0;
+  int first_cell = 0;
+};
 
 }  // namespace
 
 std::vector<VtuArray> vtu_cell_data(const Recovery& r, const RecoveredFields& fields, const InstantValues& values,
                                     Index instant) {
-  const int cells = r.elements.count();
+  const auto cells = static_cast<std::size_t>(r.elements.count());
   VtuArray group{"group", 1, {r.elements.group.begin(), r.elements.group.end()}};
   std::vector<VtuArray> data{{"von_mises", 1, values.von_mises}, group};
-  const auto add = [&](const char* name, const Eigen::MatrixXf& all, int stride, int from, int width, int first_cell) {
-    data.push_back(on_cells(name, all, instant, stride, from, width, first_cell, cells));
+  /// Rows [from, from + width) of each element; zero for other kinds.
+  const auto add = [&](const char* name, const KindField& field, int from, int width) {
+    VtuArray array{name, width, std::vector<float>(cells * static_cast<std::size_t>(width))};
+    for (Index item = 0; item < field.all.rows() / field.rows; ++item)
+      for (Index k = 0; k < width; ++k)
+        array.values[(field.first_cell + item) * width + k] = field.all(item * field.rows + from + k, instant);
+    data.push_back(std::move(array));
   };
   if (r.shells() > 0) {
-    add("von_mises_top", fields.shell_von_mises, 2, 0, 1, r.beams());
-    add("von_mises_bottom", fields.shell_von_mises, 2, 1, 1, r.beams());
-    add("shell_membrane", fields.shell_stress, 6, 0, 3, r.beams());
-    add("shell_bending", fields.shell_stress, 6, 3, 3, r.beams());
+    const KindField von_mises{fields.shell_von_mises, 2, r.beams()}, stress{fields.shell_stress, 6, r.beams()};
+    add("von_mises_top", von_mises, 0, 1);
+    add("von_mises_bottom", von_mises, 1, 1);
+    add("shell_membrane", stress, 0, 3);
+    add("shell_bending", stress, 3, 3);
   }
   if (r.beams() > 0) {
-    add("beam_stress", fields.beam_stress, 1, 0, 1, 0);
-    add("beam_force_1", fields.beam_force, 12, 0, 3, 0);
-    add("beam_moment_1", fields.beam_force, 12, 3, 3, 0);
-    add("beam_force_2", fields.beam_force, 12, 6, 3, 0);
-    add("beam_moment_2", fields.beam_force, 12, 9, 3, 0);
+    const KindField force{fields.beam_force, 12, 0};
+    add("beam_stress", {fields.beam_stress, 1, 0}, 0, 1);
+    add("beam_force_1", force, 0, 3);
+    add("beam_moment_1", force, 3, 3);
+    add("beam_force_2", force, 6, 3);
+    add("beam_moment_2", force, 9, 3);
   }
   return data;
 }

@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/error.hpp"
+#include "common/output_path.hpp"
 #include "common/text.hpp"
 #include "reducer/mesh/coordinates.hpp"
 #include "reducer/modes/spectrum.hpp"
@@ -146,10 +147,7 @@ FileCertificate certify(const formats::Superelement& element, const formats::Sup
 }
 
 std::string certificate_path(const std::string& superelement_path) {
-  const std::string end = ".h5";
-  const std::size_t n = superelement_path.size();
-  const bool has_end = n > end.size() && superelement_path.compare(n - end.size(), end.size(), end) == 0;
-  return (has_end ? superelement_path.substr(0, n - end.size()) : superelement_path) + ".certificate.json";
+  return without_ending(superelement_path, {".h5"}) + ".certificate.json";
 }
 
 }  // namespace tisserand::reducer

@@ -72,11 +72,11 @@ void warn_of_unknown(const formats::Part& part, const MeshErrors& errors, ModelC
       modes[doubt].push_back(fmt::format("{:.4g}", frequency(errors.lambda[k])));
   }
   for (const auto& [doubt, list] : modes)
-    c.warnings.push_back(fmt::format("the error of the mesh of the {} {} {} is unknown and may exceed {:.3g} %: {}; "
-                                     "{}",
-                                     errors.boundary_held ? "fixed" : "free",
-                                     list.size() > 1 ? "frequencies" : "frequency", listed(list), 100.0 * limit,
-                                     explain(doubt), remedy_for(part, doubt == MeshDoubt::free_faces ? 2 : 1)));
+    c.warnings.push_back(fmt::format(
+        "the error of the mesh of the {} {} {} is unknown and may exceed {:.3g} %: {}; "
+        "{}",
+        errors.boundary_held ? "fixed" : "free", list.size() > 1 ? "frequencies" : "frequency", listed(list),
+        100.0 * limit, explain(doubt), remedy_for(part, doubt == MeshDoubt::free_faces ? 2 : 1)));
 }
 
 /// One warning, of the worst mode among those that matter.
@@ -105,13 +105,13 @@ void warn_of_mesh(const formats::Part& part, const MeshErrors& errors, ModelCert
 void describe_mesh_errors(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c) {
   const auto list = [](const auto& values) { return std::vector<double>(values.begin(), values.end()); };
   const Eigen::RowVectorXd beam = errors.by_kind.row(0), shell = errors.by_kind.row(1), solid = errors.by_kind.row(2);
-  c.mesh_error = {
-      errors.boundary_held, frequencies(errors.lambda), list(errors.relative), list(beam), list(shell), list(solid),
-      errors.place, {}};
+  c.mesh_error = {errors.boundary_held,  frequencies(errors.lambda),
+                  list(errors.relative), list(beam),
+                  list(shell),           list(solid),
+                  errors.place,          {}};
   for (std::size_t k = 0; k < errors.doubts.doubt.size(); ++k) {
     c.mesh_error.unknown.emplace_back(explain(errors.doubts.doubt[k]));
-    if (errors.doubts.doubt[k] != MeshDoubt::none)
-      c.mesh_error.error[k] = std::numeric_limits<double>::quiet_NaN();
+    if (errors.doubts.doubt[k] != MeshDoubt::none) c.mesh_error.error[k] = std::numeric_limits<double>::quiet_NaN();
   }
   warn_of_mesh(part, errors, c);
   warn_of_unknown(part, errors, c);
@@ -121,11 +121,10 @@ void describe_comparison(const formats::ModeSelection& asked, const System& syst
                          const FreeMotions& modes, ModelCertificate& c) {
   if (system.size() > most_compared_coordinates || internal.available == 0) return;
   const int loose = internal.loose();
-  const double scale =
-      internal.lambda.size() > loose ? internal.lambda[loose] : internal.first_dropped.value_or(0.0);
+  const double scale = internal.lambda.size() > loose ? internal.lambda[loose] : internal.first_dropped.value_or(0.0);
   const ModeComparison full = compare_free_modes(
-      system,
-      {.scale = scale, .count = most_compared, .rigid_motions = 6 + loose, .finite = internal.available}, asked, modes.q);
+      system, {.scale = scale, .count = most_compared, .rigid_motions = 6 + loose, .finite = internal.available}, asked,
+      modes.q);
   c.free_frequency = full.frequency;
   if (modes.boundary_held) return;
   for (const auto& row : full.assurance.rowwise()) c.assurance.emplace_back(row.begin(), row.end());
@@ -148,8 +147,8 @@ void describe_mesh(const Mesh& mesh, const System& system, ModelCertificate& c) 
   for (const int x : system.inactive) c.inactive.push_back(coordinate_name(mesh, system, x));
 }
 
-ModelCertificate describe(const formats::Part& part, const BoundaryModes& boundary, const InternalModes& internal,
-                          const ProjectionDefects& defects, const formats::Superelement& element) {
+ModelCertificate describe(const formats::Part& part, const ReducedPart& reduced, const ProjectionDefects& defects) {
+  const InternalModes& internal = reduced.internal;
   ModelCertificate c;
   c.part = part.file;
   c.modes_requested = internal.requested;
@@ -165,7 +164,7 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
   c.mode_residual = internal.solver.residual;
   c.notes = internal.solver.notes;
   c.modes_counted = internal.counted;
-  c.boundary_rigid_defect = boundary.rigid_defect;
+  c.boundary_rigid_defect = reduced.boundary.rigid_defect;
   c.rigid_residual_before_projection = defects.rigid_residual;
   c.stiffness_coupling = defects.stiffness_coupling;
   c.orthonormality = defects.orthonormality;
@@ -176,15 +175,14 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
     c.notes.push_back(
         "MacNeal's mass is that of rigid motions and kept modes: the directions below move without mass, and what they "
         "do in dynamics rests on round-off; method: rubin gives them their mass.");
-  describe_truncation(element, internal, c);
+  describe_truncation(reduced.element, internal, c);
   return c;
 }
 
-void describe_lowest_modes(const formats::Part& part, const InternalProblem& problem, const BoundaryModes& boundary,
-                           const InternalModes& internal, const formats::Superelement& element, ModelCertificate& c) {
-  const FreeMotions modes = free_motions(problem, boundary, internal, element, most_compared);
-  describe_comparison(part.modes, problem.system, internal, modes, c);
-  describe_mesh_errors(part, mesh_errors(problem.mesh, problem.system, modes, most_on_mesh), c);
+void describe_lowest_modes(const formats::Part& part, const ReducedPart& reduced, ModelCertificate& c) {
+  const FreeMotions modes = free_motions(reduced, most_compared);
+  describe_comparison(part.modes, reduced.system, reduced.internal, modes, c);
+  describe_mesh_errors(part, mesh_errors(reduced.mesh, reduced.system, modes, most_on_mesh), c);
 }
 
 Doubts check_elements(const Mesh& mesh, const formats::Part& part) {

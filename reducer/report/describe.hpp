@@ -5,17 +5,14 @@
 #include <vector>
 
 #include "formats/part/part.hpp"
-#include "reducer/modes/boundary_modes.hpp"
-#include "reducer/modes/internal_modes.hpp"
 #include "reducer/modes/project.hpp"
 #include "reducer/report/certificate.hpp"
 
 namespace tisserand::reducer {
 
 /// Modes asked for and kept, defects before they were removed, what the dropped modes can change of the free
-/// frequencies of `element`.
-ModelCertificate describe(const formats::Part& part, const BoundaryModes& boundary, const InternalModes& internal,
-                          const ProjectionDefects& defects, const formats::Superelement& element);
+/// frequencies of the superelement.
+ModelCertificate describe(const formats::Part& part, const ReducedPart& reduced, const ProjectionDefects& defects);
 
 /// Counts of nodes, elements and ties.
 void describe_mesh(const Mesh& mesh, const System& system, ModelCertificate& c);
@@ -23,8 +20,7 @@ void describe_mesh(const Mesh& mesh, const System& system, ModelCertificate& c);
 /// The lowest modes of the reduced part: beside those of the full model for parts that are small enough to compute them
 /// as well (up to 6000 coordinates, where that takes no longer than the rest), and the errors of the mesh with a
 /// warning where one exceeds the accuracy asked for, or 5 % if none is.
-void describe_lowest_modes(const formats::Part& part, const InternalProblem& problem, const BoundaryModes& boundary,
-                           const InternalModes& internal, const formats::Superelement& element, ModelCertificate& c);
+void describe_lowest_modes(const formats::Part& part, const ReducedPart& reduced, ModelCertificate& c);
 
 /// What is doubtful about the mesh; `numbers`: of the plausibility of its numbers alone.
 struct Doubts {

@@ -77,10 +77,6 @@ std::string time_text(double operations) {
   return seconds < told ? "" : fmt::format(", about {:.0f} s", seconds);
 }
 
-}  // namespace
-
-namespace {
-
 constexpr double number = 8.0;  ///< bytes
 
 /// Vectors that the search for `modes` pairs holds: its basis, and a block of solutions with what they need.

@@ -33,7 +33,7 @@ constexpr int batch_rows = 1024;  ///< stresses of a batch of elements, about; a
 constexpr int largest_batch = 64;
 
 constexpr double told_left_out = 0.01;  ///< of second-order displacement
-constexpr double large_file = 20e6;  ///< bytes of a companion that is not written unasked
+constexpr double large_file = 20e6;     ///< bytes of a companion that is not written unasked
 
 /// Bytes of the arrays before compression, for n coordinates.
 double companion_bytes(Index coordinates) {
@@ -42,14 +42,14 @@ double companion_bytes(Index coordinates) {
 }
 
 /// Values of all q for the reduced coordinates: those of the boundary are coordinates themselves.
-MatrixXd reduced_displacements(const InternalProblem& problem, const BoundaryModes& boundary,
-                               const InternalModes& internal) {
-  const Partition& p = problem.partition;
-  MatrixXd Phi = MatrixXd::Zero(problem.system.size(), p.n_B() + internal.lambda.size());
+MatrixXd reduced_displacements(const ReducedPart& part) {
+  const Partition& p = part.partition;
+  const Index m = part.internal.lambda.size();
+  MatrixXd Phi = MatrixXd::Zero(part.system.size(), p.n_B() + m);
   for (Index b = 0; b < p.n_B(); ++b) Phi(p.boundary[b], b) = 1.0;
   for (Index i = 0; i < p.n_I(); ++i) {
-    Phi.row(p.internal[i]).head(p.n_B()) = boundary.Psi.row(i);
-    Phi.row(p.internal[i]).tail(internal.lambda.size()) = internal.Phi.row(i);
+    Phi.row(p.internal[i]).head(p.n_B()) = part.boundary.Psi.row(i);
+    Phi.row(p.internal[i]).tail(m) = part.internal.Phi.row(i);
   }
   return Phi;
 }
@@ -156,13 +156,12 @@ MatrixXd all_loads(const Mesh& mesh, const LoadVectors& cases, const MatrixXd& i
 }
 
 /// Φᵀ f of the load cases, by name.
-std::vector<formats::LoadCase> reduced_cases(const InternalProblem& problem, const BoundaryModes& boundary,
-                                             const InternalModes& internal, const LoadVectors& cases) {
-  const MatrixXd f_B = rows(cases.q, problem.partition.boundary), f_I = rows(cases.q, problem.partition.internal);
-  MatrixXd force(f_B.rows() + internal.lambda.size(), f_B.cols());
-  force << f_B + boundary.Psi.transpose() * f_I, internal.Phi.transpose() * f_I;
+std::vector<formats::LoadCase> reduced_cases(const ReducedPart& part, const LoadVectors& cases) {
+  const MatrixXd f_B = rows(cases.q, part.partition.boundary), f_I = rows(cases.q, part.partition.internal);
+  MatrixXd force(f_B.rows() + part.internal.lambda.size(), f_B.cols());
+  force << f_B + part.boundary.Psi.transpose() * f_I, part.internal.Phi.transpose() * f_I;
   std::vector<formats::LoadCase> reduced;
-  for (Index c = 0; c < force.cols(); ++c) reduced.push_back({problem.mesh.load_cases[c].name, force.col(c), {}});
+  for (Index c = 0; c < force.cols(); ++c) reduced.push_back({part.mesh.load_cases[c].name, force.col(c), {}});
   return reduced;
 }
 
@@ -191,6 +190,26 @@ void set_integrals(const formats::Superelement& element, formats::Companion& c) 
 /// One node without internal coordinates moves rigidly; then there is nothing but round-off to write.
 bool deforms(const formats::Superelement& element) {
   return element.node_position.rows() > 1 || std::ranges::any_of(element.dof_node, [](int node) { return node < 0; });
+}
+
+formats::Companion companion_head(const formats::Superelement& element, const Eigen::VectorXd& weights) {
+  formats::Companion c;
+  c.content_id = formats::content_id(element);
+  c.producer = element.producer;
+  c.units = element.units;
+  c.weights = weights;
+  c.reference_point = element.node_position.transpose() * weights;
+  return c;
+}
+
+/// What the rows hold, and what not: nothing is left out where all shapes of deformation are looked at.
+std::string trapped_text(const formats::Companion& companion, int shapes) {
+  const Index all = companion.S1.cols() - 6;
+  return fmt::format(
+      "Membrane stress that bending traps has {} rows in the companion file{}.", companion.Lambda.size(),
+      shapes < all
+          ? fmt::format(", of the {} lowest of {} shapes: what bending in others traps is left out", shapes, all)
+          : "");
 }
 
 }  // namespace
@@ -230,11 +249,11 @@ void describe_companion(const Mesh& mesh, const formats::Part& part, const forma
                     "finite rotations is not known.",
                     listed(names)));
   if (const std::vector<std::string> names = springs_that_do_not_turn(mesh); !names.empty())
-    model.warnings.push_back(
-        fmt::format("The axes of {} stay as they are when the part turns, because nothing defines a rotation of their "
-                    "nodes: at large motion the companion file is wrong there. Tie these nodes to a node with rotations "
-                    "by a rigid spider.",
-                    listed(names)));
+    model.warnings.push_back(fmt::format(
+        "The axes of {} stay as they are when the part turns, because nothing defines a rotation of their "
+        "nodes: at large motion the companion file is wrong there. Tie these nodes to a node with rotations "
+        "by a rigid spider.",
+        listed(names)));
   if (const std::string text = monosymmetry_note(mesh); !text.empty()) model.notes.push_back(text);
   if (mesh.shells.empty() || part.double_curvature > 0) return;
   double thickness = std::numeric_limits<double>::infinity();
@@ -258,113 +277,80 @@ Eigen::VectorXd default_weights(const formats::Superelement& element) {
   return weights;
 }
 
-namespace {
-
-formats::Companion companion_head(const formats::Superelement& element, const Eigen::VectorXd& weights) {
-  formats::Companion c;
-  c.content_id = formats::content_id(element);
-  c.producer = element.producer;
-  c.units = element.units;
-  c.weights = weights;
-  c.reference_point = element.node_position.transpose() * weights;
-  return c;
-}
-
-}  // namespace
-
-formats::Companion make_load_companion(const InternalProblem& problem, const BoundaryModes& boundary,
-                                       const InternalModes& internal, const formats::Superelement& element,
-                                       const Eigen::VectorXd& weights) {
-  formats::Companion c = companion_head(element, weights);
-  c.load_cases = reduced_cases(problem, boundary, internal, load_vectors(problem.mesh, problem.system));
+formats::Companion make_load_companion(const ReducedPart& part, const Eigen::VectorXd& weights) {
+  formats::Companion c = companion_head(part.element, weights);
+  c.load_cases = reduced_cases(part, load_vectors(part.mesh, part.system));
   sort_by_name(c.load_cases);
   return c;
 }
 
-formats::Companion make_companion(const InternalProblem& problem, const BoundaryModes& boundary,
-                                  const InternalModes& internal, const formats::Superelement& element,
-                                  const Eigen::VectorXd& weights, int shapes,
+formats::Companion make_companion(const ReducedPart& part, const Eigen::VectorXd& weights, int shapes,
                                   std::optional<SecondOrderDisplacement>* displacement) {
-  const Mesh& mesh = problem.mesh;
-  const System& system = problem.system;
-  const int threads = core_count(), n = static_cast<int>(element.size());
-  formats::Companion c = companion_head(element, weights);
-  set_integrals(element, c);
+  const Mesh& mesh = part.mesh;
+  const System& system = part.system;
+  const int threads = core_count(), n = static_cast<int>(part.element.size());
+  formats::Companion c = companion_head(part.element, weights);
+  set_integrals(part.element, c);
 
-  const MatrixXd Phi = expand(system.T, reduced_displacements(problem, boundary, internal));
+  const MatrixXd Phi = expand(system.T, reduced_displacements(part));
   const FrameInertia inertia = frame_inertia(mesh, system.coordinates, Phi, c.reference_point, threads);
   c.C = inertia.forms.C;
   c.E = inertia.forms.E;
   if (inertia.turns) c.W = inertia.forms.W;
 
   const LoadVectors cases = load_vectors(mesh, system);
-  c.load_cases = reduced_cases(problem, boundary, internal, cases);
-  const TieForces ties = find_tie_forces(mesh, system, problem.where);
+  c.load_cases = reduced_cases(part, cases);
+  const TieForces ties = find_tie_forces(mesh, system, part.where);
   SecondOrderShapes inside;
-  if (displacement != nullptr) inside = second_order_shapes(problem, internal, element, ties, Phi);
+  if (displacement != nullptr) inside = second_order_shapes(part, ties, Phi);
   const MatrixXd g = all_loads(mesh, cases, inertia.load, inside.load);
   const int all = n + static_cast<int>(g.cols());
   MatrixXd displacements(Phi.rows(), all);
-  displacements << Phi, expand(system.T, residual_displacements(problem, internal, gather(system.T, g)));
+  displacements << Phi, expand(system.T, residual_displacements(part, gather(system.T, g)));
   QuadraticForms forms(n, all, threads);
   ElementBatches(mesh, system.coordinates, displacements, n, threads)
-      .for_each([&](std::span<const StrainBatch> batches) { forms.add(batches); }, problem.share);
+      .for_each([&](std::span<const StrainBatch> batches) { forms.add(batches); }, part.share);
   if (!ties.empty()) {
     const MatrixXd residual = tie_residual(mesh, system.coordinates, ties, displacements, g);
     forms.add(tie_batches(mesh, system, ties, multipliers(ties, residual), Phi));
   }
   for (int j = 0; j < n; ++j) c.H.push_back(forms.matrix(j));
-  formats::remove_rigid_stress(c, element, problem.where);
+  formats::remove_rigid_stress(c, part.element, part.where);
   if (displacement != nullptr) {
     std::vector<MatrixXd> work;
     for (Index r = 0; r < inside.x.cols(); ++r)
       work.push_back(forms.matrix(n + inertial_loads + static_cast<int>(cases.x.cols() + r)));
-    *displacement = second_order_displacement(std::move(inside), work, c.H, internal);
+    *displacement = second_order_displacement(std::move(inside), work, c.H, part.internal);
   }
-  if (shapes > 0) c.Lambda = trapped_stress(problem, boundary, element, ties, Phi, shapes);
+  if (shapes > 0) c.Lambda = trapped_stress(part, ties, Phi, shapes);
   for (int a = 0; a < 6; ++a) {
     c.N[a] = inertia.forms.N[a] - forms.matrix(n + a);
     c.T[a] = inertia.forms.T[a] - forms.matrix(n + 6 + a);
   }
-  for (std::size_t k = 0; k < c.load_cases.size(); ++k)
-    c.load_cases[k].stiffness = -forms.matrix(n + inertial_loads + static_cast<int>(k)) +
+  for (int k = 0; k < std::ssize(c.load_cases); ++k)
+    c.load_cases[k].stiffness = -forms.matrix(n + inertial_loads + k) +
                                 weight_on_arms(mesh, system.coordinates, mesh.load_cases[k].gravity, Phi);
   sort_by_name(c.load_cases);
   return c;
 }
 
-namespace {
-
-/// What the rows hold, and what not: nothing is left out where all shapes of deformation are looked at.
-std::string trapped_text(const formats::Companion& companion, int shapes) {
-  const Index all = companion.S1.cols() - 6;
-  return fmt::format(
-      "Membrane stress that bending traps has {} rows in the companion file{}.", companion.Lambda.size(),
-      shapes < all
-          ? fmt::format(", of the {} lowest of {} shapes: what bending in others traps is left out", shapes, all)
-          : "");
-}
-
-}  // namespace
-
-std::optional<formats::Companion> companion_if_asked(const formats::Part& part, const InternalProblem& problem,
-                                                     const BoundaryModes& boundary, const InternalModes& internal,
-                                                     const formats::Superelement& element, ModelCertificate& model,
+std::optional<formats::Companion> companion_if_asked(const formats::Part& part, const ReducedPart& reduced,
+                                                     ModelCertificate& model,
                                                      std::optional<SecondOrderDisplacement>* displacement) {
-  const bool wanted = wants_second_order(part, element), has_own_mass = internal.boundary_mass.size() > 0;
-  const bool loose = internal.loose() > 0;  // no stress follows from its turns
+  const formats::Superelement& element = reduced.element;
+  const bool wanted = wants_second_order(part, element), has_own_mass = reduced.internal.boundary_mass.size() > 0;
+  const bool loose = reduced.internal.loose() > 0;  // no stress follows from its turns
   if (!loose && wanted && has_own_mass)
     model.notes.push_back(
         "No second order in a companion file (stiffening, exact inertia): method macneal leaves out the mass that its "
         "coordinates move; take method craig_bampton or rubin.");
   else if (!loose)
-    describe_companion(problem.mesh, part, element, model);
+    describe_companion(reduced.mesh, part, element, model);
   const bool second_order = wanted && !has_own_mass && !loose;
-  if (!second_order && problem.mesh.load_cases.empty()) return std::nullopt;
+  if (!second_order && reduced.mesh.load_cases.empty()) return std::nullopt;
   const Eigen::VectorXd weights = default_weights(element);
-  if (!second_order) return make_load_companion(problem, boundary, internal, element, weights);
-  formats::Companion companion =
-      make_companion(problem, boundary, internal, element, weights, part.double_curvature, displacement);
+  if (!second_order) return make_load_companion(reduced, weights);
+  formats::Companion companion = make_companion(reduced, weights, part.double_curvature, displacement);
   if (displacement != nullptr && *displacement && (*displacement)->left_out > told_left_out)
     model.notes.push_back(
         fmt::format("The {} shapes of second-order displacement in the recovery file leave out {:.2g} % of it, root "

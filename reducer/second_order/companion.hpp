@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "formats/companion/companion.hpp"
-#include "reducer/modes/boundary_modes.hpp"
 #include "reducer/modes/internal_modes.hpp"
 #include "reducer/report/certificate.hpp"
 #include "reducer/second_order/displacement.hpp"
@@ -22,27 +21,21 @@ void describe_companion(const Mesh& mesh, const formats::Part& part, const forma
 
 /// H, C, E, N, T, S0, S1 by one pass over the masses of the elements, twelve solutions with the factor of S_II and one
 /// more per load case of the mesh, and one pass over the stresses of n + 12 + cases displacements. Copies of all
-/// displacements (coordinates of the mesh x their number) and blocks of elements are held. `element`: the reduced part,
-/// rows boundary first; `weights`: one per boundary node; `shapes`: of trapped_stress(), 0: no Λ.
-/// `displacement`, where it is asked for: what the recovery file holds of second order, with more solutions and one
-/// more pass (displacement.hpp).
-formats::Companion make_companion(const InternalProblem& problem, const BoundaryModes& boundary,
-                                  const InternalModes& internal, const formats::Superelement& element,
-                                  const Eigen::VectorXd& weights, int shapes = 0,
+/// displacements (coordinates of the mesh x their number) and blocks of elements are held. `weights`: one per boundary
+/// node; `shapes`: of trapped_stress(), 0: no Λ. `displacement`, where it is asked for: what the recovery file holds of
+/// second order, with more solutions and one more pass (displacement.hpp).
+formats::Companion make_companion(const ReducedPart& part, const Eigen::VectorXd& weights, int shapes = 0,
                                   std::optional<SecondOrderDisplacement>* displacement = nullptr);
 
 /// One with the forces of the load cases alone.
-formats::Companion make_load_companion(const InternalProblem& problem, const BoundaryModes& boundary,
-                                       const InternalModes& internal, const formats::Superelement& element,
-                                       const Eigen::VectorXd& weights);
+formats::Companion make_load_companion(const ReducedPart& part, const Eigen::VectorXd& weights);
 
 /// The default weights of mechanisms.
 Eigen::VectorXd default_weights(const formats::Superelement& element);
 
 /// All of it: described, and made with the default weights if second order is wanted or there are load cases.
-std::optional<formats::Companion> companion_if_asked(const formats::Part& part, const InternalProblem& problem,
-                                                     const BoundaryModes& boundary, const InternalModes& internal,
-                                                     const formats::Superelement& element, ModelCertificate& model,
+std::optional<formats::Companion> companion_if_asked(const formats::Part& part, const ReducedPart& reduced,
+                                                     ModelCertificate& model,
                                                      std::optional<SecondOrderDisplacement>* displacement);
 
 }  // namespace tisserand::reducer

@@ -46,17 +46,17 @@ std::vector<Index> translations(const Coordinates& coordinates) {
 }
 
 /// Sample deformations y (n x p).
-MatrixXd sample_deformations(const InternalProblem& problem, const formats::Superelement& element,
-                             const MatrixXd& Phi) {
+MatrixXd sample_deformations(const ReducedPart& part, const MatrixXd& Phi) {
+  const formats::Superelement& element = part.element;
   const FreeShapes shapes = lowest_shapes(element, static_cast<int>(element.size()));
   const Index elastic = shapes.Z.cols();
   if (elastic == 0) return MatrixXd(element.size(), 0);
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const MeshBoundary& node : problem.mesh.boundary) middle += problem.mesh.position.col(node.node);
-  middle /= std::max<double>(1.0, static_cast<double>(problem.mesh.boundary.size()));
-  const std::vector<Index> moved = translations(problem.system.coordinates);
+  for (const MeshBoundary& node : part.mesh.boundary) middle += part.mesh.position.col(node.node);
+  middle /= std::max<double>(1.0, static_cast<double>(part.mesh.boundary.size()));
+  const std::vector<Index> moved = translations(part.system.coordinates);
   const VectorXd lowest = Phi * shapes.Z.col(elastic - 1);
-  const double turn = lowest(moved).cwiseAbs().maxCoeff() / problem.system.length;
+  const double turn = lowest(moved).cwiseAbs().maxCoeff() / part.system.length;
   MatrixXd motions(element.size(), elastic + 3);
   motions << shapes.Z * shapes.lower.asDiagonal(), turn * formats::rigid_motions(element, middle).rightCols<3>();
   const Index columns = motions.cols(), pairs = columns * (columns + 1) / 2;
@@ -155,30 +155,27 @@ class SampleForces {
 };
 
 /// u₂(d, d) of the columns d on all x.
-MatrixXd second_order_displacements(const InternalProblem& problem, const InternalModes& internal,
-                                    const TieForces& ties, const MatrixXd& d) {
-  const MatrixXd moved = ties.empty() ? MatrixXd() : dependents(ties, tie_constants(problem, ties, d));
-  const MatrixXd force = SampleForces(problem, ties, d, moved).run();
-  MatrixXd u = expand(problem.system.T, residual_displacements(problem, internal, -gather(problem.system.T, force)));
+MatrixXd second_order_displacements(const ReducedPart& part, const TieForces& ties, const MatrixXd& d) {
+  const MatrixXd moved = ties.empty() ? MatrixXd() : dependents(ties, tie_constants(part, ties, d));
+  const MatrixXd force = SampleForces(part, ties, d, moved).run();
+  MatrixXd u = expand(part.system.T, residual_displacements(part, -gather(part.system.T, force)));
   for (std::size_t i = 0; i < ties.dependent.size(); ++i) u.row(ties.dependent[i]) += moved.row(static_cast<Index>(i));
   return u;
 }
 
 }  // namespace
 
-SecondOrderShapes second_order_shapes(const InternalProblem& problem, const InternalModes& internal,
-                                      const formats::Superelement& element, const TieForces& ties,
-                                      const MatrixXd& Phi) {
+SecondOrderShapes second_order_shapes(const ReducedPart& part, const TieForces& ties, const MatrixXd& Phi) {
   SecondOrderShapes result;
-  result.samples = sample_deformations(problem, element, Phi);
+  result.samples = sample_deformations(part, Phi);
   if (result.samples.cols() == 0) return result;
   const MatrixXd d = Phi * result.samples;
-  const MatrixXd u = second_order_displacements(problem, internal, ties, d);
-  const std::vector<Index> moved = translations(problem.system.coordinates);
+  const MatrixXd u = second_order_displacements(part, ties, d);
+  const std::vector<Index> moved = translations(part.system.coordinates);
   const MatrixXd seen = u(moved, Eigen::all);
   result.largest = seen.cwiseAbs().colwise().maxCoeff().transpose();
   const double first = d(moved, Eigen::all).cwiseAbs().maxCoeff();
-  if (!(result.largest.maxCoeff() > nothing * first * first / problem.system.length)) return result;
+  if (!(result.largest.maxCoeff() > nothing * first * first / part.system.length)) return result;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(seen.transpose() * seen);
   const VectorXd sigma = gram.eigenvalues().cwiseMax(0.0);
   const double total = sigma.sum();

@@ -14,7 +14,6 @@
 #include <Eigen/Core>
 
 #include "formats/recovery/second_order.hpp"
-#include "formats/superelement/superelement.hpp"
 #include "reducer/modes/internal_modes.hpp"
 #include "reducer/second_order/tie_strain.hpp"
 
@@ -33,9 +32,7 @@ struct SecondOrderShapes {
 /// shapes, and no more than leave out 2e-4. Without columns where no sample moves anything. Cost: one pass over the
 /// elements and 48 solutions with the factor of S_II; 32 more, and as many more displacements in the pass of the
 /// companion, of their amplitudes.
-SecondOrderShapes second_order_shapes(const InternalProblem& problem, const InternalModes& internal,
-                                      const formats::Superelement& element, const TieForces& ties,
-                                      const Eigen::MatrixXd& Phi);
+SecondOrderShapes second_order_shapes(const ReducedPart& part, const TieForces& ties, const Eigen::MatrixXd& Phi);
 
 /// What the recovery file holds.
 struct SecondOrderDisplacement {

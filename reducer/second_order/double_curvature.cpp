@@ -259,12 +259,10 @@ TrappedEnergy trapped_energy(const InternalProblem& problem, const BoundaryModes
   return energy;
 }
 
-std::vector<MatrixXd> trapped_stress(const InternalProblem& problem, const BoundaryModes& boundary,
-                                     const formats::Superelement& element, const TieForces& ties, const MatrixXd& Phi,
-                                     int count) {
-  const FreeShapes shapes = lowest_shapes(element, count);
+std::vector<MatrixXd> trapped_stress(const ReducedPart& part, const TieForces& ties, const MatrixXd& Phi, int count) {
+  const FreeShapes shapes = lowest_shapes(part.element, count);
   const Index p = shapes.Z.cols();
-  const TrappedEnergy energy = trapped_energy(problem, boundary, ties, Phi * shapes.Z);
+  const TrappedEnergy energy = trapped_energy(part, part.boundary, ties, Phi * shapes.Z);
   VectorXd weight(energy.gram.rows());  // of pairs in the norm of symmetric matrices
   for (Index k = 0, pair = 0; k < p; ++k)
     for (Index l = k; l < p; ++l) weight[pair++] = k == l ? 1.0 : std::sqrt(2.0);

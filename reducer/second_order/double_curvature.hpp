@@ -12,8 +12,6 @@
 
 #include <Eigen/Core>
 
-#include "formats/superelement/superelement.hpp"
-#include "reducer/modes/boundary_modes.hpp"
 #include "reducer/modes/internal_modes.hpp"
 #include "reducer/second_order/tie_strain.hpp"
 
@@ -31,10 +29,9 @@ TrappedEnergy trapped_energy(const InternalProblem& problem, const BoundaryModes
                              const Eigen::MatrixXd& shapes);
 
 /// Λ_b (n x n, symmetric, Λ_b R = 0) [√energy / (y_k y_l)], largest first, of all pairs of the `shapes` lowest elastic
-/// modes of the free reduced body. `Phi`: displacements of all x for the coordinates of `element`. Memory: coordinates
-/// of the mesh x shapes (shapes + 1)/2.
-std::vector<Eigen::MatrixXd> trapped_stress(const InternalProblem& problem, const BoundaryModes& boundary,
-                                            const formats::Superelement& element, const TieForces& ties,
-                                            const Eigen::MatrixXd& Phi, int shapes);
+/// modes of the free reduced body. `Phi`: displacements of all x for the coordinates of the superelement. Memory:
+/// coordinates of the mesh x shapes (shapes + 1)/2.
+std::vector<Eigen::MatrixXd> trapped_stress(const ReducedPart& part, const TieForces& ties, const Eigen::MatrixXd& Phi,
+                                            int shapes);
 
 }  // namespace tisserand::reducer

@@ -37,7 +37,7 @@ class FreeBlocks {
  public:
   explicit FreeBlocks(const StressedPart& part) : T_(part.system.T), place_(static_cast<std::size_t>(T_.independent)) {
     std::ranges::fill(place_, -1);
-    for (std::size_t i = 0; i < part.free.size(); ++i) place_[part.free[i]] = static_cast<int>(i);
+    for (int i = 0; i < std::ssize(part.free); ++i) place_[part.free[i]] = i;
   }
 
   /// K_g of stresses σ on gradients, a column for each of `x`.
@@ -221,8 +221,6 @@ std::string monosymmetry_note(const Mesh& mesh) {
       listed(names));
 }
 
-MatrixXd mesh_weights(const Mesh& mesh, const System& system) {
-  return translation_loads(mesh, system.coordinates);
-}
+MatrixXd mesh_weights(const Mesh& mesh, const System& system) { return translation_loads(mesh, system.coordinates); }
 
 }  // namespace tisserand::reducer

@@ -28,33 +28,42 @@ struct ElementInertia {
   Index coordinates() const { return static_cast<Index>(rows.nodes) * rows.size; }
 };
 
+/// A part that turns about a point.
+struct TurningPart {
+  const Mesh& mesh;
+  const Coordinates& coordinates;
+  const Eigen::Vector3d& point;
+  MatrixXd D = rigid_motions(mesh, coordinates, point);
+};
+
 /// Of elements whose mass moves alike in all directions.
-void compute_alike(const MatrixXd& M, const MatrixXd& D, ElementInertia& out) {
+void compute_alike(const MatrixXd& M, const TurningPart& part, ElementInertia& out) {
   MatrixXd D_e(M.rows(), 6);
-  gather(out.rows, D, D_e);
+  gather(out.rows, part.D, D_e);
   turning_mass(M, D_e, out.mass);
 }
 
-/// Elements first, then the masses of nodes. D: rigid motions about `reference`.
-void compute_inertia(const Mesh& mesh, const Coordinates& coordinates, const MatrixXd& D,
-                     const Eigen::Vector3d& reference, int item, ElementInertia& out) {
+/// Elements first, then the masses of nodes.
+void compute_inertia(const TurningPart& part, int item, ElementInertia& out) {
+  const Mesh& mesh = part.mesh;
+  const Coordinates& coordinates = part.coordinates;
   if (item >= mesh.elements()) {
     const NodalMass& mass = mesh.masses[item - mesh.elements()];
     out.rows = {{coordinates.of(mass.node, 0)}, 1, coordinates.rotates(mass.node) ? 6 : 3};
-    if (out.rows.size == 3) return compute_alike(nodal_mass_matrix(mass).topLeftCorner<3, 3>(), D, out);
-    return turning_mass(moving_mass(mesh, mass), reference, out.mass);
+    if (out.rows.size == 3) return compute_alike(nodal_mass_matrix(mass).topLeftCorner<3, 3>(), part, out);
+    return turning_mass(moving_mass(mesh, mass), part.point, out.mass);
   }
   with_element(mesh, item, [&](const auto& kind) {
     using Kind = std::decay_t<decltype(kind)>;
     if constexpr (std::is_same_v<Kind, BeamElement> || std::is_same_v<Kind, ShellElement>) {
       const MovingMass moving = moving_mass(mesh, kind);
       out.rows = element_rows(mesh, coordinates, item, moving.coordinates);
-      turning_mass(moving, reference, out.mass);
+      turning_mass(moving, part.point, out.mass);
     } else {
       thread_local ElementMatrices matrices;
       element_matrices(mesh, kind, matrices);
       out.rows = element_rows(mesh, coordinates, item, matrices.M.rows());
-      compute_alike(matrices.M, D, out);
+      compute_alike(matrices.M, part, out);
     }
   });
 }
@@ -204,15 +213,14 @@ FrameInertia frame_inertia(const Mesh& mesh, const Coordinates& coordinates, con
   const Index n = Phi.cols();
   Sums sums(n);
   MatrixXd load = MatrixXd::Zero(Phi.rows(), inertial_loads);
-  const MatrixXd D = rigid_motions(mesh, coordinates, reference);
+  const TurningPart part{mesh, coordinates, reference};
   const int all = mesh.elements() + static_cast<int>(mesh.masses.size());
   InertiaBlock block;
   block.product.resize(static_cast<std::size_t>(threads));
   for (int first = 0; first < all; first += block_elements) {
     block.count = std::min(block_elements, all - first);
-    share_out(block.count, threads, [&](int /*thread*/, int e) {
-      compute_inertia(mesh, coordinates, D, reference, first + e, block.elements[e]);
-    });
+    share_out(block.count, threads,
+              [&](int /*thread*/, int e) { compute_inertia(part, first + e, block.elements[e]); });
     start_block(n, block);
     share_out(block.count, threads, [&](int /*thread*/, int e) { fill(Phi, block.elements[e], block); });
     for (int e = 0; e < block.count; ++e) scatter(block.elements[e].rows, block.elements[e].mass.load, load);

@@ -9,8 +9,7 @@ namespace tisserand::reducer {
 
 /// Displacements of q under forces on q with the boundary held, less the share of the modes that are kept:
 /// w = K_II⁻¹ g − Φ_I Λ⁻¹ Φ_Iᵀ g.
-Eigen::MatrixXd residual_displacements(const InternalProblem& problem, const InternalModes& internal,
-                                       const Eigen::MatrixXd& force);
+Eigen::MatrixXd residual_displacements(const ReducedPart& part, const Eigen::MatrixXd& force);
 
 /// Static answers to the twelve loads about a point of the part frame.
 struct InertiaAnswers {
@@ -20,7 +19,6 @@ struct InertiaAnswers {
   Eigen::MatrixXd force;  ///< q x 12: g
 };
 
-InertiaAnswers inertia_answers(const InternalProblem& problem, const InternalModes& internal,
-                               const Eigen::Vector3d& reference_point);
+InertiaAnswers inertia_answers(const ReducedPart& part, const Eigen::Vector3d& reference_point);
 
 }  // namespace tisserand::reducer

@@ -58,12 +58,6 @@ int stress_rows(const std::vector<StrainSection>& sections) {
   return rows;
 }
 
-int gradient_rows(const std::vector<StrainSection>& sections) {
-  int rows = 0;
-  for (const StrainSection& section : sections) rows += section.repeat * section.pattern->gradients;
-  return rows;
-}
-
 QuadraticForms::QuadraticForms(int coordinates, int displacements, int threads)
     : n_(coordinates), threads_(threads), forms_(static_cast<std::size_t>(threads)) {
   Piece piece;

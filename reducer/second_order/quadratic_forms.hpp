@@ -19,9 +19,8 @@ struct StrainBatch {
   Eigen::MatrixXd gradient;  ///< of the coordinates' displacements Φ: one column each
 };
 
-/// Rows of stress and of gradients of one element.
+/// Rows of stress of one element.
 int stress_rows(const std::vector<StrainSection>& sections);
-int gradient_rows(const std::vector<StrainSection>& sections);
 
 /// use(stress, first, second, coefficient) for the products of all points of the sections: rows of stress and gradient.
 template <class Use>

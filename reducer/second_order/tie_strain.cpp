@@ -49,8 +49,7 @@ const QuadraticPattern& mean_pattern() {
 /// Equation numbers of each tie, in the order in which collect_ties() made them.
 std::vector<std::vector<int>> equations_of_ties(const TieSystem& ties) {
   std::vector<std::vector<int>> equations(ties.name.size());
-  for (std::size_t i = 0; i < ties.equations.size(); ++i)
-    equations[ties.equations[i].tie].push_back(static_cast<int>(i));
+  for (int i = 0; i < std::ssize(ties.equations); ++i) equations[ties.equations[i].tie].push_back(i);
   return equations;
 }
 
@@ -197,6 +196,26 @@ class UnitMotions {
   std::vector<int> x_;
 };
 
+/// C_Dᵀ: a column per equation, a row per coordinate that they make dependent.
+Eigen::SparseMatrix<double> dependent_part(const TieForces& forces) {
+  const auto size = static_cast<Eigen::Index>(forces.equation.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index i = 0; i < size; ++i)
+    for (const Term& term : forces.ties.equations[forces.equation[i]].terms)
+      if (const int row = forces.row_of[term.coordinate]; row >= 0) entries.emplace_back(row, i, term.coefficient);
+  Eigen::SparseMatrix<double> C_D(size, size);
+  C_D.setFromTriplets(entries.begin(), entries.end());
+  return C_D;
+}
+
+using TieFactors = Eigen::SparseLU<Eigen::SparseMatrix<double>>;
+
+void factor(const TieForces& forces, TieFactors& factors) {
+  factors.compute(dependent_part(forces));
+  TISSERAND_ENSURE(factors.info() == Eigen::Success, "{0} equations of ties do not give their {0} coordinates",
+                   forces.equation.size());
+}
+
 }  // namespace
 
 TieForces find_tie_forces(const Mesh& mesh, const System& system, const std::vector<int>& independent,
@@ -209,7 +228,7 @@ TieForces find_tie_forces(const Mesh& mesh, const System& system, const std::vec
   forces.equation = std::move(elimination.equation);
   forces.dependent = std::move(elimination.dependent);
   forces.row_of.assign(static_cast<std::size_t>(forces.ties.coordinates), -1);
-  for (std::size_t i = 0; i < forces.dependent.size(); ++i) forces.row_of[forces.dependent[i]] = static_cast<int>(i);
+  for (int i = 0; i < std::ssize(forces.dependent); ++i) forces.row_of[forces.dependent[i]] = i;
   return forces;
 }
 
@@ -240,30 +259,6 @@ MatrixXd tie_residual(const Mesh& mesh, const Coordinates& coordinates, const Ti
   }
   return residual;
 }
-
-namespace {
-
-/// C_Dᵀ: a column per equation, a row per coordinate that they make dependent.
-Eigen::SparseMatrix<double> dependent_part(const TieForces& forces) {
-  const auto size = static_cast<Eigen::Index>(forces.equation.size());
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index i = 0; i < size; ++i)
-    for (const Term& term : forces.ties.equations[forces.equation[i]].terms)
-      if (const int row = forces.row_of[term.coordinate]; row >= 0) entries.emplace_back(row, i, term.coefficient);
-  Eigen::SparseMatrix<double> C_D(size, size);
-  C_D.setFromTriplets(entries.begin(), entries.end());
-  return C_D;
-}
-
-using TieFactors = Eigen::SparseLU<Eigen::SparseMatrix<double>>;
-
-void factor(const TieForces& forces, TieFactors& factors) {
-  factors.compute(dependent_part(forces));
-  TISSERAND_ENSURE(factors.info() == Eigen::Success, "{0} equations of ties do not give their {0} coordinates",
-                   forces.equation.size());
-}
-
-}  // namespace
 
 MatrixXd multipliers(const TieForces& forces, const MatrixXd& residual) {
   MatrixXd lambda = MatrixXd::Zero(static_cast<Eigen::Index>(forces.ties.equations.size()), residual.cols());
@@ -305,20 +300,20 @@ std::vector<TieForm> tie_forms(const Mesh& mesh, const System& system, const Tie
                                const MatrixXd& lambda) {
   const std::vector<std::vector<int>> equations = equations_of_ties(forces.ties);
   std::vector<TieForm> forms;
-  for (std::size_t s = 0; s < mesh.spiders.size(); ++s) {
+  for (int s = 0; s < std::ssize(mesh.spiders); ++s) {
     const Spider& spider = mesh.spiders[s];
     const SpiderContext at{mesh, system.coordinates, spider, equations[s], lambda};
     if (spider.kind == SpiderKind::averaging) {
       if (!averages_all_translations(spider)) continue;
       const UnitMotions unit(system.coordinates, spider.nodes);
-      forms.push_back({static_cast<int>(s), unit.coordinates(), mean_batch(at, unit.motions())});
+      forms.push_back({s, unit.coordinates(), mean_batch(at, unit.motions())});
       continue;
     }
     auto equation = equations[s].begin();
     for (const int node : spider.nodes) {
       if (node == spider.reference) continue;
       const UnitMotions unit(system.coordinates, {spider.reference, node});
-      forms.push_back({static_cast<int>(s), unit.coordinates(), rigid_leg(at, unit.motions(), node, equation)});
+      forms.push_back({s, unit.coordinates(), rigid_leg(at, unit.motions(), node, equation)});
     }
   }
   return forms;

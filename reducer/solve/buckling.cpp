@@ -16,22 +16,16 @@ namespace {
 
 using Eigen::Index;
 
-/// The first column as long as the longest, but for round-off: symmetry makes several so.
-Index first_longest(const Eigen::Matrix3Xd& columns) {
-  constexpr double round_off = 1e-6;
-  const Eigen::RowVectorXd lengths = columns.colwise().norm();
-  const double least = (1.0 - round_off) * lengths.maxCoeff();
-  return std::distance(lengths.begin(), std::ranges::find_if(lengths, [&](double one) { return !(one < least); }));
-}
-
 /// Scales shapes and fixes their signs: the largest component of what is scaled to 1 becomes positive.
 void scale_shapes(const System& system, Eigen::MatrixXd& q) {
   constexpr double still = 1e-6;  // of rotations times the length of the part
+  constexpr double round_off = 1e-6;
   const Eigen::MatrixXd motions = node_motions(system, q);
   for (Index k = 0; k < q.cols(); ++k) {
     const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> nodes(motions.col(k).data(), 6,
                                                                            motions.rows() / 6);
-    const Index moved = first_longest(nodes.topRows<3>()), turned = first_longest(nodes.bottomRows<3>());
+    const Index moved = first_longest(nodes.topRows<3>(), round_off),
+                turned = first_longest(nodes.bottomRows<3>(), round_off);
     const double largest = nodes.col(moved).head<3>().norm(), turn = nodes.col(turned).tail<3>().norm();
     const bool moves = largest > still * system.length * turn;
     const double size = moves ? largest : turn;
@@ -54,16 +48,18 @@ Eigen::MatrixXd forces_on_mesh(const Mesh& mesh, const System& system, const Loa
 }
 
 CaseBuckling case_buckling(const BucklingProblem& problem, const StressedPart& part, const LoadedState& state,
-                           const MeshLoadCase& load, int count, const PhaseListener& begin) {
-  const SystemMatrices pair = to_petsc(stiffness_pair(part, state, symmetric_rows(problem.supported.S), begin.share));
-  const LoadFactors factors = load_factors({pair.stiffness, pair.mass, problem.supported.factor, begin.share}, count);
+                           const MeshLoadCase& load, const PhaseListener& begin) {
+  const Supported& s = problem.supported;
+  const SystemMatrices pair = to_petsc(stiffness_pair(part, state, symmetric_rows(s.S), begin.share));
+  const LoadFactors factors = load_factors({pair.stiffness, pair.mass, s.factor, begin.share}, problem.count);
   if (!(factors.limit > 0.0))
     throw Error(fmt::format("load case '{}' causes no stress, so nothing can buckle", load.name), load.where,
                 "give it loads that the part carries to its supports, or leave the load case out");
-  CaseBuckling result{count, factors.factor, {}, factors.reversed, factors.limit, factors.residual, factors.more_equal};
-  result.q.setZero(problem.system.size(), factors.factor.size());
-  result.q(problem.supported.partition.internal, Eigen::all) = factors.shape;
-  scale_shapes(problem.system, result.q);
+  CaseBuckling result{problem.count,    factors.factor,    {}, factors.reversed, factors.limit,
+                      factors.residual, factors.more_equal};
+  result.q.setZero(s.system.size(), factors.factor.size());
+  result.q(s.partition.internal, Eigen::all) = factors.shape;
+  scale_shapes(s.system, result.q);
   return result;
 }
 
@@ -88,16 +84,17 @@ std::vector<std::string> buckling_warnings(const Mesh& mesh) {
   return warnings;
 }
 
-std::vector<CaseBuckling> buckling(const BucklingProblem& problem, int count, const PhaseListener& begin) {
-  const TieForces ties = find_tie_forces(problem.mesh, problem.system, problem.held, problem.where);
-  const StressedPart part{problem.mesh, problem.system, problem.supported.partition.internal, ties, problem.where};
-  const Eigen::MatrixXd force = forces_on_mesh(problem.mesh, problem.system, problem.loads);
+std::vector<CaseBuckling> buckling(const BucklingProblem& problem, const PhaseListener& begin) {
+  const Supported& s = problem.supported;
+  const TieForces ties = find_tie_forces(s.mesh, s.system, coordinates_of(s.held), s.where);
+  const StressedPart part{s.mesh, s.system, s.partition.internal, ties, s.where};
+  const Eigen::MatrixXd force = forces_on_mesh(s.mesh, s.system, problem.loads);
   std::vector<CaseBuckling> result;
   for (Index c = 0; c < problem.statics.q.cols(); ++c) {
-    const MeshLoadCase& load = problem.mesh.load_cases[c];
+    const MeshLoadCase& load = s.mesh.load_cases[c];
     begin(fmt::format("buckling, {}", printable_line(load.name, 40)));
-    result.push_back(
-        case_buckling(problem, part, {problem.statics.q.col(c), force.col(c), load.gravity}, load, count, begin));
+    const LoadedState state{problem.statics.q.col(c), force.col(c), load.gravity};
+    result.push_back(case_buckling(problem, part, state, load, begin));
   }
   return result;
 }

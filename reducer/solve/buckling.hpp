@@ -27,13 +27,10 @@ struct CaseBuckling {
 
 /// What buckling is computed from.
 struct BucklingProblem {
-  const Mesh& mesh;
-  const System& system;
   const Supported& supported;
   const LoadVectors& loads;
   const Statics& statics;
-  const std::vector<int>& held;  ///< coordinates of the mesh with which the system was built
-  std::string where;             ///< for messages
+  int count = 0;  ///< load factors of each load case
 };
 
 /// Throws Error if the part has no load case, or no supports: loads that keep their direction turn a free part over.
@@ -42,8 +39,8 @@ void require_buckling_load(const formats::Part& part);
 /// Warnings that name ties whose second order is left out, and sections whose β is not known.
 std::vector<std::string> buckling_warnings(const Mesh& mesh);
 
-/// The `count` lowest factors (fewer if fewer exist) of each load case: (S + λ K_g) φ = 0 with the stress of the linear
+/// The lowest factors (fewer if fewer exist) of each load case: (S + λ K_g) φ = 0 with the stress of the linear
 /// statics and with loads that keep their size and direction. Throws Error for a load case without stress.
-std::vector<CaseBuckling> buckling(const BucklingProblem& problem, int count, const PhaseListener& begin);
+std::vector<CaseBuckling> buckling(const BucklingProblem& problem, const PhaseListener& begin);
 
 }  // namespace tisserand::reducer

@@ -32,7 +32,7 @@ void add_loads_between(const Mesh& mesh, Eigen::MatrixXd& beam_force) {
     };
     for (const BeamLineLoad& line : load.beams) add(line.beam, {line.force, Eigen::Vector3d::Zero()});
     if (load.gravity.isZero(0.0)) continue;
-    for (int b = 0; b < static_cast<int>(mesh.beams.size()); ++b) add(b, {Eigen::Vector3d::Zero(), load.gravity});
+    for (int b = 0; b < std::ssize(mesh.beams); ++b) add(b, {Eigen::Vector3d::Zero(), load.gravity});
   }
 }
 

@@ -70,18 +70,12 @@ std::string head_text(const Solution& s, const formats::Part& part) {
   return text;
 }
 
-/// The first of the columns that are as long as the longest, but for round-off: symmetry makes several so.
-Index longest(const Eigen::Matrix3Xd& columns) {
-  constexpr double round_off = 1e-9;
-  const Eigen::RowVectorXd lengths = columns.colwise().norm();
-  const double least = (1.0 - round_off) * lengths.maxCoeff();
-  return std::distance(lengths.begin(), std::ranges::find_if(lengths, [&](double one) { return !(one < least); }));
-}
-
 std::string peaks_text(const Solution& s, Index c, const Labels& labels) {
+  constexpr double round_off = 1e-9;
   const Eigen::MatrixXd motion = node_motions(s.system, s.statics.q.col(c));
   const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> nodes(motion.data(), 6, s.mesh.nodes());
-  const Index moved = longest(nodes.topRows<3>()), turned = longest(nodes.bottomRows<3>());
+  const Index moved = first_longest(nodes.topRows<3>(), round_off),
+              turned = first_longest(nodes.bottomRows<3>(), round_off);
   const double most = nodes.col(moved).head<3>().norm(), turn = nodes.col(turned).tail<3>().norm();
   std::string text = fmt::format(line_form, "displacement",
                                  fmt::format("largest {:.6g}{}, {}, at {}", most, labels.length,
@@ -118,7 +112,7 @@ std::string case_text(const Solution& s, Index c, const Labels& labels) {
   text += fmt::format(line_form, "applied", wrench(applied) + " about the origin");
   text += peaks_text(s, c, labels);
   text += fmt::format(line_form, "strain energy", fmt::format("{:.9g}{}", s.statics.energy[c], labels.energy));
-  for (int k = 0; k < static_cast<int>(s.mesh.supports.size()); ++k) {
+  for (int k = 0; k < std::ssize(s.mesh.supports); ++k) {
     const MeshSupport& support = s.mesh.supports[k];
     const Vector3d point = middle_of(s, support);
     text += fmt::format(line_form, "reaction",
@@ -161,7 +155,8 @@ std::string modes_text(const Solution& s, const Units& units) {
 std::string shape_text(const Solution& s, const Eigen::MatrixXd& motion, Index k) {
   const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> nodes(motion.col(k).data(), 6, s.mesh.nodes());
   constexpr double round_off = 1e-6;
-  const Index moved = longest(nodes.topRows<3>()), turned = longest(nodes.bottomRows<3>());
+  const Index moved = first_longest(nodes.topRows<3>(), round_off),
+              turned = first_longest(nodes.bottomRows<3>(), round_off);
   const auto flat = [](const Vector3d& v) {
     return vector_text(v.unaryExpr([](double x) { return std::abs(x) < round_off ? 0.0 : x; }), 1.0);
   };

@@ -21,6 +21,12 @@ Eigen::MatrixXd node_motions(const System& system, const Eigen::MatrixXd& q) {
   return motion;
 }
 
+Eigen::Index first_longest(const Eigen::Matrix3Xd& columns, double round_off) {
+  const Eigen::RowVectorXd lengths = columns.colwise().norm();
+  const double least = (1.0 - round_off) * lengths.maxCoeff();
+  return std::distance(lengths.begin(), std::ranges::find_if(lengths, [&](double one) { return !(one < least); }));
+}
+
 Solution solve(const formats::Part& part, const SolveRequest& request, const PhaseListener& begin) {
   if (part.load_cases.empty() && request.modes == 0)
     throw Error("there is nothing to solve: the part has no load cases", part.file,
@@ -37,26 +43,22 @@ Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& re
   s.warnings = check_elements(s.mesh, part).all;
   const std::vector<OwnedCoordinate> held = held_coordinates(s.mesh, number_coordinates(s.mesh));
   begin("assembly");
-  std::vector<int> held_x;
-  for (const OwnedCoordinate& h : held) held_x.push_back(h.x);
-  s.system = build_system(s.mesh, held_x, part.file, begin.share);
+  s.system = build_system(s.mesh, coordinates_of(held), part.file, begin.share);
   s.rigid = full_rigid_properties(s.system);
   if (request.modes > 0) require_mass(s.system, part.file);
   s.loads = load_vectors(s.mesh, s.system);
 
   if (request.buckling > 0) std::ranges::copy(buckling_warnings(s.mesh), std::back_inserter(s.warnings));
-  const Supported supported = support(s.mesh, s.system, held, request.modes + request.buckling, part.file, begin);
+  const Supported supported = support({s.mesh, s.system, held, part.file}, request.modes + request.buckling, begin);
   s.partition = supported.partition;
   s.is_free = supported.is_free;
   begin("statics");
-  s.statics = statics(s.mesh, s.system, supported, s.loads, part.file);
+  s.statics = statics(supported, s.loads);
   if (request.modes > 0) {
     begin("modes");
-    s.modes = supported_modes(s.mesh, s.system, supported, request.modes, part.modes, part.file, begin.share);
+    s.modes = supported_modes(supported, request.modes, part.modes, begin.share);
   }
-  if (request.buckling > 0)
-    s.buckling =
-        buckling({s.mesh, s.system, supported, s.loads, s.statics, held_x, part.file}, request.buckling, begin);
+  if (request.buckling > 0) s.buckling = buckling({supported, s.loads, s.statics, request.buckling}, begin);
   begin("stresses");
   s.tables = solved_tables(s.mesh, s.system.coordinates);
   s.tables.name = part.name;

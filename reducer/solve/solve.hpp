@@ -41,4 +41,7 @@ Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& re
 /// [translation; rotation] of every node for states q of the system: (6 nodes) x columns, part axes.
 Eigen::MatrixXd node_motions(const System& system, const Eigen::MatrixXd& q);
 
+/// The first of the columns that are as long as the longest, but for `round_off` of it: symmetry makes several so.
+Eigen::Index first_longest(const Eigen::Matrix3Xd& columns, double round_off);
+
 }  // namespace tisserand::reducer

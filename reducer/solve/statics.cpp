@@ -62,9 +62,9 @@ void take_out_mean_motion(const System& system, MatrixXd& q) {
 
 }  // namespace
 
-Statics statics(const Mesh& mesh, const System& system, const Supported& s, const LoadVectors& loads,
-                const std::string& where) {
-  if (s.is_free) check_balanced(mesh, system, loads);
+Statics statics(const Supported& s, const LoadVectors& loads) {
+  const System& system = s.system;
+  if (s.is_free) check_balanced(s.mesh, system, loads);
   constexpr int most_steps = 5;
   const MatrixXd f = rows(loads.q, s.partition.internal);
   Statics result;
@@ -79,7 +79,7 @@ Statics statics(const Mesh& mesh, const System& system, const Supported& s, cons
     result.residual = error;
   }
   if (!u.allFinite())
-    throw Error("the displacements are not finite numbers", where,
+    throw Error("the displacements are not finite numbers", s.where,
                 "check the sizes of loads and the materials: the numbers overflow");
   result.q.setZero(system.size(), f.cols());
   result.q(s.partition.internal, Eigen::all) = u;

@@ -1,8 +1,6 @@
 // Linear statics of the supported part: all load cases by one factor.
 #pragma once
 
-#include <string>
-
 #include "reducer/loads/load_vectors.hpp"
 #include "reducer/solve/supported.hpp"
 
@@ -17,7 +15,6 @@ struct Statics {
 
 /// S q = f with refinement. Without supports every load must be in equilibrium by itself, to 1e-8 of its size, and the
 /// displacement has no mean motion: Rᵀ M q = 0 (Rᵀ q = 0 without mass). Throws Error that tells by how much it is not.
-Statics statics(const Mesh& mesh, const System& system, const Supported& s, const LoadVectors& loads,
-                const std::string& where);
+Statics statics(const Supported& s, const LoadVectors& loads);
 
 }  // namespace tisserand::reducer

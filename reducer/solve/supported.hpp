@@ -11,7 +11,17 @@
 
 namespace tisserand::reducer {
 
-struct Supported {
+/// A part and what holds it: what is solved for.
+struct HeldPart {
+  const Mesh& mesh;
+  const System& system;
+  const std::vector<OwnedCoordinate>& held;  ///< coordinates of the mesh with which the system was built
+  const std::string& where;                  ///< for messages
+};
+
+struct Supported : HeldPart {
+  explicit Supported(const HeldPart& part) : HeldPart(part) {}
+
   Partition partition;  ///< boundary: held coordinates q, Partition::boundary_node: their supports; internal: free ones
   Matrix S, M;          ///< of the free coordinates
   Factor factor;        ///< of S
@@ -20,7 +30,6 @@ struct Supported {
 
 /// Throws Error if supports leave a rigid motion (named), if something inside moves without stiffness, or if the
 /// memory does not suffice for the factor and `modes` modes.
-Supported support(const Mesh& mesh, const System& system, const std::vector<OwnedCoordinate>& held, int modes,
-                  const std::string& where, const PhaseListener& begin);
+Supported support(const HeldPart& part, int modes, const PhaseListener& begin);
 
 }  // namespace tisserand::reducer

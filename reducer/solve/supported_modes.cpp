@@ -1,6 +1,8 @@
 // Eigenpairs, their basis, their effective masses.
 #include "reducer/solve/supported_modes.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "common/error.hpp"
@@ -22,49 +24,39 @@ Spectrum lowest(const Supported& s, int count, int available, const formats::Mod
 }
 
 /// Elastic ones of the free part; a first eigenvalue on six held coordinates lies below them and gives their scale.
-void free_modes(const System& system, const Supported& s, int count, int available,
-                const formats::ModeSelection& asked, const std::string& where,
-                const std::function<void(double)>& share, SupportedModes& modes) {
+SupportedModes free_modes(const Supported& s, int count, int available, const formats::ModeSelection& asked,
+                          const std::function<void(double)>& share) {
   const double scale = lowest(s, 1, available, asked, [](double /*done*/) {}).pairs.value[0];
-  const std::optional<FreeModes> pairs = full_free_modes(
-      system, {.scale = scale, .count = count, .finite = available}, asked, Count::if_cheap, share);
+  const std::optional<FreeModes> pairs =
+      full_free_modes(s.system, {.scale = scale, .count = count, .finite = available}, asked, Count::if_cheap, share);
   if (!pairs)
-    throw Error("some rigid motion of the part moves no mass, so it has no free modes", where,
+    throw Error("some rigid motion of the part moves no mass, so it has no free modes", s.where,
                 "give supports, or inertia about every axis");
-  if (pairs->value.size() < count) fail_count(count, static_cast<int>(pairs->value.size()), where);
-  modes.rigid = 6;
-  modes.lambda = pairs->value;
-  modes.q = pairs->vector;
-  modes.solver = pairs->solver;
+  if (pairs->value.size() < count) fail_count(count, static_cast<int>(pairs->value.size()), s.where);
+  return {6, pairs->value, pairs->vector, {}, {}, pairs->solver};
 }
 
-void held_modes(const System& system, const Supported& s, int count, int available,
-                const formats::ModeSelection& asked, const std::function<void(double)>& share, SupportedModes& modes) {
+SupportedModes held_modes(const Supported& s, int count, int available, const formats::ModeSelection& asked,
+                          const std::function<void(double)>& share) {
   const Spectrum spectrum = lowest(s, count, available, asked, share);
-  modes.lambda = spectrum.pairs.value.head(spectrum.kept);
-  modes.q.setZero(system.size(), spectrum.kept);
-  modes.q(s.partition.internal, Eigen::all) = spectrum.pairs.vector.leftCols(spectrum.kept);
-  modes.counted = spectrum.counted;
-  modes.solver = report_of(spectrum);
+  Eigen::MatrixXd q = Eigen::MatrixXd::Zero(s.system.size(), spectrum.kept);
+  q(s.partition.internal, Eigen::all) = spectrum.pairs.vector.leftCols(spectrum.kept);
+  return {0, spectrum.pairs.value.head(spectrum.kept), std::move(q), {}, spectrum.counted, report_of(spectrum)};
 }
 
 }  // namespace
 
-SupportedModes supported_modes(const Mesh& mesh, const System& system, const Supported& s, int count,
-                               const formats::ModeSelection& asked, const std::string& where,
+SupportedModes supported_modes(const Supported& s, int count, const formats::ModeSelection& asked,
                                const std::function<void(double)>& share) {
   const int available = finite_mode_count(s.M);
-  if (count > available) fail_count(count, available, where);
-  SupportedModes modes;
-  if (s.is_free)
-    free_modes(system, s, count, available, asked, where, share, modes);
-  else
-    held_modes(system, s, count, available, asked, share, modes);
+  if (count > available) fail_count(count, available, s.where);
+  SupportedModes modes =
+      s.is_free ? free_modes(s, count, available, asked, share) : held_modes(s, count, available, asked, share);
   Partition all;
-  for (int q = 0; q < system.size(); ++q) all.internal.push_back(q);
+  for (int q = 0; q < s.system.size(); ++q) all.internal.push_back(q);
   const Blocks none;
-  fix_basis({mesh, system, all, none, s.factor, where}, modes.lambda, modes.q);
-  const Eigen::MatrixXd MR = rigid_momenta_about(system, full_rigid_properties(system).center_of_mass);
+  fix_basis({{s.mesh, s.system, all}, none, s.factor, s.where}, modes.lambda, modes.q);
+  const Eigen::MatrixXd MR = rigid_momenta_about(s.system, full_rigid_properties(s.system).center_of_mass);
   modes.effective = (MR.transpose() * modes.q).array().square().matrix();
   return modes;
 }

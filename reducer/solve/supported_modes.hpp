@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <optional>
-#include <string>
 
 #include "reducer/modes/spectrum.hpp"
 #include "reducer/solve/supported.hpp"
@@ -23,8 +22,7 @@ struct SupportedModes {
 
 /// The `count` lowest; a group of equal frequencies is completed. `asked`: by which solver. `share` hears how much of
 /// the search is done. Throws Error if fewer exist.
-SupportedModes supported_modes(const Mesh& mesh, const System& system, const Supported& s, int count,
-                               const formats::ModeSelection& asked, const std::string& where,
+SupportedModes supported_modes(const Supported& s, int count, const formats::ModeSelection& asked,
                                const std::function<void(double)>& share);
 
 }  // namespace tisserand::reducer

@@ -33,45 +33,9 @@ void tell_left_out(MeshBuilder& builder, const std::vector<int>& row) {
                                                 listed(told, ", ", static_cast<std::size_t>(count))));
 }
 
-}  // namespace
-
-/// Nodes that nothing refers to (points of a geometry, orientation nodes of a deck) leave; the others keep their order.
-void finish(MeshBuilder& builder) {
-  Mesh& mesh = builder.mesh;
-  std::vector<int> row(builder.cells.position.size(), -1);
-  for_nodes(mesh, [&row](int& node) { row[node] = 0; });
-  if (builder.file_is_deck) tell_left_out(builder, row);
-  int count = 0;
-  for (int& r : row)
-    if (r == 0) r = count++;
-  mesh.position.resize(3, count);
-  mesh.node_label.resize(static_cast<std::size_t>(count));
-  for (std::size_t n = 0; n < row.size(); ++n) {
-    if (row[n] < 0) continue;
-    mesh.position.col(row[n]) = builder.cells.position[n];
-    mesh.node_label[row[n]] = std::move(builder.label[n]);
-  }
-  if (!builder.node_of_id.empty()) mesh.node_number.assign(static_cast<std::size_t>(count), 0);
-  for (const auto& [number, node] : builder.node_of_id) {
-    const int own = row[node];
-    if (own < 0 || number <= 0 || number > std::numeric_limits<int>::max()) continue;
-    int& least = mesh.node_number[own];  // merged nodes have several
-    if (least == 0 || number < least) least = static_cast<int>(number);
-  }
-  for_nodes(mesh, [&row](int& node) { node = row[node]; });
-  turn_springs(mesh);
-}
-
-namespace {
-
 FacePlace place_of(const CellMesh& cells, const Entity& face) {
   const std::span<const Cell> own(cells.cells[2].data() + face.first, face.count);
-  const auto middle = [&](const Cell& cell) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    const int corners = form_of(cell.shape).corners;
-    for (int k = 0; k < corners; ++k) sum += cells.position[cell.nodes[k]];
-    return Eigen::Vector3d(sum / corners);
-  };
+  const auto middle = [&](const Cell& cell) { return middle_of(cell, cells.position); };
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Cell& cell : own) mean += middle(cell) / static_cast<double>(face.count);
   const Cell& nearest =
@@ -132,6 +96,33 @@ void build(MeshBuilder& builder) {
 }
 
 }  // namespace
+
+/// Nodes that nothing refers to (points of a geometry, orientation nodes of a deck) leave; the others keep their order.
+void finish(MeshBuilder& builder) {
+  Mesh& mesh = builder.mesh;
+  std::vector<int> row(builder.cells.position.size(), -1);
+  for_nodes(mesh, [&row](int& node) { row[node] = 0; });
+  if (builder.file_is_deck) tell_left_out(builder, row);
+  int count = 0;
+  for (int& r : row)
+    if (r == 0) r = count++;
+  mesh.position.resize(3, count);
+  mesh.node_label.resize(static_cast<std::size_t>(count));
+  for (std::size_t n = 0; n < row.size(); ++n) {
+    if (row[n] < 0) continue;
+    mesh.position.col(row[n]) = builder.cells.position[n];
+    mesh.node_label[row[n]] = std::move(builder.label[n]);
+  }
+  if (!builder.node_of_id.empty()) mesh.node_number.assign(static_cast<std::size_t>(count), 0);
+  for (const auto& [number, node] : builder.node_of_id) {
+    const int own = row[node];
+    if (own < 0 || number <= 0 || number > std::numeric_limits<int>::max()) continue;
+    int& least = mesh.node_number[own];  // merged nodes have several
+    if (least == 0 || number < least) least = static_cast<int>(number);
+  }
+  for_nodes(mesh, [&row](int& node) { node = row[node]; });
+  turn_springs(mesh);
+}
 
 Mesh build_mesh(const formats::Part& part) {
   MeshBuilder builder(part);

@@ -27,8 +27,8 @@ void append_cells(MeshBuilder& builder, const CellMesh& file) {
   builder.first_file_node = shift;
   all.position.insert(all.position.end(), file.position.begin(), file.position.end());
   all.node_id.insert(all.node_id.end(), file.node_id.begin(), file.node_id.end());
-  for (std::size_t n = 0; n < file.position.size(); ++n) {
-    builder.node_of_id[file.node_id[n]] = shift + static_cast<int>(n);
+  for (int n = 0; n < std::ssize(file.position); ++n) {
+    builder.node_of_id[file.node_id[n]] = shift + n;
     builder.label.push_back(fmt::format("node {}", file.node_id[n]));
   }
   std::array<std::size_t, 4> first{};
@@ -141,9 +141,9 @@ void add_deck(MeshBuilder& builder, MeshFileKind kind) {
   if (settings.scale != 1.0)
     throw Error("mesh: 'scale' has no effect on a deck: its properties and materials are in its own units",
                 settings.where, "give the units of the deck under units");
-  const DeckOptions options{settings.unknown == formats::UnknownContent::ignore ? UnknownCards::ignore
-                                                                                : UnknownCards::refuse,
-                            builder.part.boundary.empty()};
+  const DeckOptions options{
+      settings.unknown == formats::UnknownContent::ignore ? UnknownCards::ignore : UnknownCards::refuse,
+      builder.part.boundary.empty()};
   Deck deck =
       kind == MeshFileKind::nastran ? read_nastran(settings.file, options) : read_abaqus(settings.file, options);
   if (deck.mesh.elements() == 0 && deck.mesh.masses.empty())

@@ -42,8 +42,8 @@ Holds on_cylinder(const formats::CylinderSelection& cylinder, double tolerance) 
 bool lies(const MeshBuilder& builder, const Entity& entity, const Holds& holds) {
   const auto& cells = builder.cells.cells[entity.dimension];
   for (std::size_t c = entity.first; c < entity.first + entity.count; ++c)
-    for (int k = 0; k < form_of(cells[c].shape).corners; ++k)
-      if (!holds(builder.position(cells[c].nodes[k]))) return false;
+    for (const int node : corners_of(cells[c]))
+      if (!holds(builder.position(node))) return false;
   return entity.count > 0;
 }
 
@@ -85,44 +85,41 @@ std::pair<std::vector<int>, std::vector<int>> inside(const MeshBuilder& builder,
   std::pair<std::vector<int>, std::vector<int>> found;
   for (const Holds& holds : tests) {
     if (dimension == 0) {
-      for (std::size_t n = 0; n < builder.used.size(); ++n)
-        if (builder.used[n] != 0 && holds(builder.cells.position[n])) found.second.push_back(static_cast<int>(n));
+      for (int n = 0; n < std::ssize(builder.used); ++n)
+        if (builder.used[n] != 0 && holds(builder.cells.position[n])) found.second.push_back(n);
       continue;
     }
-    for (std::size_t e = 0; e < builder.cells.entities.size(); ++e)
+    for (int e = 0; e < std::ssize(builder.cells.entities); ++e)
       if (builder.cells.entities[e].dimension == dimension && lies(builder, builder.cells.entities[e], holds))
-        found.first.push_back(static_cast<int>(e));
+        found.first.push_back(e);
   }
   return found;
 }
 
 int nearest_entity(const MeshBuilder& builder, const formats::GroupDefinition& group, const User& user) {
   const int dimension = static_cast<int>(group.of);
-  int best = -1, second = -1;
-  double distance = std::numeric_limits<double>::infinity(), next = distance;
-  for (std::size_t e = 0; e < builder.cells.entities.size(); ++e) {
+  NearestTwo found;
+  for (int e = 0; e < std::ssize(builder.cells.entities); ++e) {
     const Entity& entity = builder.cells.entities[e];
     if (entity.dimension != dimension) continue;
     double own = std::numeric_limits<double>::infinity();
     const auto& cells = builder.cells.cells[dimension];
     for (std::size_t c = entity.first; c < entity.first + entity.count; ++c)
       own = std::min(own, to_cell(builder, cells[c], *group.near));
-    if (own < distance)
-      second = best, next = distance, best = static_cast<int>(e), distance = own;
-    else if (own < next)
-      second = static_cast<int>(e), next = own;
+    found.look_at(e, own);
   }
   const double size = extent(builder), allowed = group.tolerance.value_or(0.1 * size);
   const auto name = [&](int e) { return name_of(builder.cells.entities[e]); };
-  if (best < 0) throw Error(fmt::format("{}: there are no {}s", user.name, dimension_word(dimension)), user.where, "");
-  if (distance > allowed)
-    throw Error(fmt::format("{}: the nearest is {}, {:.3g} away; the tolerance is {:.3g}", user.name, name(best),
-                            distance, allowed),
+  if (found.best < 0)
+    throw Error(fmt::format("{}: there are no {}s", user.name, dimension_word(dimension)), user.where, "");
+  if (found.distance > allowed)
+    throw Error(fmt::format("{}: the nearest is {}, {:.3g} away; the tolerance is {:.3g}", user.name, name(found.best),
+                            found.distance, allowed),
                 user.where, "correct the position, or give a larger tolerance");
-  if (second >= 0 && next - distance <= 1e-9 * size)
-    throw Error(fmt::format("{}: {} and {} are equally near", user.name, name(best), name(second)), user.where,
-                "move the position into the one that is meant, or give its number");
-  return best;
+  if (found.is_ambiguous(size))
+    throw Error(fmt::format("{}: {} and {} are equally near", user.name, name(found.best), name(found.second)),
+                user.where, "move the position into the one that is meant, or give its number");
+  return found.best;
 }
 
 }  // namespace tisserand::reducer

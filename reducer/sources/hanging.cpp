@@ -89,7 +89,7 @@ struct TouchedFace {
 
 std::vector<TouchedFace> touched_faces(const Mesh& mesh) {
   std::vector<TouchedFace> faces;
-  for (int s = 0; s < static_cast<int>(mesh.shells.size()); ++s) {
+  for (int s = 0; s < std::ssize(mesh.shells); ++s) {
     const auto nodes = nodes_of(mesh.shells[s]);
     const std::vector<int> corners(nodes.begin(), nodes.end());
     faces.push_back({corners, corners, true, s});

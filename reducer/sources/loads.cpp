@@ -21,8 +21,8 @@ using NodeSet = std::unordered_set<int>;
 /// Nodes that something of the mesh holds on to.
 NodeSet connected_nodes(const MeshBuilder& builder) {
   NodeSet nodes;
-  for (std::size_t n = 0; n < builder.used.size(); ++n)
-    if (builder.used[n] != 0) nodes.insert(static_cast<int>(n));
+  for (int n = 0; n < std::ssize(builder.used); ++n)
+    if (builder.used[n] != 0) nodes.insert(n);
   for (const Spider& spider : builder.mesh.spiders) {
     nodes.insert(spider.reference);
     nodes.insert(spider.nodes.begin(), spider.nodes.end());
@@ -89,15 +89,6 @@ void add_support(MeshBuilder& builder, const NodeSet& connected, const formats::
   builder.mesh.supports.push_back(std::move(support));
 }
 
-using Corners = std::array<int, 4>;
-
-Corners sorted_corners(const int* nodes, int count) {
-  Corners corners{-1, -1, -1, -1};
-  std::copy_n(nodes, count, corners.begin());
-  std::ranges::sort(corners);
-  return corners;
-}
-
 std::vector<Cell> cells_of(const MeshBuilder& builder, const Selection& selection) {
   std::vector<Cell> cells;
   for (const int row : selection.entities) {
@@ -110,24 +101,22 @@ std::vector<Cell> cells_of(const MeshBuilder& builder, const Selection& selectio
 
 NodeSet nodes_of(const std::vector<Cell>& cells) {
   NodeSet nodes;
-  for (const Cell& cell : cells) nodes.insert(cell.nodes.begin(), cell.nodes.begin() + form_of(cell.shape).nodes);
+  for (const Cell& cell : cells) nodes.insert(nodes_of(cell).begin(), nodes_of(cell).end());
   return nodes;
 }
 
 /// What can carry a pressure between some nodes: shells and outer faces of solids, by their corners.
 struct LoadedFaces {
-  std::map<Corners, int> shells;
-  std::map<Corners, Cell> solids;
+  std::map<FaceKey, int> shells;
+  std::map<FaceKey, Cell> solids;
 
   LoadedFaces(const Mesh& mesh, const NodeSet& nodes) {
     const auto inside = [&nodes](int node) { return nodes.contains(node); };
-    for (int s = 0; s < static_cast<int>(mesh.shells.size()); ++s) {
+    for (int s = 0; s < std::ssize(mesh.shells); ++s) {
       const ShellElement& shell = mesh.shells[s];
-      if (std::ranges::all_of(nodes_of(shell), inside))
-        shells.emplace(sorted_corners(shell.nodes.data(), shell.corners()), s);
+      if (std::ranges::all_of(nodes_of(shell), inside)) shells.emplace(face_key(nodes_of(shell)), s);
     }
-    for (const Cell& face : outer_faces(mesh, inside))
-      solids.emplace(sorted_corners(face.nodes.data(), form_of(face.shape).corners), face);
+    for (const Cell& face : outer_faces(mesh, inside)) solids.emplace(face_key(corners_of(face)), face);
   }
 };
 
@@ -143,7 +132,7 @@ void add_pressure_on_cells(const MeshBuilder& builder, const std::vector<Cell>& 
                            const formats::PressureLoad& line, const User& user, MeshLoadCase& load) {
   const LoadedFaces faces(builder.mesh, nodes_of(cells));
   for (const Cell& cell : cells) {
-    const Corners corners = sorted_corners(cell.nodes.data(), form_of(cell.shape).corners);
+    const FaceKey corners = face_key(corners_of(cell));
     if (const auto shell = faces.shells.find(corners); shell != faces.shells.end())
       load.shells.push_back({shell->second, line.pressure});
     else if (const auto face = faces.solids.find(corners); face != faces.solids.end())
@@ -207,7 +196,7 @@ struct LoadedEdges {
   std::set<std::pair<int, int>> others;  ///< of shells and solids
 
   LoadedEdges(const Mesh& mesh, const NodeSet& nodes) {
-    for (int b = 0; b < static_cast<int>(mesh.beams.size()); ++b)
+    for (int b = 0; b < std::ssize(mesh.beams); ++b)
       if (const BeamElement& beam = mesh.beams[b]; nodes.contains(beam.first) && nodes.contains(beam.second))
         beams.emplace(std::minmax(beam.first, beam.second), b);
     for (const ShellElement& shell : mesh.shells)
@@ -227,7 +216,7 @@ struct LoadedEdges {
 void add_line_load(const MeshBuilder& builder, const formats::LineLoad& line, const User& user, MeshLoadCase& load) {
   const auto& drawn = builder.part.beams;
   if (std::ranges::find(drawn, line.on, &formats::BeamLine::name) != drawn.end()) {
-    for (int b = 0; b < static_cast<int>(builder.mesh.beams.size()); ++b)
+    for (int b = 0; b < std::ssize(builder.mesh.beams); ++b)
       if (builder.mesh.beam_properties[builder.mesh.beams[b].property].name == line.on)
         load.beams.push_back({b, line.force});
     return;

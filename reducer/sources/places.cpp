@@ -58,30 +58,26 @@ int find_file_node(const MeshBuilder& builder, long number, const User& user) {
 
 int nearest_file_node(const MeshBuilder& builder, const Eigen::Vector3d& x, std::optional<double> tolerance,
                       const User& user) {
-  int best = -1, second = -1;
-  double distance = std::numeric_limits<double>::infinity(), next = distance;
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(distance), high = -low;
+  NearestTwo found;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(found.distance), high = -low;
   for (int n = builder.first_file_node; n < builder.last_file_node; ++n) {
     if (builder.used[n] == 0) continue;
     low = low.cwiseMin(builder.position(n));
     high = high.cwiseMax(builder.position(n));
-    const double d = (builder.position(n) - x).norm();
-    if (d < distance)
-      second = best, next = distance, best = n, distance = d;
-    else if (d < next)
-      second = n, next = d;
+    found.look_at(n, (builder.position(n) - x).norm());
   }
-  if (best < 0) throw Error(user.name + ": the mesh file has no nodes with elements", user.where, "");
+  if (found.best < 0) throw Error(user.name + ": the mesh file has no nodes with elements", user.where, "");
   const double extent = (high - low).norm(), allowed = tolerance.value_or(1e-3 * extent);
   const auto label = [&](int n) { return builder.label[n]; };
-  if (distance > allowed)
+  if (found.distance > allowed)
     throw Error(fmt::format("{}: the node nearest to {} is {} at {}, {:.3g} away; the tolerance is {:.3g}", user.name,
-                            text(x), label(best), text(builder.position(best)), distance, allowed),
+                            text(x), label(found.best), text(builder.position(found.best)), found.distance, allowed),
                 user.where, "correct the position, or give a larger tolerance");
-  if (second >= 0 && next - distance <= 1e-9 * extent)
-    throw Error(fmt::format("{}: {} and {} are equally near to {}", user.name, label(best), label(second), text(x)),
-                user.where, "move the position to the node that is meant, or give its number");
-  return best;
+  if (found.is_ambiguous(extent))
+    throw Error(
+        fmt::format("{}: {} and {} are equally near to {}", user.name, label(found.best), label(found.second), text(x)),
+        user.where, "move the position to the node that is meant, or give its number");
+  return found.best;
 }
 
 int find_place(MeshBuilder& builder, const formats::Place& place, const User& user) {

@@ -1,6 +1,7 @@
 // Places of part.yaml as nodes of the mesh.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -24,5 +25,19 @@ int find_file_node(const MeshBuilder& builder, long number, const User& user);
 /// (absent: 1e-3 of the extent of the file's nodes), or if two are equally near.
 int nearest_file_node(const MeshBuilder& builder, const Eigen::Vector3d& x, std::optional<double> tolerance,
                       const User& user);
+
+/// The nearest of some things, and the next one: a choice between two that are equally near would be arbitrary.
+struct NearestTwo {
+  int best = -1, second = -1;
+  double distance = std::numeric_limits<double>::infinity(), next = distance;
+
+  void look_at(int thing, double away) {
+    if (away < distance)
+      second = best, next = distance, best = thing, distance = away;
+    else if (away < next)
+      second = thing, next = away;
+  }
+  bool is_ambiguous(double size) const { return second >= 0 && next - distance <= 1e-9 * size; }
+};
 
 }  // namespace tisserand::reducer

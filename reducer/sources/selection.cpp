@@ -49,9 +49,8 @@ void make_unique(std::vector<T>& values) {
 
 /// The entity of a geometry with this number, or -1.
 int entity_of_number(const CellMesh& cells, int dimension, long number) {
-  for (std::size_t e = 0; e < cells.entities.size(); ++e)
-    if (cells.entities[e].dimension == dimension && cells.entities[e].number == number && number > 0)
-      return static_cast<int>(e);
+  for (int e = 0; e < std::ssize(cells.entities); ++e)
+    if (cells.entities[e].dimension == dimension && cells.entities[e].number == number && number > 0) return e;
   return -1;
 }
 
@@ -84,11 +83,11 @@ Selection by_number(const MeshBuilder& builder, const std::string& name, const U
 /// Labels of CAD files are paths of assembly, part and face; the last name serves too if it is the only one.
 Selection by_label(const MeshBuilder& builder, const std::string& name, int dimension, const User& user) {
   Selection whole, last;
-  for (std::size_t e = 0; e < builder.cells.entities.size(); ++e) {
+  for (int e = 0; e < std::ssize(builder.cells.entities); ++e) {
     const Entity& entity = builder.cells.entities[e];
     if (entity.label.empty() || (dimension > 0 && entity.dimension != dimension)) continue;
-    if (entity.label == name) whole.entities.push_back(static_cast<int>(e));
-    if (entity.number > 0 && entity.label.ends_with("/" + name)) last.entities.push_back(static_cast<int>(e));
+    if (entity.label == name) whole.entities.push_back(e);
+    if (entity.number > 0 && entity.label.ends_with("/" + name)) last.entities.push_back(e);
   }
   const Selection& found = whole.entities.empty() ? last : whole;
   if (found.entities.size() < 2) return found;
@@ -120,13 +119,13 @@ Selection by_set(const MeshBuilder& builder, const std::string& name) {
 /// Everything of the dimension that comes from the mesh file, and patches that need a layout.
 Selection all_of(const MeshBuilder& builder, int dimension) {
   Selection selection;
-  for (std::size_t e = 0; e < builder.cells.entities.size(); ++e) {
+  for (int e = 0; e < std::ssize(builder.cells.entities); ++e) {
     const Entity& entity = builder.cells.entities[e];
     if (entity.dimension != dimension) continue;
     const auto patch = std::ranges::find(builder.part.patches, entity.label, &formats::ShellPatch::name);
     const bool drawn = entity.number == 0;
     if (!drawn || (dimension == 2 && patch != builder.part.patches.end() && !patch->layout))
-      selection.entities.push_back(static_cast<int>(e));
+      selection.entities.push_back(e);
   }
   return selection;
 }

@@ -58,6 +58,30 @@ class Line {
   const NodePairs& tied_;
 };
 
+/// Nodes of the mesh file that carry elements: 1.
+std::vector<char> carrying_nodes(const MeshBuilder& builder) {
+  const Mesh& mesh = builder.mesh;
+  std::vector<char> carries(builder.cells.position.size(), 0);
+  const auto add = [&](int node) {
+    if (node >= builder.first_file_node && node < builder.last_file_node) carries[node] = 1;
+  };
+  for (const BeamElement& beam : mesh.beams) std::ranges::for_each(nodes_of(beam), add);
+  for (const ShellElement& shell : mesh.shells) std::ranges::for_each(nodes_of(shell), add);
+  for (const SolidElement& solid : mesh.solids) std::ranges::for_each(nodes_of(solid), add);
+  return carries;
+}
+
+/// The diagonal of the box around the nodes that count.
+double extent(const MeshBuilder& builder, const std::vector<char>& counts) {
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (std::size_t n = 0; n < counts.size(); ++n)
+    if (counts[n] != 0) {
+      low = low.cwiseMin(builder.cells.position[n]);
+      high = high.cwiseMax(builder.cells.position[n]);
+    }
+  return (high - low).norm();
+}
+
 }  // namespace
 
 void tell_unjoined_beams(MeshBuilder& builder) {
@@ -90,34 +114,6 @@ void tell_unjoined_beams(MeshBuilder& builder) {
         fmt::format("... and {} more nodes on beams to which they are not joined", texts.size() - told));
 }
 
-namespace {
-
-/// Nodes of the mesh file that carry elements: 1.
-std::vector<char> carrying_nodes(const MeshBuilder& builder) {
-  const Mesh& mesh = builder.mesh;
-  std::vector<char> carries(builder.cells.position.size(), 0);
-  const auto add = [&](int node) {
-    if (node >= builder.first_file_node && node < builder.last_file_node) carries[node] = 1;
-  };
-  for (const BeamElement& beam : mesh.beams) std::ranges::for_each(nodes_of(beam), add);
-  for (const ShellElement& shell : mesh.shells) std::ranges::for_each(nodes_of(shell), add);
-  for (const SolidElement& solid : mesh.solids) std::ranges::for_each(nodes_of(solid), add);
-  return carries;
-}
-
-/// The diagonal of the box around the nodes that count.
-double extent(const MeshBuilder& builder, const std::vector<char>& counts) {
-  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (std::size_t n = 0; n < counts.size(); ++n)
-    if (counts[n] != 0) {
-      low = low.cwiseMin(builder.cells.position[n]);
-      high = high.cwiseMax(builder.cells.position[n]);
-    }
-  return (high - low).norm();
-}
-
-}  // namespace
-
 void join_coincident_nodes(MeshBuilder& builder) {
   if (builder.last_file_node <= builder.first_file_node) return;
   const std::vector<char> carries = carrying_nodes(builder);
@@ -144,8 +140,8 @@ void join_coincident_nodes(MeshBuilder& builder) {
   const std::string place = fmt::format("first {} and {} at ({:.6g}, {:.6g}, {:.6g})", builder.label[twin[first]],
                                         builder.label[first], x.x(), x.y(), x.z());
   if (builder.part.mesh.coincident == formats::CoincidentNodes::merge) {
-    for (std::size_t n = 0; n < twin.size(); ++n)
-      if (twin[n] >= 0) builder.merged.insert(static_cast<int>(n));
+    for (int n = 0; n < std::ssize(twin); ++n)
+      if (twin[n] >= 0) builder.merged.insert(n);
     for_nodes(builder.mesh, [&twin](int& node) {
       if (twin[node] >= 0) node = twin[node];
     });

@@ -17,13 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d middle_of_cell(const Cell& cell, const std::vector<Vector3d>& position) {
-  const int corners = form_of(cell.shape).corners;
-  Vector3d sum = Vector3d::Zero();
-  for (int k = 0; k < corners; ++k) sum += position[cell.nodes[k]];
-  return sum / corners;
-}
-
 /// At most `most` of them, evenly.
 std::vector<Vector3d> few_of(const std::vector<Vector3d>& places, std::size_t most) {
   std::vector<Vector3d> few;
@@ -49,7 +42,7 @@ std::vector<Vector3d> rim_of(const FacePiece& piece, const std::vector<Vector3d>
 std::vector<Vector3d> places_on(const FacePiece& piece, const std::vector<Vector3d>& position) {
   constexpr std::size_t most = 400;
   std::vector<Vector3d> middles;
-  for (const Cell& cell : piece.cells) middles.push_back(middle_of_cell(cell, position));
+  for (const Cell& cell : piece.cells) middles.push_back(middle_of(cell, position));
   const std::vector<Vector3d> candidates = few_of(middles, most);
   std::vector<Vector3d> avoided = few_of(rim_of(piece, position), most), places;
   for (int k = 0; k < (piece.is_flat ? 1 : 4); ++k) {

@@ -111,7 +111,9 @@ std::string labels_script(const Panel& panel, double left) {
 std::string polygons_data(const Panel& panel, double left) {
   std::string data;
   for (const PaintedPolygon& polygon : panel.projection.polygons()) {
-    const auto byte = [](double part) { return static_cast<unsigned>(std::lround(255.0 * std::clamp(part, 0.0, 1.0))); };
+    const auto byte = [](double part) {
+      return static_cast<unsigned>(std::lround(255.0 * std::clamp(part, 0.0, 1.0)));
+    };
     const unsigned colour =
         (byte(polygon.colour[0]) << 16U) | (byte(polygon.colour[1]) << 8U) | byte(polygon.colour[2]);
     for (const Vector2d& corner : polygon.corners)
@@ -121,8 +123,7 @@ std::string polygons_data(const Panel& panel, double left) {
   return data;
 }
 
-std::string faces_script(const std::array<Panel, 2>& panels, const std::array<std::string, 4>& texts,
-                         bool is_svg) {
+std::string faces_script(const std::array<Panel, 2>& panels, const std::array<std::string, 4>& texts, bool is_svg) {
   constexpr int width = 2 * panel_width, height = head + panel_height + foot;
   std::string script = fmt::format(
       "set terminal {} size {},{} font 'sans,15' background 'white'\nset encoding utf8\n"
@@ -142,15 +143,16 @@ std::string faces_script(const std::array<Panel, 2>& panels, const std::array<st
     script += axes_script(panels[p], left) + labels_script(panels[p], left);
   }
   script += "$faces << END\n" + polygons_data(panels[0], 0.0) + polygons_data(panels[1], panel_width) + "END\n";
-  return script + "plot $faces using 1:2:3 with filledcurves closed fillstyle solid noborder fillcolor rgb variable\nunset output\n";
+  return script +
+         "plot $faces using 1:2:3 with filledcurves closed fillstyle solid noborder fillcolor rgb variable\nunset "
+         "output\n";
 }
 
 /// Nodes of the pieces: other nodes of the file are not looked at.
 std::vector<Vector3d> positions_of(const std::vector<FacePiece>& pieces, const std::vector<Vector3d>& position) {
   std::set<int> nodes;
   for (const FacePiece& piece : pieces)
-    for (const Cell& cell : piece.cells)
-      nodes.insert(cell.nodes.begin(), cell.nodes.begin() + form_of(cell.shape).corners);
+    for (const Cell& cell : piece.cells) nodes.insert(corners_of(cell).begin(), corners_of(cell).end());
   std::vector<Vector3d> result;
   for (const int node : nodes) result.push_back(position[node]);
   return result;

@@ -30,12 +30,6 @@ std::array<double, 3> colour_of(std::size_t index) {
   return colour;
 }
 
-std::vector<int> corners_of(const Cell& cell) {
-  std::vector<int> corners(cell.nodes.begin(), cell.nodes.begin() + form_of(cell.shape).corners);
-  std::ranges::sort(corners);
-  return corners;
-}
-
 /// What one sees of a deck.
 std::vector<Cell> deck_skin(const Mesh& deck) {
   std::vector<Cell> skin = outer_faces(deck, [](int) { return true; });
@@ -64,10 +58,10 @@ std::vector<FacePiece> face_pieces(const Survey& survey) {
   }
   const std::vector<Cell> skin = deck_skin(survey.deck);
   if (skin.empty()) return pieces;
-  std::set<std::vector<int>> taken;
+  std::set<FaceKey> taken;
   const auto add = [&](FacePiece piece, const std::vector<Cell>& from) {
     for (const Cell& cell : from)
-      if (taken.insert(corners_of(cell)).second) piece.cells.push_back(cell);
+      if (taken.insert(face_key(corners_of(cell))).second) piece.cells.push_back(cell);
     if (!piece.cells.empty()) pieces.push_back(std::move(piece));
   };
   for (const SurveyedFace& set : survey.groups) add(piece_of(set, survey.units, pieces.size()), set.cells.cells);

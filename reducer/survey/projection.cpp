@@ -36,8 +36,8 @@ Vector3d facet_normal(const Cell& cell, const Positions& x) {
 std::unordered_map<int, Vector3d> node_normals(const ColouredSurface& surface, const Positions& x) {
   std::unordered_map<int, Vector3d> sums;
   for (const Cell& cell : surface.cells)
-    for (int k = 0; k < form_of(cell.shape).corners; ++k)
-      sums.try_emplace(cell.nodes[k], Vector3d::Zero()).first->second += facet_normal(cell, x);
+    for (const int node : corners_of(cell))
+      sums.try_emplace(node, Vector3d::Zero()).first->second += facet_normal(cell, x);
   return sums;
 }
 
@@ -139,20 +139,20 @@ PictureView view_from(const Vector3d& eye, const Positions& position, int width,
 Projection::Projection(const std::vector<ColouredSurface>& surfaces, const Positions& position, const PictureView& view,
                        int width, int height)
     : width_(width), height_(height), columns_(static_cast<int>(std::ceil(width / square))) {
-  for (std::size_t s = 0; s < surfaces.size(); ++s) add(surfaces[s], static_cast<int>(s), position, view);
+  for (int s = 0; s < std::ssize(surfaces); ++s) add(surfaces[s], s, position, view);
   const int rows = static_cast<int>(std::ceil(height / square));
   buckets_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows));
   const auto cell = [](double pixel, int count) {
     return std::clamp(static_cast<int>(std::floor(pixel / square)), 0, count - 1);
   };
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+  for (int t = 0; t < std::ssize(triangles_); ++t) {
     const auto& x = triangles_[t].x;
     const auto [left, right] = std::minmax({x[0].x(), x[1].x(), x[2].x()});
     const auto [top, bottom] = std::minmax({x[0].y(), x[1].y(), x[2].y()});
     for (int row = cell(top, rows); row <= cell(bottom, rows); ++row)
       for (int column = cell(left, columns_); column <= cell(right, columns_); ++column)
         buckets_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column)]
-            .push_back(static_cast<int>(t));
+            .push_back(t);
   }
 }
 
@@ -231,14 +231,13 @@ bool Projection::covers(const Vector2d& at) const {
 
 std::vector<SeenPlace> Projection::seen_places() const {
   std::vector<SeenPlace> places(middles_.size());
-  for (std::size_t s = 0; s < middles_.size(); ++s) {
+  for (int s = 0; s < std::ssize(middles_); ++s) {
     std::vector<Vector2d> seen, hidden;
     for (const Vector3d& middle : middles_[s]) (is_hidden(middle) ? hidden : seen).push_back(middle.head<2>());
     for (const Vector2d& place : seen) {
       double radius = std::numeric_limits<double>::infinity();
       for (const Segment& rim : rims_)
-        if (rim.surface == static_cast<int>(s))
-          radius = std::min(radius, to_segment(place, rim.a.head<2>(), rim.b.head<2>()));
+        if (rim.surface == s) radius = std::min(radius, to_segment(place, rim.a.head<2>(), rim.b.head<2>()));
       for (const Vector2d& other : hidden) radius = std::min(radius, (place - other).norm());
       if (radius > places[s].radius) places[s] = {place, std::min(radius, static_cast<double>(width_))};
     }

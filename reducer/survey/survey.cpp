@@ -80,11 +80,10 @@ std::string table(const std::string& title, const std::vector<Row>& rows) {
 
 std::vector<Row> entity_rows(const MeshBuilder& builder) {
   std::vector<Row> rows;
-  for (std::size_t e = 0; e < builder.cells.entities.size(); ++e) {
+  for (int e = 0; e < std::ssize(builder.cells.entities); ++e) {
     const Entity& entity = builder.cells.entities[e];
     if (entity.count > 0)
-      rows.push_back(
-          row_of(builder, name_of(entity), dimension_word(entity.dimension), {{static_cast<int>(e)}, {}, {}}));
+      rows.push_back(row_of(builder, name_of(entity), dimension_word(entity.dimension), {{e}, {}, {}}));
   }
   sort_stably(rows, {}, &Row::kind);
   return rows;
@@ -157,10 +156,10 @@ SurveyedFace face_of(const MeshBuilder& builder, const std::vector<int>& signs, 
 
 std::vector<SurveyedFace> numbered_faces(const MeshBuilder& builder, const std::vector<int>& signs) {
   std::vector<SurveyedFace> faces;
-  for (std::size_t e = 0; e < builder.cells.entities.size(); ++e) {
+  for (int e = 0; e < std::ssize(builder.cells.entities); ++e) {
     const Entity& entity = builder.cells.entities[e];
     if (entity.dimension != 2 || entity.count == 0) continue;
-    faces.push_back(face_of(builder, signs, name_of(entity), {{static_cast<int>(e)}, {}, {}}));
+    faces.push_back(face_of(builder, signs, name_of(entity), {{e}, {}, {}}));
     if (entity.number > 0) faces.back().label = std::to_string(entity.number);
   }
   return faces;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <string_view>
+#include <utility>
 
 #include "common/error.hpp"
 #include "common/parallel.hpp"
@@ -124,18 +125,31 @@ void compute(const Mesh& mesh, int element, ElementMatrices& out) {
   with_element(mesh, element, [&](const auto& kind) { element_matrices(mesh, kind, out); });
 }
 
+/// Rows of some nodes of S and M while they are summed.
+struct Rows {
+  const Mesh& mesh;
+  const Coordinates& coordinates;
+  Share nodes;
+  int threads = 1;
+  NodeGraph graph = find_graph(mesh, coordinates, nodes, threads);
+  SymmetricPair pair = empty_pair(coordinates, graph);
+
+  void add(const ElementNodes& of, const ElementMatrices& element, Share share);
+  void add_elements(Share share, const std::function<void(double)>& done);
+  void add_masses();
+};
+
 /// Adds to the rows of the nodes of `share` what an element contributes to them.
-void add(const ElementNodes& nodes, const ElementMatrices& element, const Coordinates& coordinates,
-         const NodeGraph& graph, Share share, SymmetricPair& pair) {
-  const int size = static_cast<int>(element.S.rows()) / nodes.count;
+void Rows::add(const ElementNodes& of, const ElementMatrices& element, Share share) {
+  const int size = static_cast<int>(element.S.rows()) / of.count;
   const int first_row = coordinates.first[graph.nodes.first];
-  for (int i = 0; i < nodes.count; ++i) {
-    const int a = nodes.node[i];
+  for (int i = 0; i < of.count; ++i) {
+    const int a = of.node[i];
     if (a < share.first || a >= share.end) continue;
     const auto row = graph.neighbour.begin() + graph.begin[a - graph.nodes.first],
                row_end = graph.neighbour.begin() + graph.begin[a - graph.nodes.first + 1];
-    for (int j = 0; j < nodes.count; ++j) {
-      const int b = nodes.node[j];
+    for (int j = 0; j < of.count; ++j) {
+      const int b = of.node[j];
       if (b < a) continue;
       const int shift = graph.shift[std::lower_bound(row, row_end, b) - graph.neighbour.begin()];
       for (int c = 0; c < size; ++c) {
@@ -161,28 +175,26 @@ std::vector<int> elements_at(const Mesh& mesh, Share nodes) {
   return elements;
 }
 
-/// Rows of `nodes`, which are among those of the graph.
-void add_elements(const Mesh& mesh, const Coordinates& coordinates, const NodeGraph& graph, Share nodes, int threads,
-                  const std::function<void(double)>& done, SymmetricPair& pair) {
-  const std::vector<int> elements = elements_at(mesh, nodes);
+/// Rows of the nodes of `share`.
+void Rows::add_elements(Share share, const std::function<void(double)>& done) {
+  const std::vector<int> elements = elements_at(mesh, share);
   const int total = static_cast<int>(elements.size());
   std::vector<ElementMatrices> batch(static_cast<std::size_t>(std::min(batch_size, total)));
   for (int first = 0; first < total; first += batch_size) {
     const int count = std::min(batch_size, total - first);
     on_threads(threads, [&](int t) {
-      const Share share = share_of(count, t, threads);
-      for (int k = share.first; k < share.end; ++k) compute(mesh, elements[first + k], batch[k]);
+      const Share batched = share_of(count, t, threads);
+      for (int k = batched.first; k < batched.end; ++k) compute(mesh, elements[first + k], batch[k]);
     });
     on_threads(threads, [&](int t) {
-      const Share share = part_of(nodes, t, threads);
-      for (int k = 0; k < count; ++k)
-        add(element_nodes(mesh, elements[first + k]), batch[k], coordinates, graph, share, pair);
+      const Share part = part_of(share, t, threads);
+      for (int k = 0; k < count; ++k) add(element_nodes(mesh, elements[first + k]), batch[k], part);
     });
     done(static_cast<double>(first + count) / total);
   }
 }
 
-void add_masses(const Mesh& mesh, const Coordinates& coordinates, SymmetricPair& pair) {
+void Rows::add_masses() {
   for (const NodalMass& mass : mesh.masses) {
     const Eigen::Matrix<double, 6, 6> M = nodal_mass_matrix(mass);
     const int size = coordinates.rotates(mass.node) ? 6 : 3;
@@ -201,15 +213,16 @@ int fingerprint(const Mesh& mesh) {
 }
 
 /// What the ranks add to the rows of their nodes.
-void add_by_ranks(const Mesh& mesh, const Coordinates& coordinates, const NodeGraph& graph, int threads,
-                  const std::function<void(double)>& share, SymmetricPair& pair) {
-  call_followers({Task::assemble, 0, fingerprint(mesh)});
+void add_by_ranks(const std::function<void(double)>& share, Rows& all) {
+  const int nodes = all.mesh.nodes();
+  call_followers({Task::assemble, 0, fingerprint(all.mesh)});
   all_or_none([&] {
-    add_elements(mesh, coordinates, graph, share_of(mesh.nodes(), 0, rank_count()), threads, share, pair);
+    all.add_elements(share_of(nodes, 0, rank_count()), share);
     for (int r = 1; r < rank_count(); ++r) {
-      const Share nodes = share_of(mesh.nodes(), r, rank_count());
-      const int first = pair.begin[coordinates.first[nodes.first]], end = pair.begin[coordinates.first[nodes.end]];
-      for (std::vector<double>* const values : {&pair.S, &pair.M})
+      const Share part = share_of(nodes, r, rank_count());
+      const std::vector<int>& row = all.coordinates.first;
+      const int first = all.pair.begin[row[part.first]], end = all.pair.begin[row[part.end]];
+      for (std::vector<double>* const values : {&all.pair.S, &all.pair.M})
         receive_from(r, values->data() + first, static_cast<std::size_t>(end - first));
     }
   });
@@ -219,15 +232,13 @@ void add_by_ranks(const Mesh& mesh, const Coordinates& coordinates, const NodeGr
 
 SymmetricPair assemble(const Mesh& mesh, const Coordinates& coordinates, int threads,
                        const std::function<void(double)>& share) {
-  const Share all{0, mesh.nodes()};
-  const NodeGraph graph = find_graph(mesh, coordinates, all, threads);
-  SymmetricPair pair = empty_pair(coordinates, graph);
+  Rows all{mesh, coordinates, {0, mesh.nodes()}, threads};
   if (rank_count() > 1 && coordinates.count() >= fewest_shared_rows)
-    add_by_ranks(mesh, coordinates, graph, threads, share, pair);
+    add_by_ranks(share, all);
   else
-    add_elements(mesh, coordinates, graph, all, threads, share, pair);
-  add_masses(mesh, coordinates, pair);
-  return pair;
+    all.add_elements(all.nodes, share);
+  all.add_masses();
+  return std::move(all.pair);
 }
 
 void help_to_assemble(const Mesh& mesh, int leaders_fingerprint) {
@@ -236,13 +247,10 @@ void help_to_assemble(const Mesh& mesh, int leaders_fingerprint) {
                 "start all processes on like machines, with the same files and programs");
   const Coordinates coordinates = number_coordinates(mesh);
   const Share nodes = share_of(mesh.nodes(), rank_number(), rank_count());
-  const int threads = core_count();
-  const NodeGraph graph = find_graph(mesh, coordinates, nodes, threads);
-  SymmetricPair pair = empty_pair(coordinates, graph);
-  add_elements(
-      mesh, coordinates, graph, nodes, threads, [](double /*done*/) {}, pair);
-  send_to_leader(pair.S.data(), pair.S.size());
-  send_to_leader(pair.M.data(), pair.M.size());
+  Rows rows{mesh, coordinates, nodes, core_count()};
+  rows.add_elements(nodes, [](double /*done*/) {});
+  send_to_leader(rows.pair.S.data(), rows.pair.S.size());
+  send_to_leader(rows.pair.M.data(), rows.pair.M.size());
 }
 
 }  // namespace tisserand::reducer

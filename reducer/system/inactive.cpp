@@ -83,35 +83,41 @@ Eigen::MatrixXd null_directions(const Eigen::MatrixXd& A) {
                     : "connect something to the node");
 }
 
-/// Fixes one coordinate for each column of `null` and turns the rigid motions of the block.
-void fix_directions(const Mesh& mesh, const Block& block, Eigen::MatrixXd null, const std::vector<bool>& kept,
-                    const std::string& where, System& system, std::vector<bool>& fixed) {
+/// Of each coordinate q.
+struct Choice {
+  std::vector<bool> kept;   ///< on the boundary
+  std::vector<bool> fixed;  ///< without stiffness and mass
+};
+
+/// Fixes one coordinate for each column of `null` and turns the rigid motions of the block. Returns whether it could.
+bool fix_directions(const Block& block, Eigen::MatrixXd null, Choice& choice, System& system) {
   const auto size = null.rows();
   for (Eigen::Index k = 0; k < null.cols(); ++k) {
     Eigen::Index pivot = -1;
     for (Eigen::Index i = 0; i < size; ++i) {
-      const bool free = !kept[block.q[i]] && !fixed[block.q[i]];
+      const bool free = !choice.kept[block.q[i]] && !choice.fixed[block.q[i]];
       if (free && (pivot < 0 || std::abs(null(i, k)) > std::abs(null(pivot, k)))) pivot = i;
     }
-    if (pivot < 0 || std::abs(null(pivot, k)) < 1e-6) fail_boundary(mesh, block, system, where);
+    if (pivot < 0 || std::abs(null(pivot, k)) < 1e-6) return false;
     null.col(k) /= null(pivot, k);
     for (Eigen::Index j = 0; j < null.cols(); ++j)
       if (j != k) null.col(j) -= null(pivot, j) * null.col(k);
-    fixed[block.q[pivot]] = true;
+    choice.fixed[block.q[pivot]] = true;
     const Eigen::RowVectorXd motion = system.R.row(block.q[pivot]);
     for (Eigen::Index i = 0; i < size; ++i) system.R.row(block.q[i]) -= null(i, k) * motion;
   }
+  return true;
 }
 
 /// T of the coordinates q without the fixed ones.
 Transformation without(const std::vector<bool>& fixed) {
   Transformation T;
-  for (std::size_t q = 0; q < fixed.size(); ++q) {
+  for (int q = 0; q < std::ssize(fixed); ++q) {
     T.row.push_back(fixed[q] ? -1 - static_cast<int>(T.dependent.size()) : T.independent);
     if (fixed[q]) {
       T.dependent.emplace_back();
     } else {
-      T.source.push_back(static_cast<int>(q));
+      T.source.push_back(q);
       ++T.independent;
     }
   }
@@ -125,10 +131,10 @@ void compose(const Transformation& second, System& system) {
     std::erase_if(terms, [&](const Term& t) { return second.row[t.coordinate] < 0; });
     for (Term& term : terms) term.coordinate = second.row[term.coordinate];
   }
-  for (std::size_t x = 0; x < T.row.size(); ++x) {
+  for (int x = 0; x < std::ssize(T.row); ++x) {
     if (T.row[x] < 0) continue;
     const int row = second.row[T.row[x]];
-    if (row < 0) system.inactive.push_back(static_cast<int>(x));
+    if (row < 0) system.inactive.push_back(x);
     if (row < 0) T.dependent.emplace_back();
     T.row[x] = row < 0 ? -static_cast<int>(T.dependent.size()) : row;
   }
@@ -147,21 +153,22 @@ void compose(const Transformation& second, System& system) {
 
 void remove_inactive(const Mesh& mesh, const std::vector<int>& boundary, const std::string& where, int threads,
                      System& system) {
-  std::vector<bool> kept(static_cast<std::size_t>(system.size()), false), fixed(kept);
-  for (const int x : boundary) kept[system.T.row[x]] = true;
+  const std::vector<bool> none(static_cast<std::size_t>(system.size()), false);
+  Choice choice{none, none};
+  for (const int x : boundary) choice.kept[system.T.row[x]] = true;
+  const auto look_at = [&](const Block& block, double least_S, double least_M) {
+    const Eigen::MatrixXd null = null_directions(scaled_sum(block, least_S, least_M));
+    if (null.cols() > 0 && !fix_directions(block, null, choice, system)) fail_boundary(mesh, block, system, where);
+  };
   const double tiny = std::pow(1e-12 * system.length, 2);  // rotations beside translations
   for (int n = 0; n < mesh.nodes(); ++n) {
     const Block moving = block_of(system, n, 0);
-    if (const Eigen::MatrixXd null = null_directions(scaled_sum(moving, 0.0, 0.0)); null.cols() > 0)
-      fix_directions(mesh, moving, null, kept, where, system, fixed);
+    look_at(moving, 0.0, 0.0);
     if (!system.coordinates.rotates(n)) continue;
-    const Block turning = block_of(system, n, 3);
-    const double least_S = tiny * moving.S.cwiseAbs().maxCoeff(), least_M = tiny * moving.M.cwiseAbs().maxCoeff();
-    if (const Eigen::MatrixXd null = null_directions(scaled_sum(turning, least_S, least_M)); null.cols() > 0)
-      fix_directions(mesh, turning, null, kept, where, system, fixed);
+    look_at(block_of(system, n, 3), tiny * moving.S.cwiseAbs().maxCoeff(), tiny * moving.M.cwiseAbs().maxCoeff());
   }
-  if (std::find(fixed.begin(), fixed.end(), true) == fixed.end()) return;
-  const Transformation T = without(fixed);
+  if (choice.fixed == none) return;
+  const Transformation T = without(choice.fixed);
   system.matrices = condense(std::move(system.matrices), T, threads);
   compose(T, system);
 }

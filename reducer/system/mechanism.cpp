@@ -34,12 +34,13 @@ struct Movement {
   double length = 1.0;
 };
 
-Movement movement_of(const Mesh& mesh, const System& system, const Partition& p, const VectorXd& v) {
+Movement movement_of(const PartitionedPart& part, const VectorXd& v) {
+  const System& system = part.system;
   VectorXd q = VectorXd::Zero(system.size());
-  q(p.internal) = v;
+  q(part.partition.internal) = v;
   const VectorXd x = expand(system.T, q).col(0);
   Movement m;
-  m.length = characteristic_length(mesh);
+  m.length = characteristic_length(part.mesh);
   const auto of_length = [&](int k) { return x[k] * (system.coordinates.component[k] < 3 ? 1.0 : m.length); };
   for (int k = 0; k < system.coordinates.count(); ++k) m.largest = std::max(m.largest, std::abs(of_length(k)));
   std::vector<double> u;
@@ -161,8 +162,9 @@ std::string coordinate_words(const Mesh& mesh, const System& system, const Movem
 
 }  // namespace
 
-std::string motion_words(const Mesh& mesh, const System& system, const Partition& p, const VectorXd& v) {
-  const Movement m = movement_of(mesh, system, p, v);
+std::string motion_words(const PartitionedPart& part, const VectorXd& v) {
+  const auto& [mesh, system, p] = part;
+  const Movement m = movement_of(part, v);
   if (m.x.size() == 1) return coordinate_name(mesh, system, m.x[0]);
   if (m.x.empty()) {
     Index largest = 0;
@@ -173,11 +175,11 @@ std::string motion_words(const Mesh& mesh, const System& system, const Partition
   return fit_rigid(mesh, system, m, fit) ? rigid_words(mesh, m, fit) : coordinate_words(mesh, system, m);
 }
 
-std::string mechanism_words(const Mesh& mesh, const System& system, const Partition& p, const NullSpace& null) {
+std::string mechanism_words(const PartitionedPart& part, const NullSpace& null) {
   constexpr Index most = 3;
   std::vector<std::string> motions;
   for (Index k = 0; k < std::min(null.vectors.cols(), most); ++k)
-    motions.push_back(motion_words(mesh, system, p, null.vectors.col(k)));
+    motions.push_back(motion_words(part, null.vectors.col(k)));
   if (null.vectors.cols() > most) motions.push_back(fmt::format("and {} more", null.vectors.cols() - most));
   return join(motions, "; ");
 }
@@ -188,11 +190,11 @@ HeldState boundary_held() {
           "mechanism: allow if they are meant to move freely"};
 }
 
-void require_stiffness(const NullSpace& null, const Factor& factor, const Mesh& mesh, const System& system,
-                       const Partition& p, const HeldState& state, const std::string& where) {
+void require_stiffness(const NullSpace& null, const Factor& factor, const PartitionedPart& part, const HeldState& state,
+                       const std::string& where) {
   if (null.vectors.cols() > 0)
     throw Error(fmt::format("{} has {} motion(s) without stiffness {}: {}", state.who, null.vectors.cols(), state.how,
-                            mechanism_words(mesh, system, p, null)),
+                            mechanism_words(part, null)),
                 where, state.remedy);
   if (null.negative > 0)
     throw Error(fmt::format("the stiffness of {} {} has {} negative eigenvalues", state.who, state.how, null.negative),
@@ -200,17 +202,17 @@ void require_stiffness(const NullSpace& null, const Factor& factor, const Mesh& 
   if (factor.null() > 0 || factor.negative() > 0)
     throw Error(fmt::format("{} has a motion {} whose stiffness is {:.1e} of that around it, which round-off hides: {}",
                             state.who, state.how, null.least_share,
-                            null.softest.size() > 0 ? motion_words(mesh, system, p, null.softest) : std::string()),
+                            null.softest.size() > 0 ? motion_words(part, null.softest) : std::string()),
                 where, "make what is soft stiffer, or what is stiff softer or rigid (a spider)");
 }
 
-std::string softness_doubt(const NullSpace& null, const Mesh& mesh, const System& system, const Partition& p) {
+std::string softness_doubt(const NullSpace& null, const PartitionedPart& part) {
   if (null.softest.size() == 0 || null.least_share > doubtful_share) return {};
   return fmt::format(
       "a motion has {:.1e} of the stiffness around it, of which round-off changes {:.1g} %: {}; make what is soft "
       "stiffer, or what is stiff softer or rigid (a spider)",
       null.least_share, 100.0 * std::numeric_limits<double>::epsilon() / null.least_share,
-      motion_words(mesh, system, p, null.softest));
+      motion_words(part, null.softest));
 }
 
 }  // namespace tisserand::reducer

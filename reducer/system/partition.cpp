@@ -12,8 +12,8 @@ namespace {
 /// Where a coordinate stands: among the internal ones, or −1 − its place among those of the boundary.
 std::vector<int> places(const Partition& p) {
   std::vector<int> place(p.boundary.size() + p.internal.size());
-  for (std::size_t i = 0; i < p.internal.size(); ++i) place[p.internal[i]] = static_cast<int>(i);
-  for (std::size_t b = 0; b < p.boundary.size(); ++b) place[p.boundary[b]] = -1 - static_cast<int>(b);
+  for (int i = 0; i < std::ssize(p.internal); ++i) place[p.internal[i]] = i;
+  for (int b = 0; b < std::ssize(p.boundary); ++b) place[p.boundary[b]] = -1 - b;
   return place;
 }
 
@@ -21,10 +21,10 @@ std::vector<int> places(const Partition& p) {
 
 Partition partition(const Mesh& mesh, const System& system) {
   std::vector<OwnedCoordinate> boundary;
-  for (std::size_t b = 0; b < mesh.boundary.size(); ++b)
+  for (int b = 0; b < std::ssize(mesh.boundary); ++b)
     for (int component = 0; component < 6; ++component)
       if (component < 3 ? mesh.boundary[b].translations : mesh.boundary[b].rotations)
-        boundary.push_back({system.coordinates.of(mesh.boundary[b].node, component), static_cast<int>(b)});
+        boundary.push_back({system.coordinates.of(mesh.boundary[b].node, component), b});
   return partition(system, boundary);
 }
 

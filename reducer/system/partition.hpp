@@ -23,6 +23,13 @@ struct Partition {
   Eigen::Index n_I() const { return static_cast<Eigen::Index>(internal.size()); }
 };
 
+/// A part with its coordinates told apart.
+struct PartitionedPart {
+  const Mesh& mesh;
+  const System& system;
+  const Partition& partition;
+};
+
 Partition partition(const Mesh& mesh, const System& system);
 
 /// The same of other coordinates than those of Mesh::boundary. Those without stiffness and mass rest anyway.

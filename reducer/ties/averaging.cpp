@@ -75,7 +75,7 @@ Fit make_fit(const Mesh& mesh, const Coordinates& coordinates, const Spider& spi
 /// The sum over `nodes` (rows of Fit::items), as few items.
 class Gatherer {
  public:
-  Gatherer(const Fit& fit, int tie, TieSystem& ties) : fit_(fit), tie_(tie), ties_(ties) {}
+  Gatherer(const Fit& fit, TieSystem& ties) : fit_(fit), ties_(ties) {}
 
   /// Items of the whole sum.
   std::vector<Item> gather() {
@@ -130,7 +130,7 @@ class Gatherer {
   /// Appends y = qᵀ x, one of the coordinates of a group that begin with number `group`.
   int define(const std::vector<Item>& items, const Eigen::VectorXd& q, int group) {
     const int y = ties_.coordinates++;
-    LinearEquation equation{{{y, -1.0}}, -1, group, tie_};
+    LinearEquation equation{{{y, -1.0}}, -1, group};
     Vector6 rigid = Vector6::Zero();
     for (std::size_t i = 0; i < items.size(); ++i) {
       const double coefficient = q[i] * scale(items[i]);
@@ -139,15 +139,14 @@ class Gatherer {
     }
     ties_.rigid.push_back(rigid);
     ties_.scale.push_back(1.0);
-    ties_.auxiliary_tie.push_back(tie_);
-    ties_.equations.push_back(std::move(equation));
+    ties_.auxiliary_tie.push_back(ties_.last_tie());
+    ties_.add(std::move(equation));
     return y;
   }
 
   double scale(const Item& item) const { return ties_.scale[item.coordinate]; }
 
   const Fit& fit_;
-  int tie_;
   TieSystem& ties_;
 };
 
@@ -186,8 +185,8 @@ Inverse invert(const Matrix6& matrix) {
 
 }  // namespace
 
-void append_averaging(const Mesh& mesh, const Coordinates& coordinates, const Spider& spider, int tie,
-                      const std::string& where, TieSystem& ties) {
+void append_averaging(const Mesh& mesh, const Coordinates& coordinates, const Spider& spider, const std::string& where,
+                      TieSystem& ties) {
   TISSERAND_ENSURE(spider.weight.size() == spider.nodes.size(), "{} weights for {} nodes", spider.weight.size(),
                    spider.nodes.size());
   const Fit fit = make_fit(mesh, coordinates, spider);
@@ -201,12 +200,12 @@ void append_averaging(const Mesh& mesh, const Coordinates& coordinates, const Sp
     if ((fitted.undefined * direction).norm() > 1e-6) undefined.push_back(c);
     wanted.emplace_back(c, direction);
   }
-  if (!undefined.empty()) fail_undefined(mesh, spider, undefined, ties.name[tie], where);
+  if (!undefined.empty()) fail_undefined(mesh, spider, undefined, ties.name.back(), where);
 
-  const std::vector<Item> items = Gatherer(fit, tie, ties).gather();
+  const std::vector<Item> items = Gatherer(fit, ties).gather();
   for (const auto& [c, direction] : wanted) {
     const Vector6 row = fitted.inverse * direction / (c < 3 ? 1.0 : fit.length);
-    LinearEquation equation{{}, -1, -1, tie};
+    LinearEquation equation;
     for (int k = 0; k < 3; ++k) {
       const double e = spider.axes(k, c % 3);
       const int coordinate = coordinates.of(spider.reference, (c < 3 ? 0 : 3) + k);
@@ -214,7 +213,7 @@ void append_averaging(const Mesh& mesh, const Coordinates& coordinates, const Sp
       if (std::abs(e) == 1.0) equation.preferred = coordinate;
     }
     for (const Item& item : items) equation.terms.push_back({item.coordinate, row.dot(item.factor)});
-    ties.equations.push_back(std::move(equation));
+    ties.add(std::move(equation));
   }
 }
 

@@ -40,7 +40,7 @@ void mark_computed(Problem& problem) {
       if (problem.is_dependent(i)) mark(full.column[k]);
       if (problem.is_dependent(full.column[k])) mark(i);
     }
-  for (int x = 0; x < static_cast<int>(problem.T.row.size()); ++x) {
+  for (int x = 0; x < std::ssize(problem.T.row); ++x) {
     if (!problem.is_dependent(x)) continue;
     for (const Term& term : problem.terms(x)) {
       problem.computed[term.coordinate] = true;

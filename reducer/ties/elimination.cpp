@@ -100,9 +100,9 @@ class Eliminator {
     result.equation = equation_;
     for (const TieRow& row : rows_) result.dependent.push_back(row.coordinate);
     result.T.row.resize(row_of_.size());
-    for (std::size_t x = 0; x < row_of_.size(); ++x) {
+    for (int x = 0; x < std::ssize(row_of_); ++x) {
       result.T.row[x] = row_of_[x] < 0 ? result.T.independent++ : -1 - row_of_[x];
-      if (row_of_[x] < 0) result.T.source.push_back(static_cast<int>(x));
+      if (row_of_[x] < 0) result.T.source.push_back(x);
     }
     for (const TieRow& row : rows_) {
       std::vector<Term> terms = row.terms;

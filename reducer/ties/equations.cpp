@@ -33,11 +33,10 @@ void add_term(int coordinate, double coefficient, LinearEquation& equation) {
 }
 
 /// Component c of a node at r from the reference follows it: e·u − e·u_ref − (r × e)·θ_ref = 0, or e·θ − e·θ_ref = 0.
-LinearEquation follow(const Coordinates& coordinates, const Spider& spider, int node, const Eigen::Vector3d& r, int c,
-                      int tie) {
+LinearEquation follow(const Coordinates& coordinates, const Spider& spider, int node, const Eigen::Vector3d& r, int c) {
   const Eigen::Vector3d e = spider.axes.col(c % 3);
   const int base = c < 3 ? 0 : 3;
-  LinearEquation equation{{}, -1, -1, tie};
+  LinearEquation equation;
   for (int k = 0; k < 3; ++k) {
     add_term(coordinates.of(node, base + k), e[k], equation);
     add_term(coordinates.of(spider.reference, base + k), -e[k], equation);
@@ -48,17 +47,17 @@ LinearEquation follow(const Coordinates& coordinates, const Spider& spider, int 
   return equation;
 }
 
-void append_rigid(const Mesh& mesh, const Coordinates& coordinates, const Spider& spider, int tie, TieSystem& ties) {
+void append_rigid(const Mesh& mesh, const Coordinates& coordinates, const Spider& spider, TieSystem& ties) {
   for (const int n : spider.nodes) {
     if (n == spider.reference) continue;
     const Eigen::Vector3d r = mesh.position.col(n) - mesh.position.col(spider.reference);
     for (int c = 0; c < (coordinates.rotates(n) ? 6 : 3); ++c)
-      if (((spider.node_components >> c) & 1) != 0) ties.equations.push_back(follow(coordinates, spider, n, r, c, tie));
+      if (((spider.node_components >> c) & 1) != 0) ties.add(follow(coordinates, spider, n, r, c));
   }
 }
 
-LinearEquation own_equation(const Coordinates& coordinates, const TieEquation& tie, int number) {
-  LinearEquation equation{{}, -1, -1, number};
+LinearEquation own_equation(const Coordinates& coordinates, const TieEquation& tie) {
+  LinearEquation equation;
   for (const TieTerm& term : tie.terms) add_term(coordinates.of(term.node, term.component), term.coefficient, equation);
   if (!equation.terms.empty()) equation.preferred = equation.terms.front().coordinate;
   return equation;
@@ -91,19 +90,17 @@ void check_rigid(const Mesh& mesh, const Coordinates& coordinates, const TieSyst
 TieSystem collect_ties(const Mesh& mesh, const Coordinates& coordinates, const std::string& where) {
   TieSystem ties = start(mesh, coordinates);
   for (const Spider& spider : mesh.spiders) {
-    const int tie = static_cast<int>(ties.name.size());
     ties.name.push_back(fmt::format("spider '{}'", spider.name));
     if (spider.nodes.empty())
       throw Error(ties.name.back() + " grabs no node", where, "name a set of nodes that is not empty");
     if (spider.kind == SpiderKind::rigid)
-      append_rigid(mesh, coordinates, spider, tie, ties);
+      append_rigid(mesh, coordinates, spider, ties);
     else
-      append_averaging(mesh, coordinates, spider, tie, where, ties);
+      append_averaging(mesh, coordinates, spider, where, ties);
   }
   for (const TieEquation& equation : mesh.equations) {
-    const int tie = static_cast<int>(ties.name.size());
     ties.name.push_back(fmt::format("equation '{}'", equation.name));
-    ties.equations.push_back(own_equation(coordinates, equation, tie));
+    ties.add(own_equation(coordinates, equation));
     check_rigid(mesh, coordinates, ties, ties.equations.back(), where);
   }
   return ties;

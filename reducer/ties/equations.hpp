@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -35,6 +36,14 @@ struct TieSystem {
   std::vector<Eigen::Matrix<double, 6, 1>> rigid;
   /// Of a coordinate, the factor to a length: l for rotations, 1 otherwise.
   std::vector<double> scale;
+
+  /// The spider or equation that was named last.
+  int last_tie() const { return static_cast<int>(name.size()) - 1; }
+  /// Adds one of its equations.
+  void add(LinearEquation equation) {
+    equation.tie = last_tie();
+    equations.push_back(std::move(equation));
+  }
 };
 
 /// Collects the equations of all spiders and of Mesh::equations. Throws Error for spiders that grab nothing or cannot

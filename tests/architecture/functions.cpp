@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t longest_function = 60;
 constexpr int most_parameters = 5;
 /// Functions with more parameters than that. Lower it when some have gone; it does not rise.
-constexpr std::size_t most_with_many = 114;
+constexpr std::size_t most_with_many = 60;
 
 /// Lists of fields and keys are as long as a file has keys.
 bool is_list(std::string_view name) { return name.ends_with("_fields") || name.ends_with("_key_sets"); }
@@ -22,7 +22,7 @@ bool is_list(std::string_view name) { return name.ends_with("_fields") || name.e
 constexpr std::array<std::string_view, 5> kept_whole{
     "mechanism/main.cpp command_line", "reducer/main.cpp main", "mechanism/radau/newton.cpp iterate",
     "formats/results/layout_file.cpp write_names",
-    "mechanism/bodies/superelement/frame_stiffness.cpp add_frame_stiffness"};
+    "mechanism/bodies/superelement/tangent/frame_stiffness.cpp add_frame_stiffness"};
 
 /// The code as one text, its strings, characters and lines of the preprocessor emptied; lines stay where they are.
 std::string plain_text(const SourceFile& file) {

@@ -226,6 +226,13 @@ std::vector<Violation> cycles_of(const Graph& graph, const std::string& what) {
 
 std::string without_ending(const std::string& path) { return path.substr(0, path.rfind('.')); }
 
+/// The folder of a source. Sources in the folder of a stage itself, above its rooms, are programs and stories, each a room
+/// of its own; those of `common` are one room.
+std::string room_of(const std::string& stem) {
+  const std::string folder = stem.substr(0, stem.rfind('/'));
+  return folder.find('/') == std::string::npos && folder != "common" ? stem : folder;
+}
+
 void find_all(const SourceFile& file, const std::vector<std::string>& lines, const std::regex& pattern,
               const std::string& what, std::vector<Violation>& violations) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -312,18 +319,17 @@ std::vector<Violation> check_dependencies(const SourceTree& tree) {
 }
 
 std::vector<Violation> check_cycles(const SourceTree& tree) {
-  Graph headers, folders;
+  Graph headers, rooms;
   for (const SourceFile& file : tree.files)
     for (const Include& include : file.includes) {
       const std::string from = without_ending(file.path), to = without_ending(include.target);
       if (first_folder(from) != first_folder(to) || !include.target.ends_with(".hpp") || from == to) continue;
       if (file.is_header()) headers[from].insert(to);
-      const std::string from_folder = from.substr(0, from.rfind('/')), to_folder = to.substr(0, to.rfind('/'));
-      const bool both_below = from_folder.find('/') != std::string::npos && to_folder.find('/') != std::string::npos;
-      if (both_below && from_folder != to_folder) folders[from_folder].insert(to_folder);
+      const std::string from_room = room_of(from), to_room = room_of(to);
+      if (from_room != to_room) rooms[from_room].insert(to_room);
     }
   std::vector<Violation> violations = cycles_of(headers, "includes in a circle: ");
-  const std::vector<Violation> between = cycles_of(folders, "folders in a circle: ");
+  const std::vector<Violation> between = cycles_of(rooms, "rooms in a circle: ");
   violations.insert(violations.end(), between.begin(), between.end());
   return violations;
 }

@@ -42,7 +42,8 @@ SourceTree read_tree(const std::filesystem::path& root);
 /// stable sorting by sort_stably.
 std::vector<Violation> check_dependencies(const SourceTree& tree);
 
-/// No cycle of headers inside a folder of the first level, and none between its sub-folders (sources counted).
+/// No cycle of headers inside a folder of the first level, and none between its rooms (sources counted): its
+/// sub-folders, and each program or story in the folder of a stage itself.
 std::vector<Violation> check_cycles(const SourceTree& tree);
 
 /// Every header has #pragma once, and the .cpp beside it includes it first (which proves that it compiles alone).
@@ -67,6 +68,16 @@ std::vector<Violation> check_wording(const SourceTree& tree);
 /// Links of pages, and files that pages and comments name, exist; source keys such as [Car00] have a row in
 /// CONVENTIONS.md.
 std::vector<Violation> check_links(const SourceTree& tree);
+
+/// A source has a header of its own name, or is listed with the header that it implements beside others; programs
+/// excepted.
+std::vector<Violation> check_source_names(const SourceTree& tree);
+
+/// An index is compared with std::ssize(); numbers become int in few places.
+std::vector<Violation> check_casts(const SourceTree& tree);
+
+/// The table "Ways through the code" of a map: five rooms at most on each way, none twice.
+std::vector<Violation> check_ways(const SourceTree& tree);
 
 /// One line per violation; empty for none.
 std::string to_text(const std::vector<Violation>& violations);

@@ -21,7 +21,8 @@ class PlantedTree : public ::testing::Test {
     plant("common/a.hpp", "#pragma once\n#include <vector>\n");
     plant("formats/b.hpp", "#pragma once\n#include \"common/a.hpp\"\n");
     plant("formats/b.cpp", "#include \"formats/b.hpp\"\n#include <hdf5.h>\n#include <yaml-cpp/yaml.h>\n");
-    plant("reducer/gmsh/mesh.cpp", "#include <gmsh.h>\n#include \"formats/b.hpp\"\n");
+    plant("reducer/gmsh/mesh.hpp", "#pragma once\n");
+    plant("reducer/gmsh/mesh.cpp", "#include \"reducer/gmsh/mesh.hpp\"\n#include <gmsh.h>\n#include \"formats/b.hpp\"\n");
     plant("mechanism/solver/klu.cpp", "#include <klu.h>\n#include \"formats/b.hpp\"\n");
     plant("mechanism/main.cpp", "#include <CLI/CLI.hpp>\n");
     plant("README.md", "[a](common/a.hpp) and [b](https://example.org/x)\n");
@@ -44,6 +45,9 @@ TEST_F(PlantedTree, IsCleanAtFirst) {
   EXPECT_EQ(to_text(check_headers(tree())), "");
   EXPECT_EQ(to_text(check_lengths(tree())), "");
   EXPECT_EQ(to_text(check_functions(tree())), "");
+  EXPECT_EQ(to_text(check_source_names(tree())), "");
+  EXPECT_EQ(to_text(check_casts(tree())), "");
+  EXPECT_EQ(to_text(check_ways(tree())), "");
   EXPECT_EQ(to_text(check_rooms(tree())), "");
   EXPECT_EQ(to_text(check_stories(tree())), "");
   EXPECT_EQ(to_text(check_wording(tree())), "");
@@ -125,6 +129,14 @@ TEST_F(PlantedTree, CircleOfFoldersIsFound) {
   EXPECT_THAT(to_text(check_cycles(tree())), HasSubstr("mechanism/bodies -> mechanism/joints -> mechanism/bodies"));
 }
 
+TEST_F(PlantedTree, CircleThroughTheRootOfAStageIsFound) {
+  plant("mechanism/main.cpp", "#include \"mechanism/study/a.hpp\"\n");
+  plant("mechanism/study/a.cpp", "#include \"mechanism/simulate.hpp\"\n");
+  EXPECT_EQ(to_text(check_cycles(tree())), "");
+  plant("mechanism/simulate.cpp", "#include \"mechanism/study/b.hpp\"\n");
+  EXPECT_THAT(to_text(check_cycles(tree())), HasSubstr("mechanism/study -> mechanism/simulate -> mechanism/study"));
+}
+
 TEST_F(PlantedTree, UnguardedAndLateHeadersAreFound) {
   plant("common/p.hpp", "// #pragma once\n");
   EXPECT_EQ(to_text(check_headers(tree())), "common/p.hpp: has no #pragma once\n");
@@ -174,6 +186,44 @@ TEST_F(PlantedTree, FunctionsWithManyParametersAreCounted) {
     text += "void g" + std::to_string(i) + "(int a, int b, int c, int d, int e, int f) {}\n";
   plant("common/many.cpp", text);
   EXPECT_THAT(to_text(check_functions(tree())), HasSubstr("200 functions have more than 5 parameters"));
+}
+
+TEST_F(PlantedTree, LongWaysAndWaysBackAreFound) {
+  const auto row = [](const std::vector<std::string>& rooms) {
+    std::string text = "## Ways through the code\n\n| a step size |";
+    for (const std::string& room : rooms) text += " [x](" + room + "/x.cpp)";
+    return text + " |\n\n## More\n\n| [x](a/b) [x](c/d) [x](a/b) |\n";
+  };
+  plant("mechanism/MAP.md", row({"run", "run", "../formats/scene", "step", "solver", "joints"}));
+  EXPECT_EQ(to_text(check_ways(tree())), "");
+  plant("mechanism/MAP.md", row({"run", "../formats/scene", "step", "solver", "joints", "forces"}));
+  EXPECT_EQ(to_text(check_ways(tree())), "mechanism/MAP.md:3: a way through 6 rooms, at most 5\n");
+  plant("mechanism/MAP.md", row({"run", "step", "run"}));
+  EXPECT_EQ(to_text(check_ways(tree())), "mechanism/MAP.md:3: a way that comes back to mechanism/run\n");
+}
+
+TEST_F(PlantedTree, SourcesOfAnotherNameAreFound) {
+  plant("formats/c.cpp", "#include \"formats/b.hpp\"\n");
+  EXPECT_EQ(to_text(check_source_names(tree())),
+            "formats/c.cpp: has no header of its name, and is not on the list of those that share one\n");
+  plant("formats/c.hpp", "#pragma once\n");
+  plant("formats/page/surface.hpp", "#pragma once\n");
+  EXPECT_EQ(to_text(check_source_names(tree())),
+            "formats/page/thinning.cpp: is listed as a part of formats/page/surface.hpp, but is not there\n");
+  plant("formats/page/thinning.cpp", "");
+  EXPECT_EQ(to_text(check_source_names(tree())), "");
+  plant("formats/page/thinning.hpp", "#pragma once\n");
+  EXPECT_THAT(to_text(check_source_names(tree())), HasSubstr("formats/page/thinning.cpp: has a header of its name"));
+}
+
+TEST_F(PlantedTree, CastsToIntAreCounted) {
+  std::string text = "#include \"common/a.hpp\"\n";
+  for (int i = 0; i < 600; ++i) text += "int a = static_cast<int>(3.0);  // and static_cast<int>(4.0)\n";
+  plant("common/a.cpp", text);
+  EXPECT_THAT(to_text(check_casts(tree())), HasSubstr("600 casts to int"));
+  plant("common/a.cpp",
+        "#include \"common/a.hpp\"\nvoid f() {\n  for (int i = 0; i < static_cast<int>(a.b().size()); ++i) {}\n}\n");
+  EXPECT_EQ(to_text(check_casts(tree())), "common/a.cpp:3: compare an index with std::ssize()\n");
 }
 
 TEST_F(PlantedTree, FullRoomsAndLongStoriesAreFound) {

@@ -27,6 +27,12 @@ TEST(Tree, FilesAreShort) { EXPECT_EQ(to_text(check_lengths(this_tree())), ""); 
 
 TEST(Tree, FunctionsAreShort) { EXPECT_EQ(to_text(check_functions(this_tree())), ""); }
 
+TEST(Tree, SourcesHaveTheNameOfTheirHeader) { EXPECT_EQ(to_text(check_source_names(this_tree())), ""); }
+
+TEST(Tree, CastsAreFew) { EXPECT_EQ(to_text(check_casts(this_tree())), ""); }
+
+TEST(Tree, WaysAreShort) { EXPECT_EQ(to_text(check_ways(this_tree())), ""); }
+
 TEST(Tree, RoomsAreSmall) { EXPECT_EQ(to_text(check_rooms(this_tree())), ""); }
 
 TEST(Tree, StoriesFitOnAPage) { EXPECT_EQ(to_text(check_stories(this_tree())), ""); }

@@ -5,7 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "mechanism/bodies/superelement/evaluate.hpp"
-#include "mechanism/bodies/superelement/internal_factor.hpp"
+#include "mechanism/bodies/superelement/tangent/internal_factor.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/step/step.hpp"
 #include "tests/benchmarks/scenes.hpp"

@@ -27,12 +27,8 @@ void PrintTo(const Shortage& shortage, std::ostream* stream) {
 class ShortOf : public ::testing::Test {
  protected:
   void SetUp() override {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(TISSERAND_SANITIZED)
     GTEST_SKIP() << "the sanitizer has an allocator of its own";
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-    GTEST_SKIP() << "the sanitizer has an allocator of its own";
-#endif
 #endif
     where.folder = folder.file("work");
     fs::create_directory(where.folder);

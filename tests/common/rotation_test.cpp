@@ -79,7 +79,7 @@ Matrix3 wide_polynomial(const Vector3& psi, Wide first, Wide second) {
 TEST(Rotation, FunctionsOfTheAngleHaveNoLossAtAnyMagnitude) {
   for (const double a : sweep(2 * pi)) {
     const AngleFunctions<double> f(a * a);
-    const WideFunctions w = wide_functions(a);
+    const WideFunctions w = wide_functions(static_cast<Wide>(a));
     // s, c a², d a², e a² are what enters exp, T and T⁻¹ beside 1: errors of a few roundings of 1, or of e a² itself
     // where it grows towards 2π (there tan(a/2) multiplies the rounding of a by |e a²|).
     const double growth = std::max(1.0, std::abs(static_cast<double>(w.e) * a * a));

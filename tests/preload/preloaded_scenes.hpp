@@ -44,7 +44,7 @@ inline formats::JointSpec support(const std::string& node, const Eigen::Vector3d
 inline void solve(test_support::Simulation& run) {
   run.start();
   const mechanism::StaticsReport statics =
-      mechanism::solve_statics(run.model(), run.scene.statics, run.state(), run.workspace);
+      mechanism::solve_statics(run.model(), run.scene.statics, {}, run.state(), run.workspace);
   EXPECT_EQ(statics.outcome, mechanism::StepOutcome::accepted) << statics.explanation;
 }
 

@@ -12,6 +12,7 @@
 #include "reducer/elements/turning_mass.hpp"
 #include "reducer/properties/laminate.hpp"
 #include "tests/preload/preloaded_scenes.hpp"
+#include "tests/problems/turning_forms.hpp"
 #include "tests/support/meshes/buckling.hpp"
 #include "tests/support/meshes/shell_grids.hpp"
 #include "tests/support/meshes/small_model.hpp"
@@ -51,7 +52,7 @@ TurningModel turning_model(const reducer::Mesh& mesh, const Vector3d& Omega) {
     std::vector<int> row;
     for (int i = 0; i < shell.corners(); ++i)
       for (int c = 0; c < 6; ++c) row.push_back(6 * shell.nodes[i] + c);
-    const reducer::TurningForms forms = reducer::turning_forms(element);
+    const reducer::TurningForms forms = testing::turning_forms(element);
     for (int k = 0; k < 3; ++k) turning.coupling(row, row) += Omega[k] * (forms.C[k] + forms.W[k]);
     for (int j = 0; j < 3; ++j)
       for (int k = 0; k < 3; ++k) {

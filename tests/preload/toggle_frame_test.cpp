@@ -71,7 +71,7 @@ void finish(formats::Scene& scene, const std::string& base, const std::string& f
 /// How far the apex goes down; none without equilibrium.
 std::optional<double> sag(Simulation& run, const std::string& node) {
   run.start();
-  const auto statics = mechanism::solve_statics(run.model(), run.scene.statics, run.state(), run.workspace);
+  const auto statics = mechanism::solve_statics(run.model(), run.scene.statics, {}, run.state(), run.workspace);
   if (statics.outcome != mechanism::StepOutcome::accepted) return std::nullopt;
   return rise - run.position(node).z();
 }

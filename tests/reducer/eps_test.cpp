@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <vector>
 
@@ -29,7 +30,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// Eigenvalue k of n masses 1 between n + 1 springs 1 whose ends are held: 4 sin²(k π/(2 (n + 1))).
-double of_chain(int k, int n) { return 4.0 * std::pow(std::sin(k * EIGEN_PI / (2.0 * (n + 1))), 2); }
+double of_chain(int k, int n) { return 4.0 * std::pow(std::sin(k * std::numbers::pi / (2.0 * (n + 1))), 2); }
 
 /// A membrane of n x n points with springs 1 between neighbours and to the rim, masses 1.
 reducer::SystemMatrices membrane(int n) {
@@ -316,8 +317,8 @@ TEST_F(RegisteredType, ProfitsFromInitialVectors) {
   for (int k = 0; k < 8; ++k)
     for (int i = 0; i < n * n; ++i)
       petsc_check(VecSetValue(known[static_cast<std::size_t>(k)], i,
-                              std::sin(waves[k][0] * EIGEN_PI * (i % n + 1) / (n + 1)) *
-                                      std::sin(waves[k][1] * EIGEN_PI * (i / n + 1) / (n + 1)) +
+                              std::sin(waves[k][0] * std::numbers::pi * (i % n + 1) / (n + 1)) *
+                                      std::sin(waves[k][1] * std::numbers::pi * (i / n + 1) / (n + 1)) +
                                   1e-6 * std::cos(static_cast<double>(i * (k + 1))),
                               INSERT_VALUES));
   for (Vec& v : known) {

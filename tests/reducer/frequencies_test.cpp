@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/reducer/parts.hpp"
 
@@ -58,7 +59,7 @@ TEST(Frequencies, PinnedTimoshenkoBeam) {
   }
   const double GAs = E / 2.6 * 1.6e-3;
   for (int n = 1; n <= 4; ++n) {
-    const double k = n * EIGEN_PI / L;
+    const double k = n * std::numbers::pi / L;
     const double a = rho * Iz * rho * A / GAs, b = rho * A + k * k * (rho * Iz + rho * A * E * Iz / GAs);
     const double c = E * Iz * std::pow(k, 4);
     const double exact = std::sqrt(2.0 * c / (b + std::sqrt(b * b - 4.0 * a * c)));
@@ -119,8 +120,9 @@ TEST(Frequencies, TorsionAndAxialOfALumpedBeamConvergeFromBelow) {
     std::vector<int> keep;
     for (int a = 1; a < full.mesh.nodes(); ++a) keep.push_back(6 * a + component);
     const double c = component == 0 ? std::sqrt(E / rho) : std::sqrt(E / 2.6 * 6e-7 / (rho * 11e-7));
-    EXPECT_NEAR(angular_frequencies(full.S, full.M, keep)[0] / (2.0 * c / h * std::sin(EIGEN_PI * h / (4.0 * L))), 1.0,
-                1e-12);
+    EXPECT_NEAR(
+        angular_frequencies(full.S, full.M, keep)[0] / (2.0 * c / h * std::sin(std::numbers::pi * h / (4.0 * L))), 1.0,
+        1e-12);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -53,15 +54,15 @@ Energies energies(const Mesh& mesh, const MatrixXd& motion) {
   for (int e = 0; e < static_cast<int>(mesh.solids.size()); ++e) {
     const MatrixXd u = motion_of(mesh.solids[e], motion);
     element_matrices(mesh, mesh.solids[e], matrices);
-    sum.error += energy_error(mesh, mesh.solids[e], u, none, smooth.of_solid(e))[0];
+    sum.error += energy_error(mesh, mesh.solids[e], {u, none}, smooth.of_solid(e))[0];
     sum.energy += (u.transpose() * matrices.S * u)(0, 0);
   }
   for (int e = 0; e < static_cast<int>(mesh.shells.size()); ++e) {
     const MatrixXd u = motion_of(mesh.shells[e], motion);
     element_matrices(mesh, mesh.shells[e], matrices);
     const MatrixXd stress = smooth.of_shell(e);
-    sum.error += energy_error(mesh, mesh.shells[e], u, none, stress, {})[0];
-    sum.with_layers += energy_error(mesh, mesh.shells[e], u, none, stress, smooth.around(e))[0];
+    sum.error += energy_error(mesh, mesh.shells[e], {u, none}, stress, {})[0];
+    sum.with_layers += energy_error(mesh, mesh.shells[e], {u, none}, stress, smooth.around(e))[0];
     sum.energy += (u.transpose() * matrices.S * u)(0, 0);
   }
   return sum;
@@ -240,11 +241,14 @@ TEST(MeshError, TorsionOfAFewBricksAcrossIsUnknown) {
 /// turn.
 TEST(MeshError, CurvedSurfacesAndEdgesAreSeenFromTheNodes) {
   constexpr int around = 24;
-  const double turn = 2.0 * EIGEN_PI / around;
+  const double turn = 2.0 * std::numbers::pi / around;
   const auto section = reducer::isotropic_shell(1e6, 0.3, 1.0, 0.05, 5.0 / 6.0);
   const Mesh cylinder = shell_grid(
       {around, 4, reducer::Facets::quadrilaterals, true},
-      [](double a, double b) { return Vector3d(b, std::cos(2 * EIGEN_PI * a), std::sin(2 * EIGEN_PI * a)); }, section);
+      [](double a, double b) {
+        return Vector3d(b, std::cos(2 * std::numbers::pi * a), std::sin(2 * std::numbers::pi * a));
+      },
+      section);
   for (const reducer::ShellSurround& one : reducer::surroundings(cylinder, reducer::stress_patches(cylinder))) {
     EXPECT_NEAR(one.slope.colwise().norm().mean(), std::tan(0.5 * turn), 1e-12);
     for (const double bow : one.bow) EXPECT_NEAR(bow, 0.0, 1e-15) << "ends of a cylinder are straight in its surface";
@@ -252,7 +256,8 @@ TEST(MeshError, CurvedSurfacesAndEdgesAreSeenFromTheNodes) {
   const Mesh disc = shell_grid(
       {around, 3, reducer::Facets::quadrilaterals, true},
       [](double a, double b) {
-        return Vector3d((1 + b) * std::cos(2 * EIGEN_PI * a), (1 + b) * std::sin(2 * EIGEN_PI * a), 0.0);
+        return Vector3d((1 + b) * std::cos(2 * std::numbers::pi * a), (1 + b) * std::sin(2 * std::numbers::pi * a),
+                        0.0);
       },
       section);
   std::vector<double> bows;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include "common/error.hpp"
@@ -23,7 +24,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 formats::Part arc(double degrees, int elements) {
-  const double a = degrees * EIGEN_PI / 180.0, r = 0.8;
+  const double a = degrees * std::numbers::pi / 180.0, r = 0.8;
   formats::Part part = plain_beam(Vector3d(r, 0, 0.1), Vector3d(r * std::cos(a), r * std::sin(a), 0.1), elements, 0);
   part.beams[0].through = Vector3d(r * std::cos(0.3 * a), r * std::sin(0.3 * a), 0.1);
   return part;
@@ -48,7 +49,7 @@ TEST_P(Arcs, NodesAreOnTheCircleAtEqualDistances) {
   const int n = 12;
   const reducer::Mesh mesh = reducer::build_mesh(arc(GetParam(), n));
   ASSERT_EQ(mesh.nodes(), n + 1);
-  const double chord = 2.0 * 0.8 * std::sin(0.5 * GetParam() * EIGEN_PI / 180.0 / n);
+  const double chord = 2.0 * 0.8 * std::sin(0.5 * GetParam() * std::numbers::pi / 180.0 / n);
   for (const reducer::BeamElement& beam : mesh.beams) {
     const Vector3d a = mesh.position.col(beam.first), b = mesh.position.col(beam.second);
     EXPECT_NEAR((b - a).norm(), chord, 1e-14);

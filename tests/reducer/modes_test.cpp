@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "common/error.hpp"
@@ -123,7 +124,7 @@ TEST(MassLessCoordinates, PointMassOnAnAlmostMasslessBeam) {
     const double E = 2.1e11, G = E / 2.6, L = 0.8;
     for (const auto& [mode, I, area] : {std::tuple{0u, 3e-7, 1.5e-3}, std::tuple{1u, 8e-7, 1.6e-3}}) {
       const double flexibility = L * L * L / (192.0 * E * I) + L / (4.0 * G * area);
-      const double exact = std::sqrt(1.0 / (3.0 * flexibility)) / (2.0 * EIGEN_PI);
+      const double exact = std::sqrt(1.0 / (3.0 * flexibility)) / (2.0 * std::numbers::pi);
       EXPECT_NEAR(r.file.fixed_frequency[mode] / exact, 1.0, 1e-8) << elements << " elements";
     }
   }
@@ -202,7 +203,7 @@ TEST_P(Solvers, AgreeWithTheDenseOneOnAGridWithDoubleFrequencies) {
   for (int k = 0; k < a.kept; ++k) EXPECT_NEAR(b.pairs.value[k] / a.pairs.value[k], 1.0, 1e-9) << "mode " << k;
   EXPECT_EQ(b.counted, b.kept);
   // The same basis after both, although each solver returns its own vectors of the double frequencies.
-  const reducer::InternalProblem problem{p.mesh, p.system, p.partition, p.blocks, p.factor, "grid"};
+  const reducer::InternalProblem problem{{p.mesh, p.system, p.partition}, p.blocks, p.factor, "grid"};
   Eigen::VectorXd lambda_a = a.pairs.value.head(a.kept), lambda_b = b.pairs.value.head(b.kept);
   MatrixXd Phi_a = a.pairs.vector.leftCols(a.kept), Phi_b = b.pairs.vector.leftCols(b.kept);
   reducer::fix_basis(problem, lambda_a, Phi_a);
@@ -221,7 +222,7 @@ formats::Part star(int beams, int elements) {
   part.beams.clear();
   part.boundary = {{"hub", "middle", true, true, ""}};
   for (int k = 0; k < beams; ++k) {
-    const double angle = 2.0 * EIGEN_PI * k / beams;
+    const double angle = 2.0 * std::numbers::pi * k / beams;
     const std::string tip = "tip" + std::to_string(k);
     part.points.push_back({tip, 141.42 * Vector3d(std::cos(angle), std::sin(angle), 0.0), ""});
     part.beams.push_back(line);

@@ -184,7 +184,7 @@ TEST_F(Program, InternalModesAreCountedWhereThatIsCheap) {
 
 // 21 594 coordinates and 1000 modes take 0.4 GB; a program that has loaded its libraries finds 0.3 GB of 0.7.
 TEST_F(Program, PartThatDoesNotFitIsRefusedBeforeItIsFactored) {
-#ifdef __SANITIZE_ADDRESS__
+#if defined(TISSERAND_SANITIZED)
   GTEST_SKIP() << "the sanitizer reserves terabytes of addresses";
 #endif
   const Outcome run = call_after("ulimit -v 700000; ", "run " TISSERAND_SOURCE_DIR

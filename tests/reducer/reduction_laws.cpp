@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -59,7 +60,7 @@ RitzLaws ritz_laws() {
   for (const int modes : {0, 1, 4, 10, 20, 40, all}) {
     const reducer::Reduction r = reduce(space_frame(modes));
     const VectorXd lambda = eigenvalues(r.superelement.stiffness, r.superelement.mass, frame_shift);
-    const double dropped = std::pow(2.0 * EIGEN_PI * r.model.first_dropped_frequency.value_or(1e30), 2);
+    const double dropped = std::pow(2.0 * std::numbers::pi * r.model.first_dropped_frequency.value_or(1e30), 2);
     for (int k = 6; k < 18; ++k) {
       laws.below_full = std::max(laws.below_full, exact[k] / lambda[k] - 1.0);
       laws.growth = std::max(laws.growth, lambda[k] / last[k] - 1.0);

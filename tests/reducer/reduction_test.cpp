@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -75,10 +76,10 @@ TEST(Reduction, InternalModesAreThoseOfTheHeldPart) {
   const reducer::Reduction r = reduce(space_frame(12));
   for (int k = 0; k < 12; ++k) {
     EXPECT_NEAR(std::sqrt(r.superelement.stiffness(18 + k, 18 + k)) / omega[k], 1.0, 1e-9);
-    EXPECT_NEAR(r.file.fixed_frequency[k] * 2.0 * EIGEN_PI / omega[k], 1.0, 1e-9);
+    EXPECT_NEAR(r.file.fixed_frequency[k] * 2.0 * std::numbers::pi / omega[k], 1.0, 1e-9);
   }
   ASSERT_TRUE(r.model.first_dropped_frequency);
-  EXPECT_NEAR(*r.model.first_dropped_frequency * 2.0 * EIGEN_PI / omega[12], 1.0, 1e-9);
+  EXPECT_NEAR(*r.model.first_dropped_frequency * 2.0 * std::numbers::pi / omega[12], 1.0, 1e-9);
   EXPECT_EQ(r.model.modes_counted, 12);
 }
 
@@ -229,7 +230,7 @@ TEST(Reduction, EffectiveMassOfABar) {
     most = std::max(most, row[0] * row[0] / whole);
     for (std::size_t k = 0; k < 6; ++k) sum[k] += row[k] * row[k];
   }
-  EXPECT_NEAR(most, 8.0 / (EIGEN_PI * EIGEN_PI), 1e-3);
+  EXPECT_NEAR(most, 8.0 / (std::numbers::pi * std::numbers::pi), 1e-3);
   for (std::size_t k = 0; k < 6; ++k)
     EXPECT_NEAR(sum[k] + r.file.effective_mass_left[k], r.file.effective_mass_whole[k],
                 1e-9 * r.file.effective_mass_whole[k]);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,7 +31,7 @@ struct Inside {
         blocks(reducer::split(full.system.matrices, coordinates)),
         S_II(blocks.S_II),
         boundary(reducer::boundary_modes(S_II, blocks, full.system, coordinates, [](double) {})),
-        problem{full.mesh, full.system, coordinates, blocks, S_II, "part"} {}
+        problem{{full.mesh, full.system, coordinates}, blocks, S_II, "part"} {}
 
   reducer::InternalModes modes(int count, int moments) const {
     formats::ModeSelection selection;
@@ -270,8 +271,8 @@ TEST(FreeBoundary, MacNealLeavesTheResidualMassOut) {
   const VectorXd lambda = Eigen::SelfAdjointEigenSolver<MatrixXd>(held).eigenvalues();
   ASSERT_EQ(static_cast<Index>(r.file.fixed_frequency.size()), lambda.size());
   for (Index k = 0; k < lambda.size(); ++k)
-    EXPECT_NEAR(std::pow(2.0 * EIGEN_PI * r.file.fixed_frequency[static_cast<std::size_t>(k)], 2) / lambda[k], 1.0,
-                1e-5);
+    EXPECT_NEAR(std::pow(2.0 * std::numbers::pi * r.file.fixed_frequency[static_cast<std::size_t>(k)], 2) / lambda[k],
+                1.0, 1e-5);
   EXPECT_TRUE(r.model.truncation_estimate.empty());
   EXPECT_FALSE(r.companion);
   EXPECT_EQ(r.superelement.method, "macneal");

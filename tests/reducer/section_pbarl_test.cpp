@@ -1,5 +1,6 @@
 // Sections of PBARL: areas and moments by hand, orientation in the element's axes, faults.
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -132,7 +133,7 @@ TEST(Pbarl, FaultsAreNamed) {
             "correct the sizes; their order is that of the figures of PBARL");
   EXPECT_EQ(error_of("ELL", {1}).find("deck.bdf:3: section type 'ELL' is not known; known: BAR, BOX"), 0u);
   EXPECT_NE(error_of("BAR", {1}).find("1 sizes instead of 2"), std::string::npos);
-  EXPECT_NE(error_of("BAR", {1, NAN}).find("DIM2 nan must be positive"), std::string::npos);
+  EXPECT_NE(error_of("BAR", {1, std::numeric_limits<double>::quiet_NaN()}).find("DIM2 nan must be positive"), std::string::npos);
   EXPECT_NE(error_of("TUBE", {1, 2}).find("the wall is not inside the radius"), std::string::npos);
   EXPECT_NE(error_of("HEXA", {2, 4, 1}).find("DIM2 is not more than 2 DIM1"), std::string::npos);
   EXPECT_NE(error_of("Z", {2, 1, 6, 6}).find("DIM4 is not more than DIM3"), std::string::npos);

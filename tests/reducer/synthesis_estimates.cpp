@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -79,7 +80,7 @@ ModeQuality mode_quality(const formats::Part& part, double shift) {
   for (Index k = 0; k < n; ++k) {
     const double lambda = full.lambda[k + 6], lambda_reduced = reduced.lambda[k + 6];
     const VectorXd x = cb.T * reduced.X.col(k + 6), y = full.X.col(k + 6);
-    q.frequency[k] = std::sqrt(lambda) / (2.0 * EIGEN_PI);
+    q.frequency[k] = std::sqrt(lambda) / (2.0 * std::numbers::pi);
     q.error[k] = lambda_reduced / lambda - 1.0;
     q.estimate[k] = estimate(cb, reduced.X.col(k + 6), lambda_reduced);
     q.bound[k] =

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include <nlohmann/json.hpp>
 
@@ -67,7 +68,7 @@ FullModel with_nastran_mass(formats::Part part) {
 }
 
 Eigen::VectorXd frequencies(const Eigen::VectorXd& lambda) {
-  return lambda.cwiseMax(0.0).cwiseSqrt() / (2.0 * EIGEN_PI);
+  return lambda.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi);
 }
 
 }  // namespace
@@ -113,7 +114,8 @@ Eigen::VectorXd nastran_full_frequencies() {
 
 Eigen::VectorXd nastran_held_frequencies(const std::string& component) {
   const FullModel full = with_nastran_mass(truss({component}, 0));
-  return angular_frequencies(full.S, full.M, reducer::partition(full.mesh, full.system).internal) / (2.0 * EIGEN_PI);
+  return angular_frequencies(full.S, full.M, reducer::partition(full.mesh, full.system).internal) /
+         (2.0 * std::numbers::pi);
 }
 
 }  // namespace tisserand::testing

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/parallel.hpp"
 #include "tests/support/scenes/scenes.hpp"
 
 namespace {
@@ -54,6 +55,15 @@ void leak() {
   lost = nullptr;
 }
 
+/// Two threads add to one number.
+void race() {
+  int sum = 0;
+  on_threads(2, [&](int) {
+    for (int i = 0; i < 1000 * three; ++i) sum += i;
+  });
+  std::printf("%d\n", sum);
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -63,5 +73,6 @@ int main(int count, char** arguments) {
   if (fault == "heap_overrun") heap_overrun();
   if (fault == "misaligned_access") misaligned_access();
   if (fault == "leak") leak();
+  if (fault == "race") race();
   return 0;
 }

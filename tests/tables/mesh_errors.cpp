@@ -1,6 +1,7 @@
 // The estimate of the error of the mesh beside the error.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -39,7 +40,7 @@ std::string mesh_error_table() {
   for (const reducer::MeshErrorCase& one : reducer::mesh_error_cases()) {
     if (one.part != last) reference = reducer::free_shapes(one.reference(), 16);
     last = one.part;
-    double least = INFINITY, most = -INFINITY;
+    double least = std::numeric_limits<double>::infinity(), most = -least;
     text += fmt::format("| {} | {} | {} | ", one.part, one.element, one.size);
     for (const auto& compared : compared_errors(reducer::free_shapes(one.mesh(), 6), reference)) {
       const double quotient = compared.estimate / compared.error;

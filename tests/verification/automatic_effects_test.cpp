@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <random>
 
@@ -329,7 +330,7 @@ TEST(AutomaticEffects, AreOnWhereAColumnBuckles) {
                   test_support::joint("hold", JointKind::fixed, "ground", "block", Vector3d::Zero(), z)};
   scene.loads = {test_support::constant_load("axial", formats::LoadKind::force, "beam/n8", Vector3d::Zero()),
                  test_support::constant_load("other", formats::LoadKind::force, "block", {0, 1000, 0})};
-  const double euler = EIGEN_PI * EIGEN_PI * 100.0 / 4.0;
+  const double euler = std::numbers::pi * std::numbers::pi * 100.0 / 4.0;
   scene.loads[0].components[0] = formats::TimeTable{{0.0, 0.2, 1.0}, {0.0, -0.2 * euler, -0.2 * euler}};
   scene.effects = {automatic(Effect::flexibility), automatic(Effect::stiffening)};
   const RunReport report = simulate(RunRequest{scene, list, std::nullopt, "", "", std::nullopt}, {}).report;
@@ -338,8 +339,8 @@ TEST(AutomaticEffects, AreOnWhereAColumnBuckles) {
   EXPECT_NEAR(report.automatic[0].time, 0.1, 0.005);  // a sample every four steps
 }
 
-// Its internal coordinates rest at the equilibrium of a load on its tip, but the beam is bent: it stays so. Bent by less
-// than the tolerance it begins straight, on its clamp.
+// Its internal coordinates rest at the equilibrium of a load on its tip, but the beam is bent: it stays so. Bent by
+// less than the tolerance it begins straight, on its clamp.
 TEST(AutomaticEffects, KeepTheDeformationThatStaticsFound) {
   const BodyFiles list = files();
   formats::Scene scene = test_support::empty_scene(1e-3, 0.1);
@@ -420,8 +421,8 @@ formats::Scene random_loop(std::mt19937& random) {
                   test_support::joint("B", kind(), "left/tip", "top/base", P, z),
                   test_support::joint("C", kind(), "top/tip", "right/base", C, z),
                   test_support::joint("D", kind(), "ground", "right/tip", D, z)};
-  scene.motions = {test_support::drive("A", fmt::format("{} * sin({} * t) * t^3 / (t^3 + 0.01)", between(0.05, 0.3),
-                                                        between(1.0, 8.0)))};
+  scene.motions = {test_support::drive(
+      "A", fmt::format("{} * sin({} * t) * t^3 / (t^3 + 0.01)", between(0.05, 0.3), between(1.0, 8.0)))};
   return scene;
 }
 

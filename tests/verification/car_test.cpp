@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,7 @@ struct Car {
 
   explicit Car(const formats::Scene& scene) : run(scene, read_body_files(scene)) {
     run.start();
-    const StaticsReport report = solve_statics(run.model(), run.scene.statics, run.state(), run.workspace);
+    const StaticsReport report = solve_statics(run.model(), run.scene.statics, {}, run.state(), run.workspace);
     EXPECT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
     loads = tyres();
     run.started = mechanism::start(run.scene, StartFrom::rest, run.built, run.workspace);
@@ -99,8 +100,8 @@ TEST(VehicleExample, HasTheFrequenciesOfHeavePitchAndHop) {
         best = mode.frequency();
     return best;
   };
-  const double front = std::sqrt((13405.0 + 190e3) / (29.0 + 5.5 / 3.0)) / (2.0 * EIGEN_PI);
-  const double rear = std::sqrt((27515.0 + 190e3) / (31.0 + 4.0 / 3.0)) / (2.0 * EIGEN_PI);
+  const double front = std::sqrt((13405.0 + 190e3) / (29.0 + 5.5 / 3.0)) / (2.0 * std::numbers::pi);
+  const double rear = std::sqrt((27515.0 + 190e3) / (31.0 + 4.0 / 3.0)) / (2.0 * std::numbers::pi);
   for (const double expected : {1.435, 1.582, front, rear}) EXPECT_NEAR(nearest(expected), expected, 0.05 * expected);
 }
 

@@ -240,7 +240,7 @@ formats::Scene rough_four_bar() {
   return scene;
 }
 
-AssemblyReport assembled(Simulation& run) { return assemble(run.model(), 1e-10, {}, run.state(), run.workspace.now); }
+AssemblyReport assembled(Simulation& run) { return assemble(run.model(), {1e-10}, run.state(), run.workspace.now); }
 
 TEST(Assembly, ClosesAFourBarFromRoughPoses) {
   formats::Scene scene = rough_four_bar();

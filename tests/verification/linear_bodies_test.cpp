@@ -51,7 +51,7 @@ Vector3d tip_of_one_linear_body(const Vector3d& force) {
   scene.loads.push_back(test_support::constant_load("tip", formats::LoadKind::force, "beam/tip", force));
   Simulation run(scene, files);
   run.start();
-  const StaticsReport report = solve_statics(run.model(), scene.statics, run.state(), run.workspace);
+  const StaticsReport report = solve_statics(run.model(), scene.statics, {}, run.state(), run.workspace);
   EXPECT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
   return run.position("beam/tip") - Vector3d(0.508, 0, 0);
 }

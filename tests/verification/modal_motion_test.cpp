@@ -1,6 +1,7 @@
 // Motion of modal bodies: conserved quantities, the slider-crank of [GA00] 4.3, agreement with superelements and
 // nonlinear beams where deformations are small.
 #include <fstream>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -213,7 +214,7 @@ modes: {{count: 7}}
     return Vector3d(results.read("nodes/position/" + node + "/x")[0], results.read("nodes/position/" + node + "/y")[0],
                     results.read("nodes/position/" + node + "/z")[0]);
   };
-  const Eigen::Matrix3d A = Eigen::AngleAxisd(0.5 * EIGEN_PI, Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d A = Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitZ()).toRotationMatrix();
   ASSERT_EQ(results.modes(), 7u);  // six of the rod and six of its frame, less five of the hinge
   double largest = 0.0;
   for (std::size_t mode = 0; mode < 7; ++mode)

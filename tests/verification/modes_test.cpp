@@ -397,7 +397,7 @@ Turning turning_bar(double gamma, formats::Scene scene, const SuperelementFiles&
   scene.statics.rotation = formats::RotationSpec{Vector3d(0, 0, rate), Vector3d::Zero()};
   Simulation run(scene, files);
   run.start();
-  const StaticsReport statics = solve_statics(run.model(), scene.statics, run.state(), run.workspace);
+  const StaticsReport statics = solve_statics(run.model(), scene.statics, {}, run.state(), run.workspace);
   EXPECT_EQ(statics.outcome, StepOutcome::accepted) << statics.explanation;
   formats::ModesSpec spec;
   spec.rotation = Vector3d(0, 0, rate);

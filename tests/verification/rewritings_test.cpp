@@ -1,6 +1,7 @@
 // Descriptions of one mechanism that must give one motion: order, sides, units, pose, bodies in parts. Random trees and
 // loops of all joints; accelerations and reactions at the start, which depend on all equations.
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -113,7 +114,7 @@ bool has_equal_sides(JointKind kind) {
 /// Sides exchanged; the pins of a universal joint, x of a and y of b, with them.
 Rewriting other_sides(const RandomMechanism& before) {
   Rewriting r(before);
-  const Frame quarter{Vector3d::Zero(), Eigen::AngleAxisd(EIGEN_PI / 2, Vector3d::UnitZ()).toRotationMatrix()};
+  const Frame quarter{Vector3d::Zero(), Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitZ()).toRotationMatrix()};
   for (std::size_t i = 0; i < before.joints.size(); ++i) {
     RandomJoint& joint = r.mechanism.joints[i];
     if (!has_equal_sides(joint.kind)) continue;

@@ -37,7 +37,7 @@ formats::Scene static_scene(int load_steps) {
 
 StaticsReport solve(Simulation& run) {
   run.start();
-  return solve_statics(run.model(), run.scene.statics, run.state(), run.workspace);
+  return solve_statics(run.model(), run.scene.statics, {}, run.state(), run.workspace);
 }
 
 /// A superelement beam clamped at its base, its part frame turned by `pose`, with a force at the tip.

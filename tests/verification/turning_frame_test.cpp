@@ -1,5 +1,6 @@
 // Floating frames of every kind keep their length and their meaning while a body turns all the way round.
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -50,7 +51,7 @@ TEST_P(TurningFrame, KeepsEnergyAllTheWayRound) {
   formats::Scene scene = test_support::empty_scene(1e-3, 6.5);
   formats::SuperelementBodySpec body = test_support::superelement_body("body", "body");
   body.frame = GetParam().kind;
-  body.start.pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(EIGEN_PI / 3, Vector3d::UnitZ()));
+  body.start.pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 3, Vector3d::UnitZ()));
   body.start.angular_velocity = {0, 0, 1};
   scene.bodies.push_back(body);
   Simulation run(scene, files);

@@ -16,7 +16,6 @@
 #include "formats/scene/expand/steps.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr std::size_t longest_formula = 10'000;

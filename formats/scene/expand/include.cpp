@@ -11,7 +11,6 @@
 #include "formats/yaml/reader.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 namespace fs = std::filesystem;

@@ -9,7 +9,6 @@
 #include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr int deepest_level = 50;

@@ -6,7 +6,6 @@
 #include "formats/scene/expand/parameters.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 /// Entries of a rotation below this are round-off of angles such as 90 degrees.

@@ -9,7 +9,6 @@
 #include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 using Names = std::set<std::string> Assembly::*;

@@ -9,7 +9,6 @@
 #include "formats/yaml/reader.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr int longest_reference = 50;  ///< of parameters that refer to one another

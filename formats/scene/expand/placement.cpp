@@ -12,7 +12,6 @@
 #include "formats/yaml/geometry.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 using Eigen::Matrix3d;

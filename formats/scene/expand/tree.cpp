@@ -6,7 +6,6 @@
 #include "formats/yaml/emit.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 /// What an override changes: the files that are read, their tree, or what only exists in the flat tree

@@ -17,7 +17,6 @@
 #include "formats/yaml/reader.hpp"
 
 namespace tisserand::formats {
-
 namespace {
 
 constexpr std::string_view contents_mark = " (contents)";

@@ -50,8 +50,7 @@ void require_apart(const MatrixXd& A, const Split& split, const std::string& wha
     for (Eigen::Index j = 0; j < mixed.cols(); ++j)
       if (!(std::abs(mixed(i, j)) <= planar_share * in[i] * out[j]))
         throw LeavesPlane{
-            fmt::format("{} couples motion in it with motion out of it: {:.3g} beside diagonals of {:.3g} "
-                        "and {:.3g}",
+            fmt::format("{} couples motion in it with motion out of it: {:.3g} beside diagonals of {:.3g} and {:.3g}",
                         what, mixed(i, j), in[i] * in[i], out[j] * out[j])};
 }
 

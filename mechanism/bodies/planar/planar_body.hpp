@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "mechanism/bodies/planar/split.hpp"
-#include "mechanism/bodies/superelement/body.hpp"
+#include "mechanism/bodies/superelement/constants/body.hpp"
 
 namespace tisserand::mechanism {
 

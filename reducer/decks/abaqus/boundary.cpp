@@ -157,9 +157,9 @@ void read_boundary(Model& model) {
   std::map<int, Retained> retained;
   std::string retained_at;
   std::map<std::string, long> in_steps;
-  for (std::size_t scope = 0; scope < model.scopes.size(); ++scope)
+  for (int scope = 0; scope < std::ssize(model.scopes); ++scope)
     for (const Block* block : model.scopes[scope].blocks)
-      if (block->keyword == "BOUNDARY") read_support(model, static_cast<int>(scope), *block, supports);
+      if (block->keyword == "BOUNDARY") read_support(model, scope, *block, supports);
   std::vector<const Block*> blocks = model.scopes[0].blocks;
   blocks.insert(blocks.end(), model.steps.begin(), model.steps.end());
   for (const Block* block : blocks)

@@ -42,15 +42,11 @@ void read_isotropic(Model& model, const Block& block, AbaqusMaterial& material) 
   material.nu = (*c)[1];
 }
 
+/// E1 E2 nu12 G12 G13 G23.
 void read_lamina(Model& model, const Block& block, AbaqusMaterial& material) {
   const auto c = constants_of(model, block, 6);
   if (!c) return;
-  material.lamina.E1 = (*c)[0];
-  material.lamina.E2 = (*c)[1];
-  material.lamina.nu12 = (*c)[2];
-  material.lamina.G12 = (*c)[3];
-  material.lamina.G13 = (*c)[4];
-  material.lamina.G23 = (*c)[5];
+  material.lamina = {(*c)[0], (*c)[1], (*c)[2], (*c)[3], (*c)[4], (*c)[5]};
   Ply ply = material.lamina;
   ply.thickness = 1.0;
   check_plies({ply}, model.where(block));

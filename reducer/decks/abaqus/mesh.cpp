@@ -177,8 +177,7 @@ void fill_ids(Model& model) {
   std::map<long, int>& ids = model.deck.node_of_id;
   std::vector<std::pair<long, int>> sorted;
   sorted.reserve(model.positions.size());
-  for (std::size_t node = 0; node < model.positions.size(); ++node)
-    sorted.emplace_back(model.node_ids[node], static_cast<int>(node));
+  for (int node = 0; node < std::ssize(model.positions); ++node) sorted.emplace_back(model.node_ids[node], node);
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t i = 0; i < sorted.size();) {
     std::size_t end = i;
@@ -193,21 +192,6 @@ void fill_ids(Model& model) {
     i = end;
   }
 }
-
-}  // namespace
-
-void fill_nodes(Model& model) {
-  Mesh& mesh = model.deck.mesh;
-  mesh.position.resize(3, static_cast<Eigen::Index>(model.positions.size()));
-  mesh.node_label.reserve(model.positions.size());
-  for (std::size_t node = 0; node < model.positions.size(); ++node) {
-    mesh.position.col(node) = model.positions[node];
-    mesh.node_label.push_back(model.node_text(static_cast<int>(node)));
-  }
-  fill_ids(model);
-}
-
-namespace {
 
 bool lacks_section(const RawElement& element) {
   return element.section < 0 && element.type->kind != ElementKind::ground_spring;
@@ -242,6 +226,17 @@ void find_missing_sections(Model& model) {
 }
 
 }  // namespace
+
+void fill_nodes(Model& model) {
+  Mesh& mesh = model.deck.mesh;
+  mesh.position.resize(3, static_cast<Eigen::Index>(model.positions.size()));
+  mesh.node_label.reserve(model.positions.size());
+  for (int node = 0; node < std::ssize(model.positions); ++node) {
+    mesh.position.col(node) = model.positions[node];
+    mesh.node_label.push_back(model.node_text(node));
+  }
+  fill_ids(model);
+}
 
 void fill_elements(Model& model) {
   std::array<std::size_t, 3> count{};

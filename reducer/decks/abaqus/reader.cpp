@@ -48,7 +48,7 @@ void tell_massless_materials(Model& model) {
 /// Instances before the assembly, which refers to them.
 template <class Step>
 void for_each_scope(Model& model, const Step& step) {
-  for (int scope = 1; scope < static_cast<int>(model.scopes.size()); ++scope) step(model, scope);
+  for (int scope = 1; scope < std::ssize(model.scopes); ++scope) step(model, scope);
   step(model, 0);
 }
 

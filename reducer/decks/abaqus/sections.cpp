@@ -1,4 +1,4 @@
-// Shells, solids, trusses, point masses and springs.
+// Shells, solids, trusses, point masses, rotary inertia and springs.
 #include "reducer/decks/abaqus/sections.hpp"
 
 #include <algorithm>

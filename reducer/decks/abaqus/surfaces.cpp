@@ -118,6 +118,29 @@ bool read_second_line(Model& model, const Block& block, Orientation& orientation
   return true;
 }
 
+/// Columns: away from the axis through the two points of the block, around it, along it.
+void set_cylindrical_axes(Model& model, int scope, const std::vector<int>& nodes, const Block& block) {
+  std::array<double, 6> p{};
+  if (!block.data.empty() && !read_numbers(model, block, block.data[0], p)) return;
+  const Placement& placement = model.scopes[scope].placement;
+  const Eigen::Vector3d start = placement.R * Eigen::Vector3d(p[0], p[1], p[2]) + placement.t;
+  const Eigen::Vector3d along = placement.R * Eigen::Vector3d(p[3] - p[0], p[4] - p[1], p[5] - p[2]);
+  if (!(along.norm() > 0.0))
+    return model.fault(fmt::format("{}: the two points of its axis coincide", block.title), block,
+                       "give two points on the axis");
+  const Eigen::Vector3d z = along.normalized();
+  for (const int node : nodes) {
+    const Eigen::Vector3d arm = model.positions[node] - start, away = arm - z * z.dot(arm);
+    if (away.norm() <= 1e-9 * std::max(arm.norm(), along.norm())) {
+      model.undirected[node] = "it lies on the axis of its *TRANSFORM, TYPE=C, where no direction leads away from it";
+      continue;
+    }
+    Eigen::Matrix3d axes;
+    axes << away.normalized(), z.cross(away.normalized()), z;
+    model.node_axes[node] = axes;
+  }
+}
+
 }  // namespace
 
 void read_surface(Model& model, int scope, const Block& block) {
@@ -166,33 +189,6 @@ void read_orientation(Model& model, int scope, const Block& block) {
   }
   owner.orientations[name] = orientation;
 }
-
-namespace {
-
-/// Columns: away from the axis through the two points of the block, around it, along it.
-void set_cylindrical_axes(Model& model, int scope, const std::vector<int>& nodes, const Block& block) {
-  std::array<double, 6> p{};
-  if (!block.data.empty() && !read_numbers(model, block, block.data[0], p)) return;
-  const Placement& placement = model.scopes[scope].placement;
-  const Eigen::Vector3d start = placement.R * Eigen::Vector3d(p[0], p[1], p[2]) + placement.t;
-  const Eigen::Vector3d along = placement.R * Eigen::Vector3d(p[3] - p[0], p[4] - p[1], p[5] - p[2]);
-  if (!(along.norm() > 0.0))
-    return model.fault(fmt::format("{}: the two points of its axis coincide", block.title), block,
-                       "give two points on the axis");
-  const Eigen::Vector3d z = along.normalized();
-  for (const int node : nodes) {
-    const Eigen::Vector3d arm = model.positions[node] - start, away = arm - z * z.dot(arm);
-    if (away.norm() <= 1e-9 * std::max(arm.norm(), along.norm())) {
-      model.undirected[node] = "it lies on the axis of its *TRANSFORM, TYPE=C, where no direction leads away from it";
-      continue;
-    }
-    Eigen::Matrix3d axes;
-    axes << away.normalized(), z.cross(away.normalized()), z;
-    model.node_axes[node] = axes;
-  }
-}
-
-}  // namespace
 
 bool has_directions(Model& model, int node, const std::string& where) {
   const auto found = model.undirected.find(node);

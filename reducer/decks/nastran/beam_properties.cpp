@@ -127,10 +127,10 @@ formats::Section pbeam_end(CardFields& f, int start, const formats::Section& bef
   return s;
 }
 
-/// N1, N2: the centroid from the line of shear centres, along y and z.
-void place_centroid(CardFields& f, int N1, int N2, double y, double z, formats::Section& s) {
-  s.centroid_y = f.real(N1, "N1", y);
-  s.centroid_z = f.real(N2, "N2", z);
+/// N1, N2: the centroid from the line of shear centres, along y and z, blanks as `before`.
+void place_centroid(CardFields& f, int N1, const formats::Section& before, formats::Section& s) {
+  s.centroid_y = f.real(N1, "N1", before.centroid_y);
+  s.centroid_z = f.real(N1 + 1, "N2", before.centroid_z);
   s.shear_center_y = -s.centroid_y;
   s.shear_center_z = -s.centroid_z;
 }
@@ -155,8 +155,8 @@ void read_pbeam_tail(NastranModel& model, CardFields& f, int tail, BeamSections&
   };
   if (given(tail + 2, tail + 4)) model.remarks.add("shear relief S1, S2 of tapered beams is left out", f.label());
   if (given(tail + 6, tail + 8)) model.remarks.add("warping CW is left out", f.label());
-  place_centroid(f, tail + 12, tail + 13, 0.0, 0.0, b.first);
-  place_centroid(f, tail + 14, tail + 15, b.first.centroid_y, b.first.centroid_z, b.second);
+  place_centroid(f, tail + 12, {}, b.first);
+  place_centroid(f, tail + 14, b.first, b.second);
 }
 
 /// Ends, then optional lines of stress points (C1 to F2) behind each end, then the tail.

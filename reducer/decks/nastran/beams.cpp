@@ -49,14 +49,6 @@ Eigen::Vector3d orientation(NastranModel& model, CardFields& f, const BeamDefaul
   return v;
 }
 
-/// Offset vector W of one end in part axes; `axes` are those of the element without offsets.
-Eigen::Vector3d offset(NastranModel& model, CardFields& f, int index, int node, char frame,
-                       const Eigen::Matrix3d& axes) {
-  const Eigen::Vector3d w = f.vector(index, index == 10 ? "WA" : "WB");
-  if (w.isZero(0.0)) return w;
-  return frame == 'O' ? axes * w : model.displacement_axes(node) * w;
-}
-
 std::optional<Eigen::Matrix3d> axes_or_fault(CardFields& f, const Eigen::Vector3d& axis, const Eigen::Vector3d& v) {
   if (!f.ok()) return std::nullopt;
   if (!(axis.norm() > 0.0)) return f.refuse("the ends of the axis coincide", "correct the grid points or the offsets");
@@ -81,14 +73,18 @@ void add_beam(NastranModel& model, CardFields& f, const BeamDefaults& defaults) 
   const Eigen::Vector3d v = orientation(model, f, defaults, beam.first, frames.orientation);
   if (!f.ok()) return;
   const Eigen::Vector3d between = model.position(beam.second) - model.position(beam.first);
-  Eigen::Matrix3d plain = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d plain = Eigen::Matrix3d::Identity();  // axes of the element without offsets
   if (frames.first == 'O' || frames.second == 'O') {
     const std::optional<Eigen::Matrix3d> axes = axes_or_fault(f, between, v);
     if (!axes) return;
     plain = *axes;
   }
-  beam.first_offset = offset(model, f, 10, beam.first, frames.first, plain);
-  beam.second_offset = offset(model, f, 13, beam.second, frames.second, plain);
+  const auto to_part = [&](const Eigen::Vector3d& w, int node, char frame) -> Eigen::Vector3d {
+    if (w.isZero(0.0)) return w;
+    return (frame == 'O' ? plain : model.displacement_axes(node)) * w;
+  };
+  beam.first_offset = to_part(f.vector(10, "WA"), beam.first, frames.first);
+  beam.second_offset = to_part(f.vector(13, "WB"), beam.second, frames.second);
   const std::optional<Eigen::Matrix3d> axes = axes_or_fault(f, between + beam.second_offset - beam.first_offset, v);
   if (!axes) return;
   beam.R_PE = *axes;

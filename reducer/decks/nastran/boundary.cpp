@@ -139,8 +139,8 @@ void read_held(NastranModel& model) {
       if (node >= 0) model.held.push_back({node, components, model.row(f)});
     }
   });
-  for (std::size_t i = 0; i < model.fixed.size(); ++i)
-    if (model.fixed[i] != 0) model.held.push_back({static_cast<int>(i), model.fixed[i], model.grid_card[i]});
+  for (int i = 0; i < std::ssize(model.fixed); ++i)
+    if (model.fixed[i] != 0) model.held.push_back({i, model.fixed[i], model.grid_card[i]});
 }
 
 std::string digits(Components components) {

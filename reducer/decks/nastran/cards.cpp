@@ -293,9 +293,9 @@ void CardReader::repeat(const std::array<std::string_view, 8>& pattern) {
   line.name = last.name;
   line.count = 8;
   bool rest = false;
-  for (std::size_t i = 0; i < pattern.size(); ++i) {
+  for (int i = 0; i < std::ssize(pattern); ++i) {
     std::string_view field = pattern[i];
-    const std::string_view before = cards_.field(last, static_cast<int>(i));
+    const std::string_view before = cards_.field(last, i);
     rest = rest || field == "==";
     if (rest || field == "=") {
       line.fields[i] = before;

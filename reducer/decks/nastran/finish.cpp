@@ -28,7 +28,7 @@ std::vector<int> nodes_of(const Mesh& mesh, const ElementSet& set) {
 
 void finish_nodes(NastranModel& model) {
   std::vector<std::pair<long, int>> ids;
-  for (std::size_t i = 0; i < model.grid_id.size(); ++i) ids.emplace_back(model.grid_id[i], static_cast<int>(i));
+  for (int i = 0; i < std::ssize(model.grid_id); ++i) ids.emplace_back(model.grid_id[i], i);
   std::sort(ids.begin(), ids.end());
   model.deck.node_of_id = std::map<long, int>(ids.begin(), ids.end());
   for (auto& [id, set] : model.of_property) {

@@ -195,7 +195,7 @@ bool Placement::resolve(int row, CardFields& asked, int depth) {
 }
 
 void Placement::place() {
-  for (std::size_t i = 0; i < frames_.size(); ++i) resolve(static_cast<int>(i) + 1, frames_[i].fields, 0);
+  for (int i = 0; i < std::ssize(frames_); ++i) resolve(i + 1, frames_[i].fields, 0);
   Mesh& mesh = model_.deck.mesh;
   mesh.position.resize(3, static_cast<Eigen::Index>(grids_.size()));
   mesh.node_label.reserve(grids_.size());

@@ -13,7 +13,7 @@ class IdTable {
   std::vector<int> build(const std::vector<long>& ids) {
     sorted_.clear();
     sorted_.reserve(ids.size());
-    for (std::size_t row = 0; row < ids.size(); ++row) sorted_.emplace_back(ids[row], static_cast<int>(row));
+    for (int row = 0; row < std::ssize(ids); ++row) sorted_.emplace_back(ids[row], row);
     std::sort(sorted_.begin(), sorted_.end());
     std::vector<int> again;
     for (std::size_t i = 1; i < sorted_.size(); ++i)

@@ -42,7 +42,7 @@ struct NastranModel {
   std::vector<std::size_t> grid_card;
   std::vector<int> displacement_frame;                            ///< row of `frames`
   std::vector<Components> fixed;                                  ///< PS: components held to ground
-  double mass_scale = 1.0;                                        ///< PARAM,WTMASS
+  double mass_scale = 1.0;                                        ///< PARAM,WTMASS: every reader of a mass multiplies by it
   formats::MassMatrix mass_matrix = formats::MassMatrix::lumped;  ///< PARAM,COUPMASS
   NastranMaterials materials;
   NastranProperties properties;
@@ -106,7 +106,7 @@ void add_beams(NastranModel& model);
 void add_shells(NastranModel& model);
 void add_solids(NastranModel& model);
 void add_springs(NastranModel& model);
-void add_masses(NastranModel& model);
+void add_masses(NastranModel& model);  // in springs.cpp
 void add_rods(NastranModel& model);
 
 /// RBE1, RBE2, RBE3, RBAR as spiders, MPC as equations.

@@ -185,57 +185,6 @@ BeamMatrices rod(const BeamElementData& beam) {
   return result;
 }
 
-}  // namespace
-
-std::optional<std::string> general_beam_fault(const BeamElementData& beam) {
-  constexpr int samples = 32;
-  for (int k = 0; k <= samples; ++k) {
-    const Section s = section_at(beam, beam.length * k / samples);
-    const auto fault = [&](const char* what, double value) {
-      return fmt::format("{} is {:g} at {:.3g} of its length and must be positive", what, value, 1.0 * k / samples);
-    };
-    if (!(s.area > 0.0)) return fault("the area", s.area);
-    if (is_rod(beam)) continue;
-    const double mean = 0.5 * (s.second_moment_y + s.second_moment_z);
-    const double least = mean - std::hypot(0.5 * (s.second_moment_y - s.second_moment_z), s.second_moment_yz);
-    if (!(least > 1e-12 * mean)) return fault("the smaller principal second moment of area", least);
-    if (!(s.torsion_constant > 0.0)) return fault("the torsion constant", s.torsion_constant);
-  }
-  return std::nullopt;
-}
-
-BeamMatrices general_beam(const BeamElementData& beam) {
-  const double L = beam.length;
-  BeamMatrices result;
-  if (is_rod(beam)) {
-    result = rod(beam);
-  } else {
-    const Integration along = integrate(beam);
-    Matrix6x12 T;
-    T << -transfer(L), Matrix6::Identity();
-    const Matrix6x12 forces = inverse(along.flexibility) * T;
-    result.stiffness = T.transpose() * forces;
-    for (const Point& point : along.points) {
-      Matrix6x12 N = point.motion * forces;
-      N.leftCols<6>() += transfer(point.x);
-      const Matrix6 mu = point.weight * section_mass(beam, section_at(beam, point.x), point.x);
-      result.mass += N.transpose() * mu * N;
-    }
-  }
-  if (beam.mass_matrix == formats::MassMatrix::lumped) result.mass = lumped(beam, {0.0, 0.5 * L, L});
-  if (is_rod(beam)) {  // no bending rotations
-    for (const int i : {4, 5, 10, 11}) {
-      result.mass.row(i).setZero();
-      result.mass.col(i).setZero();
-    }
-  }
-  result.stiffness = 0.5 * (result.stiffness + result.stiffness.transpose()).eval();
-  result.mass = 0.5 * (result.mass + result.mass.transpose()).eval();
-  return result;
-}
-
-namespace {
-
 /// Ends of the pieces that lumping moves to one end each: each half of the beam.
 std::vector<BeamMassPoint> lumped_points(const BeamElementData& beam) {
   const Matrix12 M = lumped(beam, {0.0, 0.5 * beam.length, beam.length});
@@ -294,15 +243,6 @@ std::vector<BeamMassPoint> rod_points(const BeamElementData& beam) {
   return points;
 }
 
-}  // namespace
-
-std::vector<BeamMassPoint> beam_mass_points(const BeamElementData& beam) {
-  if (is_rod(beam)) return rod_points(beam);
-  return beam.mass_matrix == formats::MassMatrix::lumped ? lumped_points(beam) : consistent_points(beam);
-}
-
-namespace {
-
 /// ∫σ |r − s|² dA of the section forces F about the axis: N (I_p/A + |s|²) + β_y M_y − β_z M_z, moments about the
 /// centroid, s the shear centre from it (formats/sections/monosymmetry.hpp).
 Eigen::Matrix<double, 1, 6> wagner_row(const Section& s, const formats::Monosymmetry& beta) {
@@ -315,6 +255,58 @@ Eigen::Matrix<double, 1, 6> wagner_row(const Section& s, const formats::Monosymm
 }
 
 }  // namespace
+
+std::optional<std::string> general_beam_fault(const BeamElementData& beam) {
+  constexpr int samples = 32;
+  for (int k = 0; k <= samples; ++k) {
+    const Section s = section_at(beam, beam.length * k / samples);
+    const auto fault = [&](const char* what, double value) {
+      return fmt::format("{} is {:g} at {:.3g} of its length and must be positive", what, value, 1.0 * k / samples);
+    };
+    if (!(s.area > 0.0)) return fault("the area", s.area);
+    if (is_rod(beam)) continue;
+    const double mean = 0.5 * (s.second_moment_y + s.second_moment_z);
+    const double least = mean - std::hypot(0.5 * (s.second_moment_y - s.second_moment_z), s.second_moment_yz);
+    if (!(least > 1e-12 * mean)) return fault("the smaller principal second moment of area", least);
+    if (!(s.torsion_constant > 0.0)) return fault("the torsion constant", s.torsion_constant);
+  }
+  return std::nullopt;
+}
+
+BeamMatrices general_beam(const BeamElementData& beam) {
+  const double L = beam.length;
+  BeamMatrices result;
+  if (is_rod(beam)) {
+    result = rod(beam);
+  } else {
+    const Integration along = integrate(beam);
+    Matrix6x12 T;
+    T << -transfer(L), Matrix6::Identity();
+    const Matrix6x12 forces = inverse(along.flexibility) * T;
+    result.stiffness = T.transpose() * forces;
+    for (const Point& point : along.points) {
+      Matrix6x12 N = point.motion * forces;
+      N.leftCols<6>() += transfer(point.x);
+      const Matrix6 mu = point.weight * section_mass(beam, section_at(beam, point.x), point.x);
+      result.mass += N.transpose() * mu * N;
+    }
+  }
+  if (beam.mass_matrix == formats::MassMatrix::lumped) result.mass = lumped(beam, {0.0, 0.5 * L, L});
+  if (is_rod(beam)) {  // no bending rotations
+    for (const int i : {4, 5, 10, 11}) {
+      result.mass.row(i).setZero();
+      result.mass.col(i).setZero();
+    }
+  }
+  result.stiffness = 0.5 * (result.stiffness + result.stiffness.transpose()).eval();
+  result.mass = 0.5 * (result.mass + result.mass.transpose()).eval();
+  return result;
+}
+
+std::vector<BeamMassPoint> beam_mass_points(const BeamElementData& beam) {
+  if (is_rod(beam)) return rod_points(beam);
+  return beam.mass_matrix == formats::MassMatrix::lumped ? lumped_points(beam) : consistent_points(beam);
+}
 
 std::vector<BeamField> beam_fields(const BeamElementData& beam) {
   const double L = beam.length;

@@ -30,9 +30,9 @@ double energy_along(double load, double stiffness, double length) {
 
 }  // namespace
 
-Eigen::VectorXd energy_error(const Mesh& mesh, const BeamElement& beam, const Eigen::MatrixXd& u,
-                             const Eigen::VectorXd& lambda) {
+Eigen::VectorXd energy_error(const Mesh& mesh, const BeamElement& beam, const ElementModes& modes) {
   using formats::Section;
+  const auto& [u, lambda] = modes;
   BeamElementData data = data_of(mesh, beam);
   const double L = data.length, E = data.material.youngs_modulus, G = data.material.shear_modulus();
   const Section& first = data.stations.empty() ? data.section : data.stations.front();

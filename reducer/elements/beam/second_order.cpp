@@ -27,14 +27,14 @@ Matrix12 to_element(const Eigen::Matrix3d& R_PE) {
   return Q;
 }
 
-/// Forces on both ends, working on arm a = ψ × r, slide and relative turn: f · (½ ψ × a + ψ × slide) + ½ m · ψ × turn.
-void add_ends(const BeamElement& beam, const Matrix12& nodes, const Matrix12& ends, const Matrix12& force,
-              Eigen::Index stress, Eigen::Index gradient, SecondOrderRows& out) {
+/// Gradients of both ends, whose forces work on arm a = ψ × r, slide and relative turn: f · (½ ψ × a + ψ × slide) + ½ m
+/// · ψ × turn.
+void add_ends(const BeamElement& beam, const Matrix12& nodes, const Matrix12& ends, Eigen::Index gradient,
+              SecondOrderRows& out) {
   for (int end = 0; end < 2; ++end) {
     const Eigen::Vector3d r = beam.R_PE.transpose() * (end == 0 ? beam.first_offset : beam.second_offset);
     const Eigen::Matrix<double, 3, 12> u = nodes.middleRows<3>(6 * end), psi = nodes.middleRows<3>(6 * end + 3);
     const Eigen::Matrix<double, 3, 12> arm = -skew<double>(r) * psi;
-    out.stress.middleRows<6>(stress + 6 * end) = force.middleRows<6>(6 * end);
     auto point = out.gradient.middleRows<9>(gradient + 9 * end);
     point.topRows<3>() = psi;
     point.middleRows<3>(3) = -(ends.middleRows<3>(6 * end) - u - 0.5 * arm);
@@ -72,7 +72,8 @@ void second_order(const Mesh& mesh, const BeamElement& beam, SecondOrderRows& ou
     arms.block<3, 3>(6, 9) = -skew<double>(Eigen::Vector3d(beam.R_PE.transpose() * beam.second_offset));
     const Matrix12 stiffness = at_the_ends(data).stiffness;
     ends = release(beam.released, stiffness).T * arms * nodes;
-    add_ends(beam, nodes, ends, stiffness * ends, 7 * points, 9 * points, out);
+    out.stress.middleRows<12>(7 * points) = stiffness * ends;
+    add_ends(beam, nodes, ends, 9 * points, out);
   }
   for (int p = 0; p < points; ++p) {
     const BeamField& field = fields[p];

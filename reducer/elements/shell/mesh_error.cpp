@@ -143,11 +143,22 @@ Eigen::Matrix<double, 8, 8> compliance(const ShellSection& section) {
   return F;
 }
 
+/// A shell in its modes.
+template <int Corners>
+struct MovedShell {
+  ShellGeometry<Corners> geometry;
+  Eigen::Matrix<double, 8, 8> F;  ///< compliance()
+  Eigen::MatrixXd v;              ///< motion_of_corners()
+  const Eigen::MatrixXd& smooth;  ///< stresses [N; M; Q] at the corners
+};
+
 /// ∫ 2 M_ns γ_s + δ f_M M_ns² ds along the edge from corner i, n = [s_y, −s_x]. γ_s = (w_j − w_i)/L + mean of β · s is
 /// constant, β = [θy, −θx].
 template <int Corners>
-Eigen::VectorXd layer_at_edge(const ShellGeometry<Corners>& geometry, int i, const Eigen::Matrix<double, 8, 8>& F,
-                              const Eigen::MatrixXd& v, const Eigen::MatrixXd& smooth) {
+Eigen::VectorXd layer_at_edge(const MovedShell<Corners>& shell, int i) {
+  const ShellGeometry<Corners>& geometry = shell.geometry;
+  const Eigen::Matrix<double, 8, 8>& F = shell.F;
+  const Eigen::MatrixXd &v = shell.v, &smooth = shell.smooth;
   const int j = (i + 1) % Corners;
   const Eigen::Vector2d d = geometry.corner.col(j) - geometry.corner.col(i);
   const double length = d.norm(), x = d.x() / length, y = d.y() / length;
@@ -205,26 +216,28 @@ Eigen::VectorXd squared_displacement(const Eigen::Matrix<double, Corners, 1>& N,
 
 /// Mass less stiffness of the strip between the straight edge from corner i and the curved one.
 template <int Corners>
-Eigen::VectorXd strip_at_edge(const ShellGeometry<Corners>& geometry, int i, const Eigen::Matrix<double, 8, 8>& F,
-                              const Eigen::VectorXd& inertia, const Eigen::MatrixXd& v,
-                              const Eigen::MatrixXd& smooth) {
+Eigen::VectorXd strip_at_edge(const MovedShell<Corners>& shell, int i, const Eigen::VectorXd& inertia) {
+  const Eigen::MatrixXd &v = shell.v, &smooth = shell.smooth;
   Eigen::VectorXd density = Eigen::VectorXd::Zero(v.cols());
   for (const int k : {i, (i + 1) % Corners}) {
     const auto stress = smooth.middleRows<8>(8 * k);
     density += 0.5 * inertia.cwiseProduct(v.middleRows<3>(6 * k).colwise().squaredNorm().transpose());
-    density -= 0.5 * stress.cwiseProduct(F * stress).colwise().sum().transpose();
+    density -= 0.5 * stress.cwiseProduct(shell.F * stress).colwise().sum().transpose();
   }
+  const ShellGeometry<Corners>& geometry = shell.geometry;
   return (geometry.corner.col((i + 1) % Corners) - geometry.corner.col(i)).norm() * density;
 }
 
 template <int Corners>
-Eigen::VectorXd error_of(const Mesh& mesh, const ShellElement& shell, const Eigen::MatrixXd& u,
-                         const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth, const ShellSurround& around) {
+Eigen::VectorXd error_of(const Mesh& mesh, const ShellElement& shell, const ElementModes& modes,
+                         const Eigen::MatrixXd& smooth, const ShellSurround& around) {
+  const auto& [u, lambda] = modes;
   const ShellProperty& property = mesh.shell_properties[shell.property];
   const ShellSection& section = property.section;
   const ShellGeometry<Corners> geometry = shell_geometry<Corners>(mesh, shell);
-  const Eigen::MatrixXd v = motion_of_corners<Corners>(geometry, shell.offset, u);
-  const Eigen::Matrix<double, 8, 8> F = compliance(section);
+  const MovedShell<Corners> moved{geometry, compliance(section), motion_of_corners<Corners>(geometry, shell.offset, u),
+                                  smooth};
+  const Eigen::MatrixXd& v = moved.v;
   Eigen::VectorXd error = v.cwiseProduct(shell_stiffness<Corners>(geometry, section) * v).colwise().sum().transpose();
   for (const StrainPoint<Corners>& point : strain_points(geometry)) {
     Eigen::Matrix<double, 8, Eigen::Dynamic> stress = Eigen::Matrix<double, 8, Eigen::Dynamic>::Zero(8, u.cols());
@@ -234,15 +247,14 @@ Eigen::VectorXd error_of(const Mesh& mesh, const ShellElement& shell, const Eige
     const Eigen::Vector2d g = around.slope.leftCols<Corners>() * point.N;
     const double more = 0.5 * g.squaredNorm();
     const Eigen::Matrix<double, 8, Eigen::Dynamic> gap =
-        (1.0 + more) * F * stress - 2.0 * surface_strains<Corners>(point, g, v);
+        (1.0 + more) * moved.F * stress - 2.0 * surface_strains<Corners>(point, g, v);
     error += point.dA * stress.cwiseProduct(gap).colwise().sum().transpose();
     if (more > 0.0)
       error += more * point.dA * section.mass * lambda.cwiseProduct(squared_displacement<Corners>(point.N, v));
   }
   for (int i = 0; i < Corners; ++i) {
-    if (around.ending[i] && !section.D.isZero(0.0)) error += layer_at_edge<Corners>(geometry, i, F, v, smooth);
-    if (around.bow[i] != 0.0)
-      error += around.bow[i] * strip_at_edge<Corners>(geometry, i, F, section.mass * lambda, v, smooth);
+    if (around.ending[i] && !section.D.isZero(0.0)) error += layer_at_edge(moved, i);
+    if (around.bow[i] != 0.0) error += around.bow[i] * strip_at_edge(moved, i, section.mass * lambda);
   }
   if (property.mass_matrix == formats::MassMatrix::lumped) {
     using Arms = Eigen::Matrix<double, Corners, 1>;
@@ -295,18 +307,15 @@ void sample_stresses(const Mesh& mesh, const ShellElement& shell, const Eigen::M
     sample_quadrilateral(mesh, shell, u, out);
 }
 
-Eigen::VectorXd energy_error(const Mesh& mesh, const ShellElement& shell, const Eigen::MatrixXd& u,
-                             const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth,
-                             const ShellSurround& around) {
-  return shell.corners() == 3 ? error_of<3>(mesh, shell, u, lambda, smooth, around)
-                              : error_of<4>(mesh, shell, u, lambda, smooth, around);
+Eigen::VectorXd energy_error(const Mesh& mesh, const ShellElement& shell, const ElementModes& modes,
+                             const Eigen::MatrixXd& smooth, const ShellSurround& around) {
+  return shell.corners() == 3 ? error_of<3>(mesh, shell, modes, smooth, around)
+                              : error_of<4>(mesh, shell, modes, smooth, around);
 }
 
 Eigen::VectorXd stress_energy(const Mesh& mesh, const ShellElement& shell, const Eigen::MatrixXd& stress, int modes) {
-  const double area =
-      shell.corners() == 3 ? shell_geometry<3>(mesh, shell).area : shell_geometry<4>(mesh, shell).area;
-  const Eigen::Matrix<double, 6, 6> F =
-      compliance(mesh.shell_properties[shell.property].section).topLeftCorner<6, 6>();
+  const double area = shell.corners() == 3 ? shell_geometry<3>(mesh, shell).area : shell_geometry<4>(mesh, shell).area;
+  const Eigen::Matrix<double, 6, 6> F = compliance(mesh.shell_properties[shell.property].section).topLeftCorner<6, 6>();
   const Eigen::VectorXd energy = stress.cwiseProduct(F * stress).colwise().sum().transpose();
   return area * energy.reshaped(modes, stress.cols() / modes).rowwise().mean();
 }

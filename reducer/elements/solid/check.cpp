@@ -129,8 +129,8 @@ void find_errors(const Mesh& mesh, const SolidElement& solid, const Jacobians& J
 }
 
 template <SolidShape shape>
-void find_warnings(const Positions<shape>& x, const Jacobians& J, const EdgeLengths& edges, const SolidElement& solid,
-                   const Mesh& mesh, ShapeFindings& findings) {
+void find_warnings(const Mesh& mesh, const SolidElement& solid, const Jacobians& J, const EdgeLengths& edges,
+                   ShapeFindings& findings) {
   const double cube = edges.longest * edges.longest * edges.longest;
   const double quality = 6.0 * std::sqrt(2.0) * J.volume / cube;
   if (SolidBasis<shape>::corners == 4 && quality < sliver_quality)
@@ -146,12 +146,6 @@ void find_warnings(const Positions<shape>& x, const Jacobians& J, const EdgeLeng
     findings.warnings.push_back(
         fmt::format("distorted: Jacobian falls to {:.2g} of its mean{}", J.least / J.mean,
                     J.least_at_node <= J.least ? " at " + node_text(mesh, solid.nodes[J.worst_node]) : std::string()));
-  if constexpr (shape == SolidShape::prism6)
-    if (const double flat = flatness<shape>(x); flat > flat_prism)
-      findings.warnings.push_back(
-          fmt::format("flat six-node prism: width {:.3g} times its height makes bending too stiff; "
-                      "use 15-node prisms, hexahedra or shells",
-                      flat));
 }
 
 template <SolidShape shape>
@@ -171,7 +165,14 @@ void check(const Mesh& mesh, const SolidElement& solid, ShapeFindings& findings)
   const Jacobians J = jacobians<shape>(x);
   const std::size_t before = findings.errors.size();
   find_errors<shape>(mesh, solid, J, edges.longest, findings);
-  if (findings.errors.size() == before) find_warnings<shape>(x, J, edges, solid, mesh, findings);
+  if (findings.errors.size() > before) return;
+  find_warnings<shape>(mesh, solid, J, edges, findings);
+  if constexpr (shape == SolidShape::prism6)
+    if (const double flat = flatness<shape>(x); flat > flat_prism)
+      findings.warnings.push_back(
+          fmt::format("flat six-node prism: width {:.3g} times its height makes bending too stiff; "
+                      "use 15-node prisms, hexahedra or shells",
+                      flat));
 }
 
 }  // namespace

@@ -186,8 +186,9 @@ Eigen::VectorXd excess_of_mass(const Mesh& mesh, const SolidElement& solid, cons
 }
 
 template <SolidShape shape>
-Eigen::VectorXd error_of(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u,
-                         const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth) {
+Eigen::VectorXd error_of(const Mesh& mesh, const SolidElement& solid, const ElementModes& modes,
+                         const Eigen::MatrixXd& smooth) {
+  const auto& [u, lambda] = modes;
   static constexpr auto rule = energy_rule<shape>();
   static constexpr auto table = tabulate<shape>(rule);
   const SolidProperty& property = mesh.solid_properties[solid.property];
@@ -212,8 +213,9 @@ Eigen::Vector3d divergence(const Eigen::Matrix<double, 6, 1>& s, const Eigen::Ro
 }
 
 template <SolidShape shape>
-Eigen::VectorXd imbalance_of(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u,
-                             const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth) {
+Eigen::VectorXd imbalance_of(const Mesh& mesh, const SolidElement& solid, const ElementModes& modes,
+                             const Eigen::MatrixXd& smooth) {
+  const auto& [u, lambda] = modes;
   static constexpr auto rule = energy_rule<shape>();
   static constexpr auto table = tabulate<shape>(rule);
   constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
@@ -277,15 +279,14 @@ void sample_stresses(const Mesh& mesh, const SolidElement& solid, const Eigen::M
   with_shape(solid.shape, [&]<SolidShape shape>() { sample<shape>(mesh, solid, u, out); });
 }
 
-Eigen::VectorXd energy_error(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u,
-                             const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth) {
-  return with_shape(solid.shape, [&]<SolidShape shape>() { return error_of<shape>(mesh, solid, u, lambda, smooth); });
+Eigen::VectorXd energy_error(const Mesh& mesh, const SolidElement& solid, const ElementModes& modes,
+                             const Eigen::MatrixXd& smooth) {
+  return with_shape(solid.shape, [&]<SolidShape shape>() { return error_of<shape>(mesh, solid, modes, smooth); });
 }
 
-Eigen::VectorXd imbalance(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u,
-                          const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth) {
-  return with_shape(solid.shape,
-                    [&]<SolidShape shape>() { return imbalance_of<shape>(mesh, solid, u, lambda, smooth); });
+Eigen::VectorXd imbalance(const Mesh& mesh, const SolidElement& solid, const ElementModes& modes,
+                          const Eigen::MatrixXd& smooth) {
+  return with_shape(solid.shape, [&]<SolidShape shape>() { return imbalance_of<shape>(mesh, solid, modes, smooth); });
 }
 
 Eigen::VectorXd stress_energy(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& stress, int modes) {

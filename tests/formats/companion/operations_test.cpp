@@ -72,7 +72,7 @@ TEST(CompanionOperations, GalileanStepMakesMomentaTurnAsVectors) {
   const SecondOrderBody body = test_support::second_order_network(2, weights);
   const MatrixXd R = rigid(body);
   Companion same = body.companion;
-  galilean_step_keeping_gram(same, body.element.mass, R);
+  galilean_step(same, body.element.mass, R);
   expect_near(same, body.companion);
 
   const Eigen::Index n = body.element.size();
@@ -91,12 +91,8 @@ TEST(CompanionOperations, GalileanStepMakesMomentaTurnAsVectors) {
     spoiled.E[pair] += 0.5 / spoiled.mass * (X + X.transpose());
   }
   check(spoiled, body.element, "spoiled");
-  Companion coupling_alone = spoiled;
-  galilean_step(coupling_alone, body.element.mass, R);
-  EXPECT_EQ(coupling_alone.E, spoiled.E);
-  galilean_step_keeping_gram(spoiled, body.element.mass, R);
+  galilean_step(spoiled, body.element.mass, R);
   expect_near(spoiled, body.companion);
-  for (int k = 0; k < 3; ++k) expect_near(coupling_alone.C[k], body.companion.C[k], "C");
 }
 
 /// Two thirds of a rotation of coordinates and a mixture of the modes.
@@ -180,7 +176,7 @@ TEST(CompanionOperations, RelativeTurnsAreAnAngularMomentum) {
 
   Companion moved = body.companion;
   move_reference(moved, Vector3d(0.3, -0.2, 0.7));
-  galilean_step_keeping_gram(moved, body.element.mass, rigid(body));
+  galilean_step(moved, body.element.mass, rigid(body));
   EXPECT_EQ(moved.W, body.companion.W);
 }
 

@@ -2,6 +2,7 @@
 #include "formats/page/surface.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -36,7 +37,7 @@ ShapeSpec solid(ShapeKind kind) {
 
 TEST(Surface, SolidsHaveTheirVolume) {
   // A regular polygon of n corners has the area n/2 sin(2 pi/n) r^2.
-  const double circle = 12.0 * std::sin(2.0 * EIGEN_PI / 24.0) * 0.25;
+  const double circle = 12.0 * std::sin(2.0 * std::numbers::pi / 24.0) * 0.25;
   ShapeSpec box = solid(ShapeKind::box);
   box.position = {5.0, 6.0, 7.0};
   box.orientation = Eigen::AngleAxisd(0.3, Vector3d(1, 2, 3).normalized());
@@ -47,7 +48,7 @@ TEST(Surface, SolidsHaveTheirVolume) {
   cone.end_radius = 0.0;
   EXPECT_NEAR(volume(surface_of(cone)), 2.0 * circle / 3.0, 1e-12);
   // Of a sphere by 11 rings of 24 corners and two poles: inside the sphere and not much smaller.
-  const double ball = volume(surface_of(solid(ShapeKind::sphere))), exact = EIGEN_PI / 6.0;
+  const double ball = volume(surface_of(solid(ShapeKind::sphere))), exact = std::numbers::pi / 6.0;
   EXPECT_LT(ball, exact);
   EXPECT_GT(ball, 0.95 * exact);
 }
@@ -78,8 +79,13 @@ TEST(PageBlocks, PositionsOfOnePlaneButForRoundOff) {
   PageRows places(2, 3);
   places << 1.65, 0.0, 2.0, std::nextafter(1.65, 2.0), 1.0, 2.0;
   PageBlocks blocks;
-  EXPECT_EQ(blocks.add_positions(places)["shape"], Json({2, 3}));
-  EXPECT_LT((quantised_positions(places) - places).cwiseAbs().maxCoeff(), 1e-4);
+  const Json stored = blocks.add_positions(places);
+  EXPECT_EQ(stored["shape"], Json({2, 3}));
+  for (int c = 0; c < 3; ++c)
+    for (int r = 0; r < 2; ++r) {  // what the page reads: whole steps from the offset
+      const double offset = stored["offset"][c], step = stored["scale"][c];
+      EXPECT_NEAR(offset + step * std::rint((places(r, c) - offset) / step), places(r, c), 1e-4);
+    }
 }
 
 TEST(Surface, LeastTreeJoinsNeighbours) {

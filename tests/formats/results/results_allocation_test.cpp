@@ -8,7 +8,7 @@
 #include "tests/support/results_rows.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(TISSERAND_SANITIZED)
 
 namespace {
 thread_local bool counting = false;

@@ -1,5 +1,6 @@
 // Tables of heights and OpenCRG files: what they say, and every way in which they can be wrong.
 #include <cmath>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -248,7 +249,8 @@ TEST(Crg, TellsDamageWithItsLine) {
               HasSubstr("no line begins with $$$$"));
   EXPECT_THAT(crg_error("D:long section 1,m\nD:long section 2,m   ! the middle\n", ""),
               HasSubstr("has 1 columns of heights"));
-  EXPECT_THAT(crg_error("$ROAD_CRG\n", "x = 3\n$ROAD_CRG\n"), HasSubstr("road.crg:4: the line stands outside of all sections"));
+  EXPECT_THAT(crg_error("$ROAD_CRG\n", "x = 3\n$ROAD_CRG\n"),
+              HasSubstr("road.crg:4: the line stands outside of all sections"));
   EXPECT_THAT(crg_error("* comment = 3\n$", "* comment = 3"), HasSubstr("$kd_definition begins inside of $road_crg"));
   EXPECT_THAT(crg_error("increment = 2.0", "increment = two"), HasSubstr("'two' is not a finite number"));
   EXPECT_THAT(crg_error("increment = 2.0", "increment"), HasSubstr("no = and value follow"));
@@ -274,7 +276,8 @@ TEST(RoadHeights, HaveFaultsThatAreTold) {
   EXPECT_THAT(fault([](RoadHeights& r) { r.across = {0.0}; }), HasSubstr("has 1 values across it"));
   EXPECT_THAT(fault([](RoadHeights& r) { r.height(1, 1) = 1e300; }), HasSubstr("a height of 1e+300"));
   EXPECT_THAT(fault([](RoadHeights& r) { r.height.setConstant(std::nan("")); }), HasSubstr("has no height"));
-  EXPECT_THAT(fault([](RoadHeights& r) { r.line(0, 1) = INFINITY; }), HasSubstr("a line that reaches inf"));
+  EXPECT_THAT(fault([](RoadHeights& r) { r.line(0, 1) = std::numeric_limits<double>::infinity(); }),
+              HasSubstr("a line that reaches inf"));
 }
 
 }  // namespace

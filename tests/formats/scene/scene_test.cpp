@@ -471,7 +471,8 @@ TEST(Scene, FaultyTables) {
 TEST(Scene, CheckOfAStructThatNoFileGave) {
   Scene scene = read(swing);
   EXPECT_NO_THROW(check(scene));
-  std::get<SuperelementBodySpec>(scene.bodies[0]).start.velocity = Eigen::Vector3d::Constant(NAN);
+  std::get<SuperelementBodySpec>(scene.bodies[0]).start.velocity =
+      Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::get<RigidBodySpec>(scene.bodies[2]).start.pose.orientation = Eigen::Quaterniond(0, 0, 0, 0);
   std::get<RigidBodySpec>(scene.bodies[2]).inertia(0, 1) = 0.5;
   scene.integrator.step = std::numeric_limits<double>::quiet_NaN();

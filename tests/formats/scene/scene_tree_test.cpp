@@ -1,6 +1,7 @@
 // Tests of include, parameters, assemblies and instances: the scene that they grow to, and the place of every error.
 #include "formats/scene/expand/tree.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/math/rotation.hpp"
+#include "formats/scene/expand/names.hpp"
 #include "formats/scene/fields.hpp"
 #include "formats/scene/scene.hpp"
 #include "tests/formats/yaml/text_input.hpp"
@@ -437,6 +439,17 @@ TEST(SceneInstances, ChannelsAndBodyGravityArePlaced) {
   EXPECT_LT((scene.channels.at(0).axis - Vector3d(0, -1, 0)).norm(), 1e-15);
   EXPECT_LT((scene.channels.at(0).origin - Vector3d(4, 0, 0)).norm(), 1e-15);
   EXPECT_LT((*rigid(scene, "w/b").gravity - Vector3d(-2, -1, 3)).norm(), 1e-15);
+}
+
+// Keys of an assembly are those of the scene, so that a new collection is accepted there by itself.
+TEST(SceneInstances, EveryCollectionOfAnAssemblyIsCopiedOrServesAllCopies) {
+  const std::vector<KeySet> sets = scene_key_sets();
+  const auto assembly = std::ranges::find(sets, "assembly", &KeySet::noun);
+  ASSERT_NE(assembly, sets.end());
+  std::vector<std::string> not_copied;
+  for (const Field& field : assembly->fields)
+    if (field.type.starts_with("{") && !is_instantiated(std::string(field.key))) not_copied.emplace_back(field.key);
+  EXPECT_THAT(not_copied, ElementsAre("parameters", "assemblies", "instances", "materials", "sections"));
 }
 
 TEST(SceneInstances, GrowthIsBounded) {

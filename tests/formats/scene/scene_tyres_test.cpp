@@ -1,5 +1,6 @@
 // Roads and tyres in scene.yaml: every key, the text of every error, placing in assemblies.
 #include <cmath>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -244,7 +245,7 @@ TEST(IsoRoad, HasTheSpectrumOfItsClass) {
     const double d = 0.02 * lag;
     double expected = 0.0, sum = 0.0;
     for (double n = 0.011; n < 2.83; n += 1e-4)
-      expected += 2.0 * 1e-4 * 16e-8 / (n * n) * (1.0 - std::cos(2.0 * EIGEN_PI * n * d));
+      expected += 2.0 * 1e-4 * 16e-8 / (n * n) * (1.0 - std::cos(2.0 * std::numbers::pi * n * d));
     for (std::size_t k = 250; k + lag + 250 < road.y.size(); ++k) sum += std::pow(road.y[k + lag] - road.y[k], 2);
     EXPECT_NEAR(sum / static_cast<double>(road.y.size() - 500 - lag), expected, accuracy * expected) << d;
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -197,7 +198,8 @@ TEST(SectionPolygon, FaultsAreNamed) {
   EXPECT_EQ(fault({{{0, 0}, {2, 0}, {1, 0}, {0, 1}}, {}}), "the sides at the corner (2, 0) fold back onto each other");
   EXPECT_EQ(fault({box_ring(0, 0, 1, 1), {box_ring(2, 2, 3, 3)}}), "hole 1 is not inside the outline");
   EXPECT_EQ(fault({box_ring(0, 0, 9, 9), {box_ring(1, 1, 8, 8), box_ring(2, 2, 3, 3)}}), "hole 2 is inside hole 1");
-  EXPECT_EQ(fault({box_ring(0, 0, NAN, 1), {}}), "a corner is not a finite number");
+  EXPECT_EQ(fault({box_ring(0, 0, std::numeric_limits<double>::quiet_NaN(), 1), {}}),
+            "a corner is not a finite number");
   EXPECT_EQ(fault({ellipse(1, 1, 201), {}}), "201 corners are more than 200");
 }
 
@@ -207,7 +209,8 @@ TEST(SectionProfiles, FaultsAreNamed) {
   EXPECT_EQ(profile_fault("I", {0.2, 0.1, 0.01, 0.1, 0.1, 0.1}),
             "flange 0.1 + bottom_flange 0.1 is not less than height 0.2");
   EXPECT_EQ(profile_fault("hat", {0.2, 0.1, -0.01, 0.01}), "brim -0.01 must be positive");
-  EXPECT_EQ(profile_fault("tee", {0.2, 0.1, NAN, 0.01}), "web nan must be positive");
+  EXPECT_EQ(profile_fault("tee", {0.2, 0.1, std::numeric_limits<double>::quiet_NaN(), 0.01}),
+            "web nan must be positive");
 }
 
 /// Every profile is one outline without fault, with the area of its walls.

@@ -75,8 +75,8 @@ TEST(SectionShapes, Rectangle) {
 /// Saint-Venant's series expanded along the other side converges to the same constant: a law that no slip in one of the
 /// two survives. Its terms do not fall as fast for a < b, hence the many.
 double torsion_by_the_other_side(double w, double h) {
-  const double a = std::max(w, h), b = std::min(w, h);
-  long double sum = 0.0;
+  const auto a = static_cast<long double>(std::max(w, h)), b = static_cast<long double>(std::min(w, h));
+  long double sum = 0.0L;
   for (int n = 200'001; n >= 1; n -= 2) sum += std::tanh(n * M_PIl * b / (2.0L * a)) / powl(n, 5);
   return static_cast<double>(a * a * a * b / 3.0L * (1.0L - 192.0L / powl(M_PIl, 5) * a / b * sum));
 }

@@ -2,6 +2,7 @@
 #include "mechanism/analyses/start.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,9 +43,9 @@ formats::Scene four_bar(JointKind last) {
     body.start.pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
     scene.bodies.push_back(body);
   };
-  bar("left", {0, 0, 0}, EIGEN_PI / 2);
+  bar("left", {0, 0, 0}, std::numbers::pi / 2);
   bar("top", {0, 1, 0}, 0.0);
-  bar("right", {1, 1, 0}, -EIGEN_PI / 2);
+  bar("right", {1, 1, 0}, -std::numbers::pi / 2);
   const Vector3d z = Vector3d::UnitZ();
   scene.joints = {test_support::joint("one", JointKind::revolute, "ground", "left", {0, 0, 0}, z),
                   test_support::joint("two", JointKind::revolute, "left", "top", {0, 1, 0}, z),
@@ -118,11 +119,11 @@ TEST(OppositeMarkers, AreAnErrorAlthoughTheyMeetTheEquations) {
   formats::Scene scene = test_support::pendulum_scene(1e-3, 1.0);
   scene.joints[0].axis.reset();
   scene.joints[0].a.orientation = Eigen::Quaterniond::Identity();
-  scene.joints[0].b.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(EIGEN_PI, Vector3d::UnitX()));
+  scene.joints[0].b.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitX()));
   EXPECT_THAT(start_error(scene), ::testing::HasSubstr("point in opposite directions"));
   scene.joints[0].kind = formats::JointKind::fixed;
   scene.joints[0].b.orientation =
-      Eigen::Quaterniond(Eigen::AngleAxisd(2.0 * EIGEN_PI / 3.0, Vector3d::Ones().normalized()));
+      Eigen::Quaterniond(Eigen::AngleAxisd(2.0 * std::numbers::pi / 3.0, Vector3d::Ones().normalized()));
   EXPECT_THAT(start_error(scene), ::testing::HasSubstr("turned against each other"));
 }
 

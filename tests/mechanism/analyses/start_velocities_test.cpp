@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -219,10 +220,10 @@ TEST_P(EveryCoupler, KeepsARate) {
 // A value moves all bodies rigidly: x = r cos θ + √(l² − r² sin² θ), and no strain comes in. Two turns stay two turns.
 TEST_P(EveryCoupler, MovesToAValue) {
   Mechanism mechanism = slider_crank(GetParam());
-  mechanism.scene.initial = {initial("main", 0.7 + 4.0 * EIGEN_PI, -3.0)};
+  mechanism.scene.initial = {initial("main", 0.7 + 4.0 * std::numbers::pi, -3.0)};
   Simulation run(mechanism.scene, mechanism.files);
   run.start();
-  EXPECT_NEAR(coordinate(run, "main").value, 0.7 + 4.0 * EIGEN_PI, 1e-11);
+  EXPECT_NEAR(coordinate(run, "main").value, 0.7 + 4.0 * std::numbers::pi, 1e-11);
   EXPECT_NEAR(coordinate(run, "main").rate, -3.0, 1e-12);
   const auto reach = [](double angle) {
     return SliderCrank::r * std::cos(angle) +

@@ -327,7 +327,7 @@ TEST(BeamElement, FunctionsOfTheAngleAcrossTheSeriesSwitches) {
   for (double u = 1e-8; u < 11.0; u *= 1.07) {
     const CurvatureFunctions<double> f(u);
     const auto expect = [&](double value, int first, int order, double tolerance) {
-      const double expected = static_cast<double>(series(u, first, order));
+      const double expected = static_cast<double>(series(static_cast<long double>(u), first, order));
       EXPECT_NEAR(value, expected, tolerance) << "u = " << u << ", order " << order;
     };
     expect(f.c, 2, 0, 1e-15);
@@ -345,7 +345,7 @@ TEST(BeamElement, LogarithmAcrossTheSeriesSwitch) {
     const beam::Logarithm<double> log(exp_so3<double>(a * axis));
     // exp() rounds entries by 2e-16, which the logarithm amplifies by 1/sin(a/2)·a/2 at most (π/2).
     EXPECT_LT((log.psi - a * axis).norm(), 1e-15 * (1.0 + a)) << a;
-    const long double half = 0.5L * a;
+    const long double half = 0.5L * static_cast<long double>(a);
     EXPECT_LT((log.w - static_cast<double>(std::tan(0.5L * half)) * axis).norm(), 1e-15) << a;
     if (a < 0.05) continue;  // below, the closed form loses digits in long double
     EXPECT_NEAR(log.e, static_cast<double>((1.0L - half / std::tan(half)) / (4.0L * half * half)), 2e-15) << a;

@@ -1,6 +1,7 @@
 // The floating-frame body and its nodes against known answers, Lagrange's equations and the laws that they imply.
 #include "mechanism/bodies/modal/body.hpp"
 
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -228,7 +229,7 @@ TEST(ModalBody, UnitsAndChoiceOfModesAndDamping) {
   EXPECT_NEAR(body.P0(0, 0), c.file.integrals.P0(0, 0) * 1e3, 1e-9);
   EXPECT_NEAR(body.C1(1, 0), c.file.integrals.C1(1, 0) * std::sqrt(1e-3), 1e-15);
   spec.modes.reset();
-  spec.cutoff = std::sqrt(300.0) / static_cast<double>(2.0 * EIGEN_PI);
+  spec.cutoff = std::sqrt(300.0) / static_cast<double>(2.0 * std::numbers::pi);
   EXPECT_EQ(build_modal_body(c.file, spec, {}).body.modes, 2);  // 75, 210, 507
   spec.cutoff.reset();
   spec.modes = 4;

@@ -91,7 +91,7 @@ struct Assembled {
 Assembled assembled(const formats::Scene& scene, const BodyFiles& all) {
   Simulation run(scene, all);
   const State before = run.state();
-  EXPECT_TRUE(assemble(run.model(), 1e-12, {}, run.state(), run.workspace.now).closed);
+  EXPECT_TRUE(assemble(run.model(), {1e-12}, run.state(), run.workspace.now).closed);
   Assembled result{test_support::outcome_of(scene, run), body_poses(scene, run.model(), before, run.state())};
   return result;
 }

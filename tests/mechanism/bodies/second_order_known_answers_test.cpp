@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
 
-#include "mechanism/bodies/superelement/second_order_tangent.hpp"
+#include "mechanism/bodies/superelement/tangent/second_order_tangent.hpp"
 #include "tests/support/bodies/second_order_known_answers.hpp"
 #include "tests/support/bodies/superelement_known_answers.hpp"
 #include "tests/support/bodies/uncondensed_tangent.hpp"

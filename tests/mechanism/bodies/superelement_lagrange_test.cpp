@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mechanism/bodies/superelement/full_inertia.hpp"
-#include "mechanism/bodies/superelement/second_order_tangent.hpp"
+#include "mechanism/bodies/superelement/forces/full_inertia.hpp"
+#include "mechanism/bodies/superelement/tangent/second_order_tangent.hpp"
 #include "tests/support/bodies/reduced_frames.hpp"
 #include "tests/support/bodies/second_order_known_answers.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"

@@ -50,7 +50,7 @@ void expect_weight(const formats::JointSpec& plane) {
                   joint("line", JointKind::point_on_line, "ground", "net/n1", {1.2, 0, 0}, {1, 0, 0}), plane};
   Simulation run(scene, files_of("network"));
   run.start();
-  const StaticsReport report = solve_statics(run.model(), scene.statics, run.state(), run.workspace);
+  const StaticsReport report = solve_statics(run.model(), scene.statics, {}, run.state(), run.workspace);
   ASSERT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
   const formats::ResultsLayout layout = results_layout(run.model(), scene);
   formats::ResultsRow row;
@@ -111,7 +111,7 @@ TEST(JointNodes, ABushingWithoutRotationsNeedsNoneAtB) {
   scene.bushings = {bushing_on("ground", "net/n2")};
   Simulation run(scene, files_of("network"));
   run.start();
-  const StaticsReport report = solve_statics(run.model(), scene.statics, run.state(), run.workspace);
+  const StaticsReport report = solve_statics(run.model(), scene.statics, {}, run.state(), run.workspace);
   ASSERT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
   formats::ResultsRow row;
   row.resize(results_layout(run.model(), scene));

@@ -234,7 +234,7 @@ TEST(Planar, StaticsAsInSpace) {
   const auto solved = [](const formats::Scene& scene) {
     Simulation run(scene, rod_files(4));
     run.start();
-    EXPECT_EQ(solve_statics(run.model(), scene.statics, run.state(), run.workspace).outcome, StepOutcome::accepted);
+    EXPECT_EQ(solve_statics(run.model(), scene.statics, {}, run.state(), run.workspace).outcome, StepOutcome::accepted);
     return row_of(run);
   };
   const formats::ResultsRow flat = solved(with_planar(t.scene)), spatial = solved(t.scene);

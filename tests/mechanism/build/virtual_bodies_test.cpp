@@ -2,6 +2,7 @@
 #include "mechanism/build/virtual_bodies.hpp"
 
 #include <map>
+#include <numbers>
 #include <tuple>
 
 #include <gmock/gmock.h>
@@ -113,7 +114,7 @@ formats::Scene slider_crank(const RodSpec& rod, formats::Formulation formulation
   scene.gravity = {0, -9.81, 0};
   const Vector3d pin(0, 0.15, 0), wrist(std::sqrt(0.3 * 0.3 - 0.15 * 0.15), 0, 0);
   scene.bodies.push_back(body_at("crank", 0.4, 0.5 * pin, {8e-4, 1e-4, 8e-4}));
-  const auto [start, end] = add_rod(rod, 0.3, pin, -EIGEN_PI / 6, scene);
+  const auto [start, end] = add_rod(rod, 0.3, pin, -std::numbers::pi / 6, scene);
   scene.bodies.push_back(body_at("slider", 0.2, wrist, {1e-4, 1e-4, 1e-4}));
   scene.bodies.push_back(virtual_body("bearing", Vector3d::Zero()));
   scene.bodies.push_back(virtual_body("inner", pin + Vector3d(0, 0.01, 0)));

@@ -193,7 +193,7 @@ TEST(Bushing, EquilibriumUnderAPreload) {
   scene.bushings[0].preload = K * d;
   test_support::Simulation run(scene, {});
   run.start();
-  const StaticsReport report = solve_statics(run.model(), scene.statics, run.state(), run.workspace);
+  const StaticsReport report = solve_statics(run.model(), scene.statics, {}, run.state(), run.workspace);
   ASSERT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
   EXPECT_LT((run.workspace.now.bushings[0].deflection - d).norm(), 1e-8);
 }

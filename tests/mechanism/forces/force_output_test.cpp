@@ -1,5 +1,6 @@
 // What results say about force elements, against the laws of these at a known state.
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ Stored at_start(const std::string& text) {
   run.start();
   Workspace& workspace = run.workspace;
   if (run.scene.analysis == formats::AnalysisKind::statics) {
-    const StaticsReport report = solve_statics(run.model(), run.scene.statics, run.state(), workspace);
+    const StaticsReport report = solve_statics(run.model(), run.scene.statics, {}, run.state(), workspace);
     EXPECT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
   } else if (run.scene.analysis == formats::AnalysisKind::inverse_dynamics) {
     const StepReport step = move_along(run.model(), run.scene.integrator, {0.01, 0.01}, run.state(), workspace);
@@ -89,7 +90,7 @@ joints: {rail: {type: prismatic, a: ground, b: block, axis: [1, 0, 0], friction:
   EXPECT_NEAR(stored.row.joint_force.col(0).norm(), 20.0, 1e-8);
 }
 
-constexpr double lead = 0.5 / (2 * EIGEN_PI), m = 2, g = 10, I = 0.1;
+constexpr double lead = 0.5 / (2 * std::numbers::pi), m = 2, g = 10, I = 0.1;
 
 std::string nut(const std::string& more) {
   return head + "bodies: {nut: {type: rigid, mass: 2, inertia: [0.1, 0.1, 0.1]}}\n" +

@@ -85,7 +85,7 @@ formats::Scene clamped(bool second_order) {
 
 void solve(Simulation& run) {
   run.start();
-  const StaticsReport statics = solve_statics(run.model(), run.scene.statics, run.state(), run.workspace);
+  const StaticsReport statics = solve_statics(run.model(), run.scene.statics, {}, run.state(), run.workspace);
   EXPECT_EQ(statics.outcome, StepOutcome::accepted) << statics.explanation;
 }
 

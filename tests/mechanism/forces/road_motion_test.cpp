@@ -2,6 +2,7 @@
 // hill, ends and holes.
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -68,8 +69,8 @@ TEST(RollingWheel, MeetsTheSameBumpHoweverItIsWritten) {
   formats::RoadSpec profile = slope(0.0);
   profile.kind = formats::RoadKind::profile;
   profile.left = profile.right = {{RoadPieceShape::cosine, 1.0, 1.0, 0.05, 0.0, {}}};
-  const formats::RoadSpec grid =
-      grid_road([](double x) { return x > 1.0 && x < 2.0 ? 0.025 * (1.0 - std::cos(2.0 * EIGEN_PI * x)) : 0.0; });
+  const formats::RoadSpec grid = grid_road(
+      [](double x) { return x > 1.0 && x < 2.0 ? 0.025 * (1.0 - std::cos(2.0 * std::numbers::pi * x)) : 0.0; });
   std::vector<std::vector<Vector3d>> paths;
   for (const formats::RoadSpec& road : {profile, grid, crg_road(grid)}) {
     Simulation run(wheel_on(road, 5.0), {});

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -214,8 +215,8 @@ TEST(ReferenceLine, FindsTheNearestPointAndItsGradients) {
 
 // A closed circle is driven round: just before the end and just behind the start u differs by its length.
 TEST(ReferenceLine, GoesRound) {
-  const double R = 30.0, length = 2.0 * EIGEN_PI * R;
-  const ReferenceLine line(arc(R, 2.0 * EIGEN_PI, 401), 0.0, length);
+  const double R = 30.0, length = 2.0 * std::numbers::pi * R;
+  const ReferenceLine line(arc(R, 2.0 * std::numbers::pi, 401), 0.0, length);
   const LinePlace before = line.find({-0.3, 1.0}), behind = line.find({0.3, 1.0});
   EXPECT_NEAR(length - before.u, behind.u, 1e-6);
   EXPECT_NEAR(before.v, behind.v, 1e-6);

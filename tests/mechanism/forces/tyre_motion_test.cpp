@@ -217,7 +217,7 @@ TEST(StandingCar, CarriesItsWeightByTheLeverLaw) {
   for (const double height : {0.0, 0.02}) {  // from the air too
     Simulation run(block_car(height), {});
     run.start();
-    const StaticsReport report = solve_statics(run.model(), run.scene.statics, run.state(), run.workspace);
+    const StaticsReport report = solve_statics(run.model(), run.scene.statics, {}, run.state(), run.workspace);
     ASSERT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
     const std::vector<TyreTerms>& tyres = run.workspace.now.tyres;
     const Vector3d center = run.position("car");  // the node of a rigid body is its centre of mass

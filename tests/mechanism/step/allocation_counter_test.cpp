@@ -14,7 +14,7 @@ namespace tisserand::test_support {
 std::size_t allocation_count() { return count; }
 }  // namespace tisserand::test_support
 
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(TISSERAND_SANITIZED)
 extern "C" void* __libc_malloc(std::size_t size);
 
 /// Visible to shared libraries too: operator new is in one.

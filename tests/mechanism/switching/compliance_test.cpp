@@ -1,4 +1,6 @@
 // What bodies yield to loads, buckling, and what joints move along with them.
+#include <numbers>
+
 #include "mechanism/switching/compliance.hpp"
 
 #include <gtest/gtest.h>
@@ -55,7 +57,7 @@ TEST(Buckling, IsEulersLoad) {
   const SuperelementBody body = slender();
   const SuperelementCompliance compliance(body);
   const Buckling buckling(body, compliance);
-  const double euler = EIGEN_PI * EIGEN_PI * 100.0 / 4.0;
+  const double euler = std::numbers::pi * std::numbers::pi * 100.0 / 4.0;
   VectorXd load = VectorXd::Zero(body.boundary_size + body.modes);
   load[0] = 0.3 * euler;
   load[12] = -0.3 * euler;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -216,7 +217,7 @@ TEST_F(Page, ShowsLoadsTyresAndTheirRoad) {
     double radius = 0.0;
     for (Index v = 0; v < ring.cols(); ++v) radius = std::max(radius, (ring.col(v) - position(t)).norm());
     // Its 40 sides touch a circle of 1.004 times 0.3 m from outside; half a width of 0.3 times the radius.
-    EXPECT_NEAR(radius, 0.3 * std::hypot(1.004 / std::cos(EIGEN_PI / 40.0), 0.3), 1e-4);
+    EXPECT_NEAR(radius, 0.3 * std::hypot(1.004 / std::cos(std::numbers::pi / 40.0), 0.3), 1e-4);
     EXPECT_LT((ring.rowwise().mean() - position(t)).norm(), 1e-4);
   }
   // The road is drawn as far as the wheel goes and a little more, with its bump of 0.05 m at x = 2 m.
@@ -289,7 +290,7 @@ integrator: {step: 0.01, end: 0.5}
 
 TEST_F(Page, MovesInModes) {
   // A ball on a spring: z'' = -k/m z, 5 Hz, one mode along z.
-  const double k = std::pow(2.0 * EIGEN_PI * 5.0, 2);
+  const double k = std::pow(2.0 * std::numbers::pi * 5.0, 2);
   const PageReader read = page({run("tone", fmt::format(R"(scene: tone
 bodies: {{stone: {{type: rigid, mass: 1, inertia: [1, 1, 1]}}}}
 joints: {{slide: {{type: prismatic, a: ground, b: stone, axis: [0, 0, 1]}}}}

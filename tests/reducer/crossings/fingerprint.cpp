@@ -156,7 +156,7 @@ void add_companion(const formats::Companion& c, const formats::Superelement& e, 
 VectorXd stresses(const reducer::Solution& s, const Description& d) {
   std::vector<double> all;
   for (const Eigen::MatrixXf* field : {&s.fields.beam_stress, &s.fields.shell_von_mises, &s.fields.solid_von_mises})
-    for (const float value : field->reshaped()) all.push_back(value / d.stress());
+    for (const float value : field->reshaped()) all.push_back(static_cast<double>(value) / d.stress());
   std::ranges::sort(all, std::greater());
   return Eigen::Map<VectorXd>(all.data(), static_cast<Index>(std::min<std::size_t>(all.size(), 12)));
 }

@@ -1,5 +1,6 @@
 // Findings on badly shaped solid elements: each fault by name, good elements without any.
 #include <cmath>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -53,7 +54,7 @@ TEST_P(SolidCheck, RepeatedNodeIsNamed) {
 
 TEST_P(SolidCheck, PositionThatIsNotANumberIsAnError) {
   Eigen::Matrix3Xd x = natural_nodes(GetParam());
-  x(1, 2) = NAN;
+  x(1, 2) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(findings_of(GetParam(), x).errors.size(), 1U);
 }
 

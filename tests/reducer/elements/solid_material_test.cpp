@@ -1,4 +1,6 @@
 // Elastic matrices of solids: strains of simple tests, material axes, and constants that cannot be.
+#include <limits>
+
 #include "reducer/properties/solid_material.hpp"
 
 #include <gmock/gmock.h>
@@ -83,7 +85,7 @@ TEST(SolidMaterial, ImpossibleConstantsAreErrorsWithTheirPlace) {
   Matrix6 skewed = 10.0 * Matrix6::Identity();
   skewed(0, 1) = 1.0;
   EXPECT_THROW(anisotropic_solid(skewed, one, 1.0, "x"), Error);
-  EXPECT_THROW(anisotropic_solid(Matrix6::Constant(NAN), one, 1.0, "x"), Error);
+  EXPECT_THROW(anisotropic_solid(Matrix6::Constant(std::numeric_limits<double>::quiet_NaN()), one, 1.0, "x"), Error);
 }
 
 }  // namespace

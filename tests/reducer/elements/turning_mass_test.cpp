@@ -13,6 +13,7 @@
 #include "formats/companion/companion.hpp"
 #include "reducer/elements/beam/beam.hpp"
 #include "reducer/elements/element_matrices.hpp"
+#include "tests/problems/turning_forms.hpp"
 #include "tests/reducer/elements/shell_cases.hpp"
 #include "tests/support/meshes/solid_mesh.hpp"
 
@@ -38,7 +39,7 @@ struct Case {
 
   void take(const TurningMass& from) {
     load = from.load;
-    mass = turning_forms(from);
+    mass = testing::turning_forms(from);
   }
 };
 

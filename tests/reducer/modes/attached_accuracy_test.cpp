@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -88,7 +89,7 @@ void expect_met(const std::string& text, double error, double up_to) {
   ASSERT_LT(e.size(), rich.size());
   double worst = 0.0;
   for (const Attachment& a : attachments(static_cast<int>(e.node_name.size()))) {
-    const double most = 2.0 * EIGEN_PI * up_to;
+    const double most = 2.0 * std::numbers::pi * up_to;
     const std::vector<double> right = frequencies(rich, a, rich.stiffness.diagonal(), most),
                               found = frequencies(e, a, rich.stiffness.diagonal(), most * (1.0 + 2.0 * error));
     ASSERT_GE(found.size(), right.size()) << a.name;

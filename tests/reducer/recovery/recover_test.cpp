@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -113,7 +114,8 @@ TEST_F(Recover, CantileverHasTheStressAndDeflectionOfTheBeam) {
   RecoverRequest r = request();
   r.points = {"tip", "0,0,0"};
   const std::string text = reducer::recover(r);
-  EXPECT_THAT(text, AllOf(HasSubstr("body 'arm', 2 instants"), HasSubstr(fmt::format(" m at 0.1 s at tip ({:.4g}, 0, 0)\n", length)),
+  EXPECT_THAT(text, AllOf(HasSubstr("body 'arm', 2 instants"),
+                          HasSubstr(fmt::format(" m at 0.1 s at tip ({:.4g}, 0, 0)\n", length)),
                           HasSubstr(" Pa at 0.1 s at ")));
   // The place of the largest stress has coordinates: the middle of the clamped element.
   EXPECT_THAT(text, ::testing::ContainsRegex("largest stress of beams .*' .0[.][0-9]+, 0, 0.\n"));
@@ -429,7 +431,8 @@ TEST_F(Recover, PageShowsTheMeshAndItsModes) {
   ASSERT_EQ(run["modes"].size(), 14u);
   EXPECT_TRUE(run["modes"][7]["frequency"].is_null());
   EXPECT_EQ(run["modes"][12]["name"], "internal 1");
-  EXPECT_NEAR(run["modes"][12]["frequency"], std::sqrt(data_.superelement.stiffness(12, 12)) / (2.0 * EIGEN_PI), 1e-9);
+  EXPECT_NEAR(run["modes"][12]["frequency"], std::sqrt(data_.superelement.stiffness(12, 12)) / (2.0 * std::numbers::pi),
+              1e-9);
   const nlohmann::json& tip_y = run["modes"][7];
   EXPECT_EQ(tip_y["name"], "tip y");
   const MatrixXd modes = page.read(shape["modes"]);

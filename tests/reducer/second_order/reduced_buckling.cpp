@@ -191,7 +191,7 @@ double euler_factor(ColumnEnds ends) {
 }
 
 double reduced_column(ColumnEnds ends, int modes) {
-  const ReducedPart part = reduce_with_companion(slender_beam({}, 40), modes);
+  const auto part = reduce_with_companion(slender_beam({}, 40), modes);
   const double euler = euler_factor(ends) * pi * pi;  // EI/L² = 1
   return first_factor(part, held_rows(ends), tip_x, -1.0) / euler;
 }
@@ -199,7 +199,7 @@ double reduced_column(ColumnEnds ends, int modes) {
 Mesh slender_strip(double EI_z) { return slender_beam({.EI_z = EI_z, .density = 1e-3 / EI_z, .torsional = 0.01}, 40); }
 
 double reduced_strip(int modes, double EI_z) {
-  const ReducedPart part = reduce_with_companion(slender_strip(EI_z), modes);
+  const auto part = reduce_with_companion(slender_strip(EI_z), modes);
   return first_factor(part, base_rows, tip_y, 1.0) / (4.0126 * std::sqrt(100.0 * 80.0) / 100.0);
 }
 
@@ -251,7 +251,7 @@ double full_plate(PlatePreload preload, const ShellMesh& mesh) {
 double reduced_plate(PlatePreload preload, const ShellMesh& mesh, int modes) {
   Mesh plate = plate_mesh(mesh);
   keep_edges(plate, mesh.n);
-  const ReducedPart part = reduce_with_companion(plate, modes);
+  const auto part = reduce_with_companion(plate, modes);
   std::vector<int> held = plane_rows(mesh.n);
   for (std::size_t b = 0; b < plate.boundary.size(); ++b) held.push_back(static_cast<int>(3 * b + 2));
   const MatrixXd Z = free_directions(part.element.size(), held);
@@ -278,7 +278,7 @@ double full_panel(int cells) {
 double reduced_panel(int cells, int modes) {
   Mesh mesh = panel_mesh(cells);
   keep_edges(mesh, cells);
-  const ReducedPart part = reduce_with_companion(mesh, modes);
+  const auto part = reduce_with_companion(mesh, modes);
   std::map<int, Index> rows;
   for (std::size_t b = 0; b < mesh.boundary.size(); ++b) rows[mesh.boundary[b].node] = static_cast<Index>(3 * b);
   const Index size = part.element.size();

@@ -32,15 +32,15 @@ ReducedPart reduce_with_companion(const reducer::Mesh& mesh, const formats::Mode
   const reducer::Blocks blocks = reducer::take_apart(system, coordinates, modes);
   const reducer::Factor S_II = coordinates.n_I() > 0 ? reducer::Factor(blocks.S_II) : reducer::Factor();
   if (coordinates.n_I() > 0)
-    reducer::require_stiffness(reducer::null_space(blocks.S_II, S_II), S_II, mesh, system, coordinates,
+    reducer::require_stiffness(reducer::null_space(blocks.S_II, S_II), S_II, {mesh, system, coordinates},
                                reducer::boundary_held(), "test");
   const reducer::BoundaryModes boundary = reducer::boundary_modes(S_II, blocks, system, coordinates, [](double) {});
-  const reducer::InternalProblem problem{mesh, system, coordinates, blocks, S_II, "test"};
+  const reducer::InternalProblem problem{{mesh, system, coordinates}, blocks, S_II, "test"};
   const reducer::InternalModes internal = reducer::internal_modes(problem, boundary, part.modes);
   ReducedPart body{reducer::project(part, problem, boundary, internal).superelement, {}};
   body.element.content_id = formats::content_id(body.element);
   body.companion =
-      reducer::make_companion(problem, boundary, internal, body.element,
+      reducer::make_companion({problem, boundary, internal, body.element},
                               weights.size() > 0 ? weights : reducer::default_weights(body.element), shapes);
   formats::check(body.companion, body.element, "body");
   return body;

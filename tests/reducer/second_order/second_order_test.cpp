@@ -126,8 +126,8 @@ void expect_known_answer(const std::string& name) {
   EXPECT_NEAR(c.mass, entry["mass"].get<double>(), 1e-11);
 }
 
-// Stiffness, mass and H by an independent prototype whose equations agree with Lagrange's by complex step to 2e-14; C, E,
-// N, T and W by another (references/README.md).
+// Stiffness, mass and H by an independent prototype whose equations agree with Lagrange's by complex step to 2e-14; C,
+// E, N, T and W by another (references/README.md).
 TEST(SecondOrderReduction, BeamHasTheKnownAnswer) { expect_known_answer("beam2"); }
 TEST(SecondOrderReduction, FrameHasTheKnownAnswer) { expect_known_answer("lframe3"); }
 
@@ -234,7 +234,7 @@ reducer::TrappedEnergy trapped_of_turned_part(bool average_rotations, bool ties)
   const reducer::Blocks blocks = reducer::take_apart(system, coordinates, {});
   const reducer::Factor S_II(blocks.S_II);
   const reducer::BoundaryModes boundary = reducer::boundary_modes(S_II, blocks, system, coordinates, [](double) {});
-  const reducer::InternalProblem problem{mesh, system, coordinates, blocks, S_II, "test"};
+  const reducer::InternalProblem problem{{mesh, system, coordinates}, blocks, S_II, "test"};
   MatrixXd q = MatrixXd::Zero(system.size(), 2);  // as two loads inside bend it
   const MatrixXd load =
       MatrixXd::NullaryExpr(coordinates.n_I(), 2, [](Index i, Index k) { return std::sin(i * (k + 1.7)); });

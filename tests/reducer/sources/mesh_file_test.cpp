@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <numeric>
 #include <tuple>
 
@@ -95,13 +96,14 @@ TEST_P(Bracket, IsMeshedWithSolidsAndHeldAtItsBore) {
   const reducer::Mesh mesh = mesh_of(bracket(GetParam(), "size: 5, curvature: 12", ""));
   EXPECT_EQ(mesh.solids[0].shape, reducer::SolidShape::tetrahedron4);
   // The bore is a polygon of 12 sides, whose area lies by 4.5 % below that of the circle.
-  EXPECT_NEAR(volume(mesh), 8000.0 - 160.0 * EIGEN_PI, 0.06 * 160.0 * EIGEN_PI);
+  EXPECT_NEAR(volume(mesh), 8000.0 - 160.0 * std::numbers::pi, 0.06 * 160.0 * std::numbers::pi);
   const reducer::Spider& pin = mesh.spiders[0];
   EXPECT_LT((mesh.position.col(pin.reference) - Vector3d(20, 10, 5)).norm(), 0.2);
   for (const int n : pin.nodes)
     EXPECT_NEAR((mesh.position.col(n).head<2>() - Eigen::Vector2d(20, 10)).norm(), 4.0, 1e-6);
   // Area of the bore's wall, 2 pi r h, of a polygon of 12 sides.
-  EXPECT_NEAR(std::accumulate(pin.weight.begin(), pin.weight.end(), 0.0), 80.0 * EIGEN_PI, 0.03 * 80.0 * EIGEN_PI);
+  EXPECT_NEAR(std::accumulate(pin.weight.begin(), pin.weight.end(), 0.0), 80.0 * std::numbers::pi,
+              0.03 * 80.0 * std::numbers::pi);
   reducer::check_connected(mesh, "part");
 }
 

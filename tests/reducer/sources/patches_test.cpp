@@ -1,5 +1,6 @@
 // Plates, discs, cylinders and extrusions: places, areas, normals, groups of edges, connections, and what is refused.
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include <gmock/gmock.h>
@@ -103,7 +104,7 @@ TEST(Discs, HaveTheAreaOfTheirPolygonAndJoinCylinders) {
         std::string("discs: {lid: {center: [0, 0, 2], radius: 1, inner_radius: ") + inner + ", elements: [16, 3]" +
         wall + "}\nboundary: {a: {centroid: lid/rim}}\nspiders: {h: {kind: rigid, on: lid/rim}}\n");
     // Regular polygon of 16 corners: n/2 sin(2 pi/n) per radius².
-    const double r = std::stod(inner), polygon = 8.0 * std::sin(EIGEN_PI / 8.0);
+    const double r = std::stod(inner), polygon = 8.0 * std::sin(std::numbers::pi / 8.0);
     EXPECT_NEAR(area(mesh), polygon * (1.0 - r * r), 1e-13);
     for (const reducer::ShellElement& shell : mesh.shells) EXPECT_GT(directed_area(mesh, shell).z(), 0.0);
     EXPECT_EQ(mesh.spiders[0].nodes.size(), 16u);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include <Eigen/Geometry>
 
@@ -20,7 +21,7 @@ using reducer::FaceFacts;
 using reducer::FaceSide;
 using reducer::FormKind;
 
-constexpr double pi = EIGEN_PI;
+constexpr double pi = std::numbers::pi;
 
 /// A grid of quadrilaterals, or of triangles, over u and v in [0, 1]; `turn` is the pose of the whole.
 struct Patch {

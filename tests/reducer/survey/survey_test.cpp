@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 
 #include "common/child.hpp"
 #include "reducer/survey/labels.hpp"
@@ -72,7 +73,7 @@ TEST(Survey, BlockWithABoreHasSixPlanesAndACylinder) {
     EXPECT_LT((bore.facts.form.axis - Vector3d::UnitZ()).norm(), 1e-9);
     EXPECT_LT((bore.facts.form.point - Vector3d(20, 10, 5)).norm(), 1e-6);
     EXPECT_EQ(bore.facts.side, FaceSide::concave);
-    EXPECT_NEAR(bore.facts.area, 80.0 * EIGEN_PI, 1e-6);
+    EXPECT_NEAR(bore.facts.area, 80.0 * std::numbers::pi, 1e-6);
     EXPECT_THAT(survey.text, AllOf(HasSubstr("cylinder  concave  4"), HasSubstr("[20, 10, 5]")));
   }
 }
@@ -85,7 +86,7 @@ TEST(Survey, RoundSolidsOfOpenCascade) {
   EXPECT_NEAR(cone.facts.form.half_angle, std::atan(0.4), 1e-9);
   EXPECT_LT((cone.facts.form.point - Vector3d(0, 0, 15)).norm(), 1e-6);
   EXPECT_LT((cone.facts.form.axis + Vector3d::UnitZ()).norm(), 1e-9);
-  EXPECT_NEAR(cone.facts.area, EIGEN_PI * 8.0 * std::sqrt(116.0), 1e-6);  // (r1 + r2) x slant height
+  EXPECT_NEAR(cone.facts.area, std::numbers::pi * 8.0 * std::sqrt(116.0), 1e-6);  // (r1 + r2) x slant height
   const SurveyedFace& sphere = only(survey, FormKind::sphere);
   EXPECT_NEAR(sphere.facts.form.radius, 4.0, 1e-6);
   EXPECT_LT((sphere.facts.form.point - Vector3d(30, 0, 0)).norm(), 1e-6);
@@ -104,7 +105,7 @@ TEST(Survey, FormsAreInTheUnitsOfThePart) {
   const PartText part("units: {length: m, mass: kg, time: s}\nmesh: {file: " + sources + "bracket.step}\n");
   const reducer::Survey survey = reducer::survey(part.read());
   EXPECT_NEAR(only(survey, FormKind::cylinder).facts.form.radius, 0.004, 1e-9);
-  EXPECT_NEAR(only(survey, FormKind::cylinder).facts.area, 80e-6 * EIGEN_PI, 1e-12);
+  EXPECT_NEAR(only(survey, FormKind::cylinder).facts.area, 80e-6 * std::numbers::pi, 1e-12);
   EXPECT_THAT(survey.text, HasSubstr("radius [m]"));
 }
 
@@ -131,7 +132,7 @@ TEST(Survey, GroupsOfFacesHaveOneForm) {
   ASSERT_EQ(survey.groups.size(), 1u);
   EXPECT_EQ(survey.groups[0].facts.form.kind, FormKind::cylinder);
   EXPECT_NEAR(survey.groups[0].facts.form.radius, 5.0, 1e-6);
-  EXPECT_NEAR(survey.groups[0].facts.area, 70.0 * EIGEN_PI, 1e-6);
+  EXPECT_NEAR(survey.groups[0].facts.area, 70.0 * std::numbers::pi, 1e-6);
 }
 
 // Faces between two volumes have no outside, those of a hollow ball have theirs inside.
@@ -173,8 +174,8 @@ TEST(Survey, PipeOfADeckIsACylinder) {
   std::string deck = "*NODE\n", shells = "*ELEMENT, TYPE=S4, ELSET=PIPE\n";
   for (int i = 0; i < 12; ++i)
     for (int j = 0; j < 3; ++j)
-      deck += fmt::format("{}, {:.6f}, {:.6f}, {:.6f}\n", 1 + 3 * i + j, 50.0 * j, 30.0 * std::cos(EIGEN_PI * i / 6.0),
-                          30.0 * std::sin(EIGEN_PI * i / 6.0));
+      deck += fmt::format("{}, {:.6f}, {:.6f}, {:.6f}\n", 1 + 3 * i + j, 50.0 * j,
+                          30.0 * std::cos(std::numbers::pi * i / 6.0), 30.0 * std::sin(std::numbers::pi * i / 6.0));
   for (int i = 0; i < 12; ++i)
     for (int j = 0; j < 2; ++j) {
       const int a = 1 + 3 * i + j, b = 1 + 3 * ((i + 1) % 12) + j;
@@ -237,8 +238,8 @@ reducer::ColouredSurface square(double side, double z, std::vector<Vector3d>& po
   return {{cell}, {0.5, 0.5, 0.5}};
 }
 
-// A square of 30 pixels in the middle of a picture of 90: the number fits; in one of 4 pixels it is led outside. What lies
-// behind another one is not seen, and is painted first.
+// A square of 30 pixels in the middle of a picture of 90: the number fits; in one of 4 pixels it is led outside. What
+// lies behind another one is not seen, and is painted first.
 TEST(Labels, AreOnTheirFaceOrBesideIt) {
   for (const int side : {30, 4}) {
     std::vector<Vector3d> position;

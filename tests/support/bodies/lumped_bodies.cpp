@@ -1,6 +1,7 @@
 // Stiffness and masses of a rod, modes of a lumped model under reference conditions.
 #include "tests/support/bodies/lumped_bodies.hpp"
 
+#include <numbers>
 #include <stdexcept>
 #include <tuple>
 
@@ -119,7 +120,7 @@ formats::ModalBody modal_body(const LumpedModel& model, const Conditions& condit
 
 Rod paper_rod() {
   const double area = 3.16e-5, E = 2.068e11;
-  return {0.0, 0.3048, area, E, E / 2.6, area * area / static_cast<double>(4.0 * EIGEN_PI), 7820.0, 8};
+  return {0.0, 0.3048, area, E, E / 2.6, area * area / static_cast<double>(4.0 * std::numbers::pi), 7820.0, 8};
 }
 
 Conditions rod_conditions(int elements) { return {{0, 0, 0, 0, elements, elements}, {0, 1, 2, 3, 1, 2}}; }

@@ -251,12 +251,12 @@ Difference compare_histories(const History& a, const History& b, const std::vect
     const auto other = b.quantities.find(name);
     if (other == b.quantities.end() || other->second.rows.rows() != quantity.rows.rows() ||
         other->second.rows.cols() != quantity.rows.cols())
-      return {INFINITY, name + " (shape)"};
+      return {std::numeric_limits<double>::infinity(), name + " (shape)"};
     for (Eigen::Index i = 0; i < quantity.rows.size(); ++i) {
       const double x = quantity.rows.reshaped()[i], y = other->second.rows.reshaped()[i];
       if (std::isnan(x) && std::isnan(y)) continue;
       const double difference = std::abs(x - y) / sizes[quantity.family];
-      if (!(difference <= worst.largest)) worst = {std::isnan(difference) ? INFINITY : difference, name};
+      if (!(difference <= worst.largest)) worst = {std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference, name};
     }
   }
   return worst;

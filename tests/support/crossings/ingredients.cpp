@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "mechanism/bdf/bdf.hpp"
 #include "tests/support/crossings/actions.hpp"
@@ -36,7 +37,7 @@ FreeMotion free_motion(Hinge hinge) {
     case Hinge::cylindrical:
       return {{0, 0, 0.4}, {0, 0, 1.5}};
     case Hinge::screw:
-      return {{0, 0, 0.2 * 1.5 / (2.0 * EIGEN_PI)}, {0, 0, 1.5}};
+      return {{0, 0, 0.2 * 1.5 / (2.0 * std::numbers::pi)}, {0, 0, 1.5}};
     case Hinge::prismatic:
       return {{0, 0, 0.5}, {0, 0, 0}};
     case Hinge::planar:
@@ -59,6 +60,9 @@ FreeMotion free_motion(Hinge hinge) {
 }
 
 /// Their order in the enums is the same, but for `none` before the joints.
+/// Hinges are `none` and the kinds of joints in their order.
+static_assert(static_cast<int>(Hinge::generic) - 1 == static_cast<int>(JointKind::generic) &&
+              hinges == static_cast<int>(Hinge::generic) + 1);
 JointKind kind_of(Hinge hinge) { return static_cast<JointKind>(static_cast<int>(hinge) - 1); }
 
 void add_hinge(const Ingredients& in, Scene& scene) {

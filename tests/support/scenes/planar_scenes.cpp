@@ -2,6 +2,7 @@
 #include "tests/support/scenes/planar_scenes.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/bodies/modal_known_answers.hpp"
@@ -52,7 +53,8 @@ formats::Scene with_planar(formats::Scene scene) {
 
 TurnedScene rigid_slider_crank(const Quaterniond& q) {
   TurnedScene t(q);
-  t.add(rigid_body("crank", 1.0, {0.1, 0.02, 0}, {0.01, 0.02, 0.03}), {0, 0, 0}, 0.5 * EIGEN_PI, {0, 0, 0}, 3.0);
+  t.add(rigid_body("crank", 1.0, {0.1, 0.02, 0}, {0.01, 0.02, 0.03}), {0, 0, 0}, 0.5 * std::numbers::pi, {0, 0, 0},
+        3.0);
   const double angle = -std::asin(0.2 / 0.5);
   t.add(rigid_body("rod", 2.0, {0.25, 0, 0}, {0.01, 0.05, 0.06}), {0, 0.2, 0}, angle, {-0.6, 0, 0}, 0.0);
   const double reach = std::sqrt(0.25 - 0.04);
@@ -134,7 +136,7 @@ mechanism::BodyFiles modal_rod_files(int modes) {
 TurnedScene braked_wheel(const Quaterniond& q, std::optional<double> relaxation, bool bump) {
   TurnedScene t(q);
   const formats::Scene wheel = wheel_on_slope(0.05, 5.0, false);
-  const Quaterniond turn = q * Quaterniond(Eigen::AngleAxisd(-0.5 * EIGEN_PI, Vector3d::UnitX()));  // z to y
+  const Quaterniond turn = q * Quaterniond(Eigen::AngleAxisd(-0.5 * std::numbers::pi, Vector3d::UnitX()));  // z to y
   t.scene.integrator.end = 0.3;
   t.scene.bodies = wheel.bodies;
   auto& start = std::get<formats::RigidBodySpec>(t.scene.bodies[0]).start;

@@ -1,6 +1,7 @@
 // Scenes of the x-y plane, turned and moved as a whole, for tests of planar models.
 #pragma once
 
+#include <numbers>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -11,7 +12,7 @@ namespace tisserand::test_support {
 
 /// Turns of a scene: none, z to −y, any.
 inline const Eigen::Quaterniond upright = Eigen::Quaterniond::Identity();
-inline const Eigen::Quaterniond on_edge(Eigen::AngleAxisd(0.5 * EIGEN_PI, Eigen::Vector3d::UnitX()));
+inline const Eigen::Quaterniond on_edge(Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitX()));
 inline const Eigen::Quaterniond askew(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 0.5).normalized()));
 
 struct TurnedScene {

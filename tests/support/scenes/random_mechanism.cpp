@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <random>
 #include <stdexcept>
 
@@ -73,7 +74,7 @@ Frame free_displacement(RandomJoint& joint, Random& random) {
     case JointKind::cylindrical:
       return {t.z() * z, about(z, angle)};
     case JointKind::screw:
-      return {joint.pitch / (2.0 * EIGEN_PI) * angle * z, about(z, angle)};
+      return {joint.pitch / (2.0 * std::numbers::pi) * angle * z, about(z, angle)};
     case JointKind::prismatic:
       joint.value = t.z();
       return {t.z() * z, Matrix3d::Identity()};
@@ -133,7 +134,7 @@ std::vector<Row6> held_rows(const RandomJoint& joint, const Frame& d) {
       moves({x, y}), turns({x, y});
       break;
     case JointKind::screw:
-      moves({x, y}), turns({x, y}), add(z, -joint.pitch / (2.0 * EIGEN_PI) * z);
+      moves({x, y}), turns({x, y}), add(z, -joint.pitch / (2.0 * std::numbers::pi) * z);
       break;
     case JointKind::prismatic:
       moves({x, y}), turns({x, y, z});

@@ -177,7 +177,7 @@ std::vector<double> turning(int modes, StiffeningOption stiffening) {
   Simulation run(
       scene, files_of(test_support::second_order_beam(test_support::bernoulli_beam(section, 1.0, 20), {0, 20}, modes)));
   run.start();
-  EXPECT_EQ(solve_statics(run.model(), scene.statics, run.state(), run.workspace).outcome, StepOutcome::accepted);
+  EXPECT_EQ(solve_statics(run.model(), scene.statics, {}, run.state(), run.workspace).outcome, StepOutcome::accepted);
   formats::ModesSpec spec;
   spec.rotation = Vector3d(0, 0, 6);
   std::vector<double> found;
@@ -213,7 +213,7 @@ double pinned_frequency(const BodyFiles& files, double compression) {
   scene.loads.push_back(constant_load("axial", LoadKind::force, "beam/n16", {-compression, 0, 0}));
   Simulation run(scene, files);
   run.start();
-  EXPECT_EQ(solve_statics(run.model(), scene.statics, run.state(), run.workspace).outcome, StepOutcome::accepted);
+  EXPECT_EQ(solve_statics(run.model(), scene.statics, {}, run.state(), run.workspace).outcome, StepOutcome::accepted);
   const auto modes = solve_modes(run.model(), run.state(), {}, run.workspace.now).modes;
   return std::norm(modes.at(0).eigenvalue) * (modes.at(0).eigenvalue.real() > 1e-6 ? -1.0 : 1.0);
 }

@@ -57,7 +57,7 @@ double beam_column(const BodyFiles& files, double compression, double lateral, b
   scene.loads.push_back(constant_load("axial", LoadKind::force, "beam/n16", {-compression, 0, lateral}));
   Simulation run(scene, files);
   run.start();
-  const StaticsReport statics = solve_statics(run.model(), scene.statics, run.state(), run.workspace);
+  const StaticsReport statics = solve_statics(run.model(), scene.statics, {}, run.state(), run.workspace);
   EXPECT_EQ(statics.outcome, StepOutcome::accepted) << statics.explanation;
   return run.position("beam/n16").z();
 }
@@ -92,7 +92,7 @@ double least_stiffness(const BodyFiles& files, double compression) {
   scene.loads.push_back(constant_load("axial", LoadKind::force, "beam/n16", {-compression, 0, 0}));
   Simulation run(scene, files);
   run.start();
-  const StaticsReport statics = solve_statics(run.model(), scene.statics, run.state(), run.workspace);
+  const StaticsReport statics = solve_statics(run.model(), scene.statics, {}, run.state(), run.workspace);
   EXPECT_EQ(statics.outcome, StepOutcome::accepted) << statics.explanation;
   const Linearisation l = linearise(run.model(), run.state(), Vector3d::Zero(), run.workspace.now);
   const Eigen::MatrixXd Z = null_space(run.model(), l.B), K = Z.transpose() * l.K * Z;
@@ -119,7 +119,7 @@ std::array<double, 3> turning(const BodyFiles& files, double gamma) {
   scene.statics.rotation = formats::RotationSpec{Vector3d(0, 0, gamma), Vector3d::Zero()};
   Simulation run(scene, files);
   run.start();
-  const StaticsReport statics = solve_statics(run.model(), scene.statics, run.state(), run.workspace);
+  const StaticsReport statics = solve_statics(run.model(), scene.statics, {}, run.state(), run.workspace);
   EXPECT_EQ(statics.outcome, StepOutcome::accepted) << statics.explanation;
   formats::ModesSpec spec;
   spec.rotation = Vector3d(0, 0, gamma);

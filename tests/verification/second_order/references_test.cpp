@@ -122,7 +122,7 @@ double circle_error(const BodyFiles& files, int pieces, double angle, Circle kin
   scene.loads.push_back(constant_load("moment", LoadKind::moment, tip, {0, 0, angle}));  // EI = 1
   Simulation run(scene, files);
   run.start();
-  const StaticsReport statics = solve_statics(run.model(), scene.statics, run.state(), run.workspace);
+  const StaticsReport statics = solve_statics(run.model(), scene.statics, {}, run.state(), run.workspace);
   EXPECT_EQ(statics.outcome, StepOutcome::accepted) << angle << " " << statics.explanation;
   return (run.position(tip) - Vector3d(std::sin(angle) / angle, (1.0 - std::cos(angle)) / angle, 0.0)).norm();
 }

@@ -52,7 +52,8 @@ struct BeamSeries {
     return sum;
   }
   long double determinant(double omega) const {
-    const long double mu = static_cast<long double>(inertia) * omega * omega;
+    const auto speed = static_cast<long double>(omega);
+    const long double mu = static_cast<long double>(inertia) * speed * speed;
     return at_end(mu, free[0], zero[0]) * at_end(mu, free[1], zero[1]) -
            at_end(mu, free[0], zero[1]) * at_end(mu, free[1], zero[0]);
   }

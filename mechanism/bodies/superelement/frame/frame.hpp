@@ -1,0 +1,271 @@
+// Floating frame of a superelement body, for every scalar: from node poses to R₀, ψ, T⁻¹ and U.
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/math/rotation.hpp"
+#include "mechanism/bodies/superelement/constants/body.hpp"
+
+namespace tisserand::mechanism {
+
+/// NodeMotion with any scalar (mechanism/frames/motion.hpp has the fields' meaning).
+template <class S>
+struct NodeMotionOf {
+  Vec3<S> x, xd, Omega, xdd, Omegad;
+  Mat3<S> R;
+};
+
+/// The nodes of one body among those of the model.
+template <class Node>
+struct NodeView {
+  const Node* nodes;
+  const int* index;
+  const Node& operator[](std::size_t i) const { return nodes[index[i]]; }
+};
+
+/// One boundary node seen from the floating frame (axes of the frame unless said).
+template <class S>
+struct LocalNode {
+  Mat3<S> E;      ///< R₀ᵀ Rᵢ; used (and surely up to date) only with inertia option A
+  Vec3<S> psi;    ///< log E
+  Mat3<S> Tinv;   ///< T⁻¹(ψᵢ); T⁻¹(−ψᵢ) is its transpose
+  Mat3<S> U;      ///< δΘ₀ = Σ Uⱼ δΘⱼ + Σ U_xⱼ δxⱼ
+  Mat3<S> U_x;    ///< only with FrameAlgorithm::polar (δxⱼ in world axes)
+  Vec3<S> xh;     ///< R₀ᵀ(xᵢ − x₀) = Xᵢ + uᵢ
+  Vec3<S> xd;     ///< R₀ᵀ ẋᵢ
+  Vec3<S> Omega;  ///< rate in the inertia: option A Eᵢ Ωᵢ, option B Ωᵢ
+};
+
+/// All that follows from the motion of the nodes and the internal coordinates.
+template <class S>
+struct LocalMotion {
+  using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  Vec3<S> x0 = Vec3<S>::Zero();
+  Mat3<S> R0 = Mat3<S>::Identity();
+  Vec3<S> Omega0 = Vec3<S>::Zero();  ///< material, U q̇
+  std::vector<LocalNode<S>> node;
+  Vector y_B;                         ///< [u, ψ] per node
+  Vector rate_B;                      ///< P q̇: the rates in the kinetic energy
+  Vector acceleration_B;              ///< P q̈ + V Ω₀
+  Vector deformation_rate_B;          ///< Υ q̇ = ẏ_B; only with damping, load cases or inertia options M and F
+  Vector deformation_acceleration_B;  ///< ÿ_B of the deformation; only with inertia options M and F
+  Vec3<S> origin_velocity = Vec3<S>::Zero();      ///< R₀ᵀẋ₀; as ẏ_B
+  Vec3<S> origin_acceleration = Vec3<S>::Zero();  ///< R₀ᵀẍ₀; only with inertia options M and F
+  Vec3<S> Omega0d = Vec3<S>::Zero();              ///< Ω̇₀; only with inertia options M and F
+  Vec3<S> center = Vec3<S>::Zero();               ///< c = X_cm + Φ_TᵀM̄ y/m; only with inertia option M
+  Vec3<S> center_rate = Vec3<S>::Zero();          ///< ċ; only with inertia option M
+  Vec3<S> center_velocity = Vec3<S>::Zero();      ///< R₀ᵀẋ_cm; only with inertia option M
+  Vec3<S> center_acceleration = Vec3<S>::Zero();  ///< R₀ᵀẍ_cm; only with inertia option M
+  Vector y_I, rate_I, acceleration_I;
+  int frame_iterations = 0;
+  double frame_error = 0.0;  ///< last correction of an iterated frame [rad]
+};
+
+template <class S>
+LocalMotion<S> make_local_motion(const SuperelementBody& body) {
+  using Vector = typename LocalMotion<S>::Vector;
+  LocalMotion<S> motion;
+  LocalNode<S> zero;
+  zero.E.setIdentity();
+  zero.Tinv.setIdentity();
+  zero.U.setZero();
+  zero.U_x.setZero();
+  zero.psi.setZero();
+  zero.xh.setZero();
+  zero.xd.setZero();
+  zero.Omega.setZero();
+  motion.node.assign(body.node.size(), zero);
+  motion.y_B = motion.rate_B = motion.acceleration_B = motion.deformation_rate_B = motion.deformation_acceleration_B =
+      Vector::Zero(body.boundary_size);
+  motion.y_I = motion.rate_I = motion.acceleration_I = Vector::Zero(body.modes);
+  return motion;
+}
+
+/// A⁻¹ by cofactors, for every scalar.
+template <class S>
+Mat3<S> inverse3(const Mat3<S>& A) {
+  const Vec3<S> a = A.col(0), b = A.col(1), c = A.col(2);
+  const Vec3<S> bc = cross<S>(b, c);
+  const S scale = 1.0 / dot3<S>(a, bc);
+  Mat3<S> inverse;
+  inverse.row(0) = scale * bc.transpose();
+  inverse.row(1) = scale * cross<S>(c, a).transpose();
+  inverse.row(2) = scale * cross<S>(a, b).transpose();
+  return inverse;
+}
+
+namespace frame {
+
+/// Corrections below this angle end the iteration; the next iterate would differ by its cube.
+inline constexpr double kTolerance = 1e-14;
+inline constexpr int kMaxIterations = 30;
+/// Derivatives carried by the scalar need iterations of their own after the values have converged.
+template <class S>
+inline constexpr int kMinIterations = std::is_same_v<S, double> ? 0 : 2;
+
+template <class S>
+double size(const Vec3<S>& a) {
+  return std::sqrt(real_part(a.x()) * real_part(a.x()) + real_part(a.y()) * real_part(a.y()) +
+                   real_part(a.z()) * real_part(a.z()));
+}
+
+/// E, ψ, T⁻¹ of every rotation node for the present R₀.
+template <class S, class Node>
+void local_rotations(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
+  for (const int j : body.rotation_nodes) {
+    LocalNode<S>& local = motion.node[j];
+    local.E.noalias() = motion.R0.transpose() * nodes[j].R;
+    local.psi = log_so3<S>(local.E);
+    local.Tinv = inverse_tangent_so3<S>(local.psi);
+  }
+}
+
+/// R₀ = R_k, U_k = 1.
+template <class S, class Node>
+void single_node(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
+  motion.R0 = nodes[body.frame_node].R;
+  local_rotations(body, nodes, motion);
+  motion.node[body.frame_node].U.setIdentity();
+}
+
+/// Uⱼ = A⁻¹ αⱼ T⁻¹(ψⱼ), A = Σ αⱼ T⁻¹(−ψⱼ): exact variation of the Karcher mean.
+template <class S>
+void karcher_variation(const SuperelementBody& body, LocalMotion<S>& motion) {
+  Mat3<S> A = Mat3<S>::Zero();
+  for (const int j : body.rotation_nodes) {
+    const auto i = static_cast<std::size_t>(j);
+    A += body.node[i].alpha_rotation * motion.node[i].Tinv.transpose();
+  }
+  const Mat3<S> inverse = inverse3<S>(A);
+  for (const int j : body.rotation_nodes) {
+    const auto i = static_cast<std::size_t>(j);
+    motion.node[i].U = body.node[i].alpha_rotation * (inverse * motion.node[i].Tinv);
+  }
+}
+
+/// Two rotation nodes: with φ = log(R₁ᵀR₂), R₀ = R₁ exp(α₂ φ), ψ₁ = −α₂ φ, ψ₂ = α₁ φ.
+template <class S, class Node>
+void pair(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
+  const auto i1 = static_cast<std::size_t>(body.rotation_nodes[0]),
+             i2 = static_cast<std::size_t>(body.rotation_nodes[1]);
+  LocalNode<S>&n1 = motion.node[i1], &n2 = motion.node[i2];
+  const Mat3<S> relative = nodes[i1].R.transpose() * nodes[i2].R;
+  const Vec3<S> phi = log_so3<S>(relative);
+  n1.psi = -body.node[i2].alpha_rotation * phi;
+  n2.psi = body.node[i1].alpha_rotation * phi;
+  n1.E = exp_so3<S>(n1.psi);
+  if (body.inertia == formats::InertiaOption::A) n2.E = exp_so3<S>(n2.psi);
+  motion.R0.noalias() = nodes[i1].R * n1.E.transpose();
+  n1.Tinv = inverse_tangent_so3<S>(n1.psi);
+  n2.Tinv = inverse_tangent_so3<S>(n2.psi);
+  karcher_variation(body, motion);
+}
+
+/// Newton on Σ αⱼ log(R₀ᵀRⱼ) = 0 from the R₀ in `motion`: R₀ ← R₀ exp(A⁻¹ Σ αⱼ ψⱼ).
+template <class S, class Node>
+void karcher(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
+  for (int iteration = 0;; ++iteration) {
+    local_rotations(body, nodes, motion);
+    Mat3<S> A = Mat3<S>::Zero();
+    Vec3<S> h = Vec3<S>::Zero();
+    for (const int j : body.rotation_nodes) {
+      const auto i = static_cast<std::size_t>(j);
+      A += body.node[i].alpha_rotation * motion.node[i].Tinv.transpose();
+      h += body.node[i].alpha_rotation * motion.node[i].psi;
+    }
+    const Vec3<S> correction = inverse3<S>(A) * h;
+    motion.frame_iterations = iteration;
+    motion.frame_error = size<S>(correction);
+    if ((motion.frame_error < kTolerance && iteration >= kMinIterations<S>) || iteration == kMaxIterations) break;
+    motion.R0 = (motion.R0 * exp_so3<S>(correction)).eval();
+  }
+  karcher_variation(body, motion);
+}
+
+/// [Car00] (16), (19): R₀ = R_ref exp(b₀), b₀ = Σ αⱼ bⱼ, bⱼ = log(R_refᵀRⱼ); Uⱼ = T(b₀) αⱼ T⁻¹(bⱼ). R_ref is the R₀ in
+/// `motion`.
+template <class S, class Node>
+void incremental(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
+  const Mat3<S> R_ref = motion.R0;
+  Vec3<S> b0 = Vec3<S>::Zero();
+  for (const int j : body.rotation_nodes) {
+    const auto i = static_cast<std::size_t>(j);
+    const Vec3<S> b = log_so3<S>(R_ref.transpose() * nodes[i].R);
+    b0 += body.node[i].alpha_rotation * b;
+    motion.node[i].U = body.node[i].alpha_rotation * inverse_tangent_so3<S>(b);
+  }
+  motion.R0 = R_ref * exp_so3<S>(b0);
+  const Mat3<S> T = tangent_so3<S>(b0);
+  for (const int j : body.rotation_nodes) {
+    Mat3<S>& U = motion.node[j].U;
+    U = (T * U).eval();
+  }
+  local_rotations(body, nodes, motion);
+}
+
+/// Nodes without rotations: Σ wᵢ Xᵢ × R₀ᵀ(xᵢ − x̄) = 0 by Newton from the R₀ in `motion`, and its exact variation
+/// δΘ₀ = D⁻¹ Σ wᵢ Xᵢ~ R₀ᵀ δxᵢ, D = Σ wᵢ ((Xᵢ·x̂ᵢ) 1 − x̂ᵢ Xᵢᵀ), X and x̂ relative to their means with the weights w.
+template <class S, class Node>
+void polar(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
+  Vec3<S> mean = Vec3<S>::Zero();
+  for (const int j : body.translation_nodes) {
+    const auto i = static_cast<std::size_t>(j);
+    mean += body.node[i].polar_weight * nodes[i].x;
+  }
+  Mat3<S> inverse;
+  for (int iteration = 0;; ++iteration) {
+    Mat3<S> D = Mat3<S>::Zero();
+    Vec3<S> h = Vec3<S>::Zero();
+    for (const int j : body.translation_nodes) {
+      const auto i = static_cast<std::size_t>(j);
+      const double w = body.node[i].polar_weight;
+      const Vec3<S> X = body.node[i].X_polar.template cast<S>();
+      const Vec3<S> xh = motion.R0.transpose() * (nodes[i].x - mean);
+      h += w * cross<S>(X, xh);
+      D += w * (dot3<S>(X, xh) * Mat3<S>::Identity() - xh * X.transpose());
+    }
+    inverse = inverse3<S>(D);
+    const Vec3<S> correction = inverse * h;
+    motion.frame_iterations = iteration;
+    motion.frame_error = size<S>(correction);
+    if ((motion.frame_error < kTolerance && iteration >= kMinIterations<S>) || iteration == kMaxIterations) break;
+    motion.R0 = (motion.R0 * exp_so3<S>(correction)).eval();
+  }
+  for (const int j : body.translation_nodes) {
+    const auto i = static_cast<std::size_t>(j);
+    const Vec3<S> wX = (body.node[i].polar_weight * body.node[i].X_polar).template cast<S>();
+    motion.node[i].U_x = inverse * skew<S>(wX) * motion.R0.transpose();
+  }
+}
+
+}  // namespace frame
+
+/// R₀, ψ, T⁻¹ and U. motion.R0 holds the guess (karcher, polar) or R_ref (incremental) on entry.
+template <class S, class Node>
+void floating_frame(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
+  motion.frame_iterations = 0;
+  motion.frame_error = 0.0;
+  switch (body.frame) {
+    case FrameAlgorithm::single_node:
+      frame::single_node(body, nodes, motion);
+      break;
+    case FrameAlgorithm::pair:
+      frame::pair(body, nodes, motion);
+      break;
+    case FrameAlgorithm::karcher:
+      frame::karcher(body, nodes, motion);
+      break;
+    case FrameAlgorithm::incremental:
+      frame::incremental(body, nodes, motion);
+      break;
+    case FrameAlgorithm::polar:
+      frame::polar(body, nodes, motion);
+      break;
+  }
+}
+
+}  // namespace tisserand::mechanism

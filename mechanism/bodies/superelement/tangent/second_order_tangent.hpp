@@ -1,0 +1,59 @@
+// Step tangents of superelement bodies with stiffening or full inertia, in the coordinates (x₀, Θ₀, y) and in those of
+// the nodes.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "mechanism/bodies/superelement/tangent/work.hpp"
+#include "mechanism/frames/space.hpp"
+
+namespace tisserand::mechanism {
+
+/// Matrices to work in, of bodies with second-order terms.
+SecondOrderWork make_second_order_work(const SuperelementBody& body);
+
+/// Whether y_I is eliminated from the boundary part of a tangent, for which A_II is factored.
+enum class InternalCoordinates { kept, eliminated };
+
+/// Step tangent of inertia option F: work.A_BB and the blocks of condense() and expand(). c_m Zᵀ M_ν Z + c_k (Υᵀ K_y Υ
+/// + K_f) + c_c Υᵀ D Υ with Z = [A₀; U; Υ] ([SO] 5): mass and stiffness are exact, the derivatives by velocities of the
+/// inertia and those of inertia and weight by positions are left out.
+void full_inertia_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
+                          InternalCoordinates internal, SuperelementScratch& scratch, SuperelementWork& work);
+
+/// Adds c_k (Υᵀ (K_y − S̄) Υ + K_f) to work.A_BB, A_BI and A_IB.
+void add_stiffening_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
+                            InternalCoordinates internal, SuperelementScratch& scratch, SuperelementWork& work);
+
+/// 3 x nb each.
+struct FrameStiffnessWork {
+  Eigen::Matrix<double, 3, Eigen::Dynamic>& dm;
+  Eigen::Matrix<double, 3, Eigen::Dynamic>& dc;
+};
+
+/// Whether the frame turns with the rotation of the node, and δΘ₀ = frame_turn() δΘ then: α in the plane.
+inline bool turns_frame(const SuperelementBody& body, const SuperelementNode& node) {
+  return body.frame != FrameAlgorithm::polar && node.alpha_rotation != 0.0;
+}
+template <int D>
+auto frame_turn(const SuperelementNode& node, const LocalNode<double>& local) {
+  if constexpr (D == 3)
+    return Eigen::Matrix3d(local.U);
+  else
+    return TurnOf<2>(node.alpha_rotation);
+}
+
+/// A += factor K_f, K_f δq = (δΥᵀ) f at the frozen frame ([SO] 5), f: elastic forces on y_B, from the turning of the
+/// frame under them. For frames from rotations; not symmetric with material increments.
+template <int D>
+void add_frame_stiffness(const SuperelementBody& body, const SuperelementTangent& frozen, const Eigen::VectorXd& f,
+                         double factor, FrameStiffnessWork work, Eigen::MatrixXd& A);
+
+// Of planar bodies (planar_tangent.cpp): the same terms with few enough coordinates that products with vectors and the
+// dense coupling to internal coordinates are the quickest way.
+
+/// work.A_BB with internal coordinates kept, and A_BI, A_IB of `scratch.tangent`, for work.coefficients, after freezing
+/// the state; with the terms of inertia option M. Stiffness and damping as in tangent(): work.K if the damping is full.
+void planar_tangent(const SuperelementBody& body, SuperelementScratch& scratch, SuperelementWork& work);
+
+}  // namespace tisserand::mechanism

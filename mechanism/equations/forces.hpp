@@ -1,0 +1,24 @@
+// What forces contribute to an evaluation: the overloads of a type of force T (model/forces.hpp lists the types).
+#pragma once
+
+#include "mechanism/equations/terms.hpp"
+
+namespace tisserand::mechanism {
+
+/// Forces of all items of the pool with the sign of r, their energy and their powers.
+void add_forces(const Model& model, const State& state, const Pool<Bushing>& pool, Evaluation& evaluation);
+void add_forces(const Model& model, const State& state, const Pool<Tyre>& pool, Evaluation& evaluation);
+void add_forces(const Model& model, const State& state, const Pool<Load>& pool, Evaluation& evaluation);
+/// Of part loads on rigid bodies; superelements have theirs with their own forces.
+void add_forces(const Model& model, const State& state, const Pool<PartLoad>& pool, Evaluation& evaluation);
+
+/// Their derivatives.
+template <class T>
+void add_tangents(const Model& model, const Pool<T>& pool, Evaluation& evaluation,
+                  const TangentTarget& target) = delete;
+void add_tangents(const Model& model, const Pool<Bushing>& pool, Evaluation& evaluation, const TangentTarget& target);
+void add_tangents(const Model& model, const Pool<Tyre>& pool, Evaluation& evaluation, const TangentTarget& target);
+void add_tangents(const Model& model, const Pool<Load>& pool, Evaluation& evaluation, const TangentTarget& target);
+void add_tangents(const Model& model, const Pool<PartLoad>& pool, Evaluation& evaluation, const TangentTarget& target);
+
+}  // namespace tisserand::mechanism
