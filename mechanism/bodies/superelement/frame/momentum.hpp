@@ -60,9 +60,9 @@ void turning_biases(const SuperelementBody& body, const NodeView<Node>& nodes, L
 /// U̇ q̇ = Σ Uⱼ T(ψⱼ) (Ṫ⁻¹(ψⱼ) Ωⱼ − Ṫ⁻ᵀ(ψⱼ) Ω₀); the polar frame Σ U_xⱼ R₀ (−2 Ω₀ × x̂ⱼ' − Ω₀ × (Ω₀ × x̂ⱼ)).
 template <int D, class S, class Node>
 auto frame_acceleration(const SuperelementBody& body, const NodeView<Node>& nodes, const LocalMotion<S>& motion) {
-  using Turn = Eigen::Matrix<S, Space<D>::turns, 1>;
+  using Rotation = Eigen::Matrix<S, Space<D>::turns, 1>;
   using Vector = Eigen::Matrix<S, D, 1>;
-  Turn acceleration = Turn::Zero();
+  Rotation acceleration = Rotation::Zero();
   if (body.frame == FrameAlgorithm::polar) {
     const auto& w = turn_part<D>(motion.Omega0);
     for (const int j : body.translation_nodes) {
