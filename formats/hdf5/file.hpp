@@ -131,7 +131,7 @@ void write_attribute(const Output& out, const std::string& object, const std::st
 void write_attribute(const Output& out, const std::string& object, const std::string& name, std::int32_t value);
 void write_dataset(const Output& out, const std::string& dataset, const Shape& shape, const double* values);
 void write_dataset(const Output& out, const std::string& dataset, const Shape& shape, const std::int32_t* values);
-/// The same, of a list or vector.
+/// Writes all values of a list or vector.
 template <class List>
 void write_dataset(const Output& out, const std::string& dataset, const List& values) {
   write_dataset(out, dataset, {static_cast<std::uint64_t>(values.size())}, values.data());

@@ -327,7 +327,7 @@ std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& 
       continue;
     }
     const auto kind = read_word(context, *type, "type", {"superelement", "rigid", "beam", "virtual", "modal"});
-    switch (kind.value_or(-1)) {
+    switch (kind.value_or(std::string::npos)) {
       case 0:
         bodies.emplace_back(read_superelement(MapReader(context, *node, "body_superelement"), definitions));
         break;

@@ -86,7 +86,7 @@ std::vector<std::string> read_texts(const Context& context, const YamlNode& node
 /// A list of numbers of any length.
 std::vector<double> read_numbers(const Context& context, const YamlNode& node, const std::string& what);
 
-/// The entries of a list; of another value that value itself, as of a list of one.
+/// The entries of a list. A value that is no list counts as a list of one.
 std::span<const YamlNode> items_of(const YamlNode& node);
 
 /// Whether it is a list whose entries are lists: the rows of a matrix.

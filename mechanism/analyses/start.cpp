@@ -41,7 +41,7 @@ double largest_velocity(const Model& model, const State& state) {
   return largest;
 }
 
-/// Of combinations of mass, damping and stiffness.
+/// Asks for the tangent mass M + damping C + stiffness K.
 TangentRequest weighted(double mass, double damping, double stiffness) {
   return {{mass, damping, stiffness}, TangentKind::step, {}};
 }

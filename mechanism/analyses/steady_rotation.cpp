@@ -64,7 +64,7 @@ struct Saddle {
   double stiffness = 1.0;  ///< by which K was divided
 };
 
-/// Of boundary coordinates and their equations; one of internal ones.
+/// Factors of the equations and unknowns: those of the model for boundary coordinates, 1 for internal ones.
 VectorXd scale_of(const Model& model) {
   VectorXd scale = VectorXd::Ones(model.sizes.velocities());
   scale.head(model.sizes.boundary) = model.equation_scale.head(model.sizes.boundary).matrix();

@@ -27,7 +27,7 @@ constexpr int dense_limit = 400;
 /// Work and dissipation follow the motion without a say in its steps.
 constexpr double no_say = 1e30;
 
-/// Of a callback: the values of a vector.
+/// The values of a vector that CVODE hands to a callback.
 double* values_of(N_Vector vector) { return N_VGetArrayPointer(vector); }
 
 }  // namespace

@@ -5,14 +5,13 @@
 
 namespace tisserand::mechanism {
 
-/// Forces of all items of the pool with the sign of r, their energy and their powers.
+/// Adds the forces of a pool (sign of r), their energy and powers. A superelement adds its part loads by itself.
 void add_forces(const Model& model, const State& state, const Pool<Bushing>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<Tyre>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<Load>& pool, Evaluation& evaluation);
-/// Of part loads on rigid bodies; superelements have theirs with their own forces.
 void add_forces(const Model& model, const State& state, const Pool<PartLoad>& pool, Evaluation& evaluation);
 
-/// Their derivatives.
+/// Adds their derivatives to the stored values.
 template <class T>
 void add_tangents(const Model& model, const Pool<T>& pool, Evaluation& evaluation,
                   const TangentTarget& target) = delete;

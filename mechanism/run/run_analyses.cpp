@@ -93,7 +93,7 @@ void add_body_coordinates(const Run& run, const ModesReport& modes, Evaluation& 
   }
 }
 
-/// Of a change of the coefficients from which on it is told.
+/// A larger relative change of the coefficients is reported.
 constexpr double steady_change = 1e-3;
 
 std::string changing_coefficients(const ModesReport& modes) {

@@ -160,9 +160,9 @@ struct LinearSolver::Engine {
   }
 };
 
-/// By the order of the kinds.
 const char* solver_name(SolverKind kind) {
   constexpr const char* names[] = {"KLU", "UMFPACK", "dense LU", "dense LU (LAPACK)", "sparse QR"};
+  static_assert(std::size(names) == static_cast<std::size_t>(SolverKind::qr) + 1);
   return names[static_cast<std::size_t>(kind)];
 }
 

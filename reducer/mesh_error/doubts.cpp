@@ -101,6 +101,7 @@ const char* explain(MeshDoubt doubt) {
       "a curve turns by more than 25 degrees from element to element",
       "there are fewer than three elements between folds",
       "doubly curved shells turn by more than 1.5 degrees from element to element"};
+  static_assert(std::size(texts) == static_cast<std::size_t>(MeshDoubt::double_curvature) + 1);
   return texts[static_cast<std::size_t>(doubt)];
 }
 

@@ -24,7 +24,7 @@ enum class MeshDoubt : std::uint8_t {
   double_curvature,  ///< coarse shells of double curvature
 };
 
-/// One line for people, by the order of the doubts: what is wrong, without the modes.
+/// One line for people: what is wrong, without the modes.
 const char* explain(MeshDoubt doubt);
 
 /// Per element, energies per mode (elements x modes), relative to nothing yet.

@@ -22,7 +22,7 @@ namespace tisserand::reducer {
 formats::ModalBody lumped_modal_body(const Mesh& mesh, const formats::Part& part, double lowest,
                                      const RecoveryListener& recover = nullptr);
 
-/// The same and its certificate, as a step of reduce(); `file` and `model`: of the superelement.
+/// Makes this body and its certificate, as a step of reduce(); `file` and `model`: of the superelement.
 formats::ModalBody modal_body(const Mesh& mesh, const formats::Part& part, const FileCertificate& file,
                               const RecoveryListener& recover, ModelCertificate& model);
 

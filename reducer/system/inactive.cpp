@@ -83,7 +83,7 @@ Eigen::MatrixXd null_directions(const Eigen::MatrixXd& A) {
                     : "connect something to the node");
 }
 
-/// Of each coordinate q.
+/// What becomes of each coordinate q.
 struct Choice {
   std::vector<bool> kept;   ///< on the boundary
   std::vector<bool> fixed;  ///< without stiffness and mass
