@@ -210,7 +210,7 @@ std::vector<PreflightLine> preflight_table(const Preflight& preflight, const Mob
   lines.push_back(
       {"bodies", fmt::format("{}, as rigid ones: mobility {}, by Gruebler's count {} · {} - {} = {}", mobility.parts,
                              mobility.rigid_mobility, mobility.freedoms, mobility.parts, mobility.constraints,
-                             mobility.freedoms * mobility.parts - mobility.constraints)});
+                             mobility.gruebler())});
   lines.push_back({"repeated", mobility.redundant.empty()
                                    ? "no constraint equation"
                                    : fmt::format("{} of {} constraint equations", mobility.redundant.size(),

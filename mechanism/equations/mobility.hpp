@@ -18,8 +18,8 @@ struct Mobility {
   int degrees_of_freedom = 0;  ///< coordinates − rank
   int parts = 0;               ///< bodies, each counted as a rigid one
   int freedoms = 6;            ///< of one body; in planar models 3
-  int rigid_mobility =
-      0;  ///< degrees of freedom if every body were rigid: 6 parts − rank; Gruebler's is 6 parts − constraints
+  int rigid_mobility = 0;      ///< degrees of freedom if every body were rigid: freedoms · parts − rank
+  int gruebler() const { return freedoms * parts - constraints; }
   std::vector<int> redundant;  ///< constraint rows that depend on the others
   // By find_freedoms(), every body counted as a rigid one:
   std::vector<std::string>

@@ -107,7 +107,7 @@ std::string report_json(const RunReport& report) {
                       {"rank", report.mobility.rank},
                       {"degrees_of_freedom", report.mobility.degrees_of_freedom},
                       {"bodies", report.mobility.parts},
-                      {"gruebler", 6 * report.mobility.parts - report.mobility.constraints},
+                      {"gruebler", report.mobility.gruebler()},
                       {"rigid_mobility", report.mobility.rigid_mobility}};
   json["preflight"] = preflight_json(report.preflight);
   json["initial_correction"] = {{"position", report.projection.position}, {"velocity", report.projection.velocity}};

@@ -7,6 +7,7 @@
 #include "formats/results/results.hpp"
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/build/effects.hpp"
+#include "mechanism/equations/mobility.hpp"
 #include "mechanism/run/output.hpp"
 #include "mechanism/step/redundancy.hpp"
 #include "tests/support/scenes/planar_scenes.hpp"
@@ -150,6 +151,11 @@ TEST(Planar, HasHalfTheCoordinatesAndNoRedundantEquation) {
   flat.start();
   EXPECT_GT((spatial.state().active().array() == 0.0).count(), 0);
   EXPECT_EQ((flat.state().active().array() == 0.0).count(), 0);
+  const auto gruebler = [](Simulation& run) {
+    return count_mobility(run.model(), run.state(), run.workspace.now).gruebler();
+  };
+  EXPECT_EQ(gruebler(spatial), 6 * 3 - 20);
+  EXPECT_EQ(gruebler(flat), 3 * 3 - 8);
 }
 
 // Of 12 boundary rows 6; of the internal modes of a straight beam those along it and across it in the plane.
