@@ -1,8 +1,6 @@
 // Command line of the second stage.
 #include <atomic>
 #include <csignal>
-#include <cstdio>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -307,11 +305,10 @@ int tell_usage(const CLI::App& app, const CLI::ParseError& error, int argc, char
   for (const CLI::Option* one : (command == nullptr ? app : *command).get_options())
     for (const std::string& name : one->get_lnames()) options.push_back("--" + name);
   const bool is_word = argc > 1 && argv[1][0] != '-';
-  complain("mechanism",
-           fmt::format("{}\n`mechanism {}--help` explains.",
-                       is_word && command == nullptr ? unknown_command(argv[1], commands)
-                                                     : with_nearest_options(error.what(), options),
-                       command == nullptr ? "" : command->get_name() + " "));
+  complain("mechanism", fmt::format("{}\n`mechanism {}--help` explains.",
+                                    is_word && command == nullptr ? unknown_command(argv[1], commands)
+                                                                  : with_nearest_options(error.what(), options),
+                                    command == nullptr ? "" : command->get_name() + " "));
   return exit_usage;
 }
 

@@ -1,8 +1,6 @@
 // From a matrix to the blocks of its columns that are not zero.
 #include "common/math/block_columns.hpp"
 
-#include <cmath>
-
 namespace tisserand::mechanism {
 
 BlockColumns block_columns(const Eigen::MatrixXd& A, double nothing) {

@@ -73,7 +73,7 @@ Shape shape_of(Id space) {
   return Shape(dims.begin(), dims.end());
 }
 
-std::uint64_t count_of(const Shape& shape) {
+std::uint64_t value_count(const Shape& shape) {
   std::uint64_t count = 1;
   for (const std::uint64_t extent : shape) count *= extent;
   return count;
@@ -106,7 +106,7 @@ bool has_only_checksums(Id creation) {
 /// Values of a dataset over time: rows [start[0], start[0] + count[0]) and a box of each.
 struct Selection {
   std::vector<hsize_t> start, count;
-  hsize_t values() const { return count_of(Shape(count.begin(), count.end())); }
+  hsize_t values() const { return value_count(Shape(count.begin(), count.end())); }
 };
 
 /// An open dataset, its space, and the type of its values in memory.
@@ -419,7 +419,7 @@ bool Container::is_fixed_and_below(const std::string& name, std::uint64_t bytes)
   const Handle type(H5Dget_type(handle.id()), H5Tclose), space(H5Dget_space(handle.id()), H5Sclose);
   std::vector<hsize_t> now(H5S_MAX_RANK), most(H5S_MAX_RANK);
   H5Sget_simple_extent_dims(space.id(), now.data(), most.data());
-  return now == most && H5Tget_size(type.id()) * count_of(shape_of(space.id())) <= bytes;
+  return now == most && H5Tget_size(type.id()) * value_count(shape_of(space.id())) <= bytes;
 }
 
 std::vector<std::string> Container::read_texts(const std::string& name, std::uint64_t count) const {

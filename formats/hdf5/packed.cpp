@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "common/math/count.hpp"
 #include "common/text.hpp"
 
 namespace tisserand::formats::hdf5 {
@@ -61,14 +62,14 @@ void OutputFile::publish() { publish_file(stage(), path_); }
 
 Handle create_packed(const Output& out, const std::string& dataset, const Shape& shape, std::uint64_t chunk) {
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
-  const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+  const Handle space(H5Screate_simple(count_of(extent), extent.data(), nullptr), H5Sclose);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.id(), false);
   const bool empty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
   if (!empty) {
     std::vector<hsize_t> rows = extent;
     rows[0] = std::clamp<hsize_t>(chunk, 1, extent[0]);
-    H5Pset_chunk(creation.id(), static_cast<int>(rows.size()), rows.data());
+    H5Pset_chunk(creation.id(), count_of(rows), rows.data());
     H5Pset_shuffle(creation.id());
     H5Pset_deflate(creation.id(), packed_deflate_level);
     H5Pset_fletcher32(creation.id());

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "common/math/count.hpp"
 #include "formats/hdf5/file.hpp"
 
 namespace tisserand::formats::hdf5 {
@@ -89,7 +90,7 @@ void write_values(const Output& out, const std::string& dataset, const Handle& s
 
 Handle simple_space(const Shape& shape) {
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
-  return Handle(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+  return Handle(H5Screate_simple(count_of(extent), extent.data(), nullptr), H5Sclose);
 }
 
 /// Where the bytes of a file in memory go when it is closed, as many as it takes; null: nowhere.

@@ -2,6 +2,7 @@
 #include "formats/joints/joint_kinds.hpp"
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 
 namespace tisserand::formats {
 namespace {
@@ -131,7 +132,7 @@ std::span<const JointKindRow> joint_kinds() { return rows; }
 
 const JointKindRow& joint_kind(JointKind kind) {
   const int k = static_cast<int>(kind);
-  TISSERAND_ENSURE(k >= 0 && k < static_cast<int>(rows.size()), "joint of kind {} without a row", k);
+  TISSERAND_ENSURE(k >= 0 && k < count_of(rows), "joint of kind {} without a row", k);
   return rows[k];
 }
 

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
+#include "common/math/count.hpp"
 #include "common/math/rotation.hpp"
 #include "common/text.hpp"
 #include "formats/hdf5/head.hpp"
@@ -158,7 +159,7 @@ void check_node_reference(const ModalBody& b, const FilePlace& place) {
   if (b.reference_node.size() != 6 || b.reference_component.size() != 6)
     place.fail("/reference/node", "there are not six reference conditions", "fix exactly six components of nodes");
   for (std::size_t i = 0; i < 6; ++i) {
-    if (b.reference_node[i] < 0 || b.reference_node[i] >= static_cast<int>(b.node_name.size()))
+    if (b.reference_node[i] < 0 || b.reference_node[i] >= count_of(b.node_name))
       place.fail("/reference/node", fmt::format("entry {} is no row of /nodes/name", i), "correct the number");
     if (b.reference_component[i] < 0 || b.reference_component[i] > 5)
       place.fail("/reference/component", fmt::format("entry {} is not 0 to 2 (translation) or 3 to 5 (rotation)", i),
@@ -274,7 +275,7 @@ void check_residual(const ModalBody& body, const FilePlace& place) {
       r.mass.rows() != f || r.mass.cols() != f || r.coupling.cols() != f || (f > 0 && r.coupling.rows() != 6))
     place.fail("/residual", "its datasets differ in length", remedy);
   for (std::size_t k = 0; k < r.node.size(); ++k) {
-    if (r.node[k] < 0 || r.node[k] >= static_cast<int>(body.node_name.size()))
+    if (r.node[k] < 0 || r.node[k] >= count_of(body.node_name))
       place.fail(fmt::format("/residual/node[{}]", k), fmt::format("is {}, no row of /nodes/name", r.node[k]), remedy);
     if (r.component[k] < 0 || r.component[k] > 5)
       place.fail(fmt::format("/residual/component[{}]", k), fmt::format("is {}, expected 0 to 5", r.component[k]),

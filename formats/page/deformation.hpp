@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "common/math/count.hpp"
 #include "formats/page/page_blocks.hpp"
 
 namespace tisserand::formats {
@@ -21,7 +22,7 @@ struct FewModes {
   Eigen::MatrixXf amplitudes;  ///< T x k
   double largest = 0.0;        ///< displacement of any vertex at any instant
   double error = 0.0;          ///< largest difference of the displacement from modes and amplitudes as stored here
-  int count() const { return static_cast<int>(step.size()); }
+  int count() const { return count_of(step); }
 };
 
 /// Of any vertex at any instant.

@@ -49,7 +49,7 @@ void add_beams(const Recovery& recovery, Skin& skin) {
       skin.surface.lines.push_back({at, at + 1});
       skin.line_element.push_back(e);
     } else {
-      const Surface faces = swept_faces(2, static_cast<int>(first->size()));
+      const Surface faces = swept_faces(2, count_of(*first));
       const int at = skin.surface.size();
       for (const auto& [a, b, c] : faces.triangles) skin.surface.triangles.push_back({a + at, b + at, c + at});
       skin.triangle_element.insert(skin.triangle_element.end(), faces.triangles.size(), e);
@@ -108,7 +108,7 @@ MatrixXd shapes_of(const FieldSource& source, const std::vector<SkinCarrier>& ca
   std::multimap<int, Index> at;  // by node
   bool turns = false;
   for (std::size_t v = 0; v < carriers.size(); ++v) {
-    at.emplace(carriers[v].node, static_cast<Index>(v));
+    at.emplace(carriers[v].node, v);
     turns = turns || !carriers[v].arm.isZero(0.0);
   }
   for (const RecoveryField field : {RecoveryField::translation, RecoveryField::rotation}) {
@@ -173,11 +173,11 @@ MatrixXd stresses_of(const FieldSource& source, const std::vector<SkinCarrier>& 
   if (stress.cols() == 0) return stress;
   std::vector<int> vertex(recovery.nodes(), -1), count(carriers.size(), 0);
   std::multimap<int, Index> of_beam;
-  for (std::size_t v = 0; v < carriers.size(); ++v)
+  for (int v = 0; v < std::ssize(carriers); ++v)
     if (carriers[v].beam >= 0)
-      of_beam.emplace(carriers[v].beam, static_cast<Index>(v));
+      of_beam.emplace(carriers[v].beam, v);
     else
-      vertex[carriers[v].node] = static_cast<int>(v);
+      vertex[carriers[v].node] = v;
   each_chunk(source, RecoveryField::solid_stress, [&](int first, const MatrixXd& rows) {
     for (Index p = 0; p < rows.rows() / 6; ++p)
       if (const int v = vertex[recovery.stress_node[first + p]]; v >= 0) {

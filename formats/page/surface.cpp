@@ -54,7 +54,7 @@ Surface box(const Vector3d& size) {
 
 /// Circles of the given radii about a polyline; the plane at a corner halves the angle.
 Surface tube(const std::vector<Vector3d>& points, const std::vector<double>& radii) {
-  Surface surface = swept_faces(static_cast<int>(points.size()), around);
+  Surface surface = swept_faces(count_of(points), around);
   Vector3d y = (points[1] - points[0]).unitOrthogonal();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector3d before =
@@ -188,7 +188,7 @@ Surface swept_faces(int stations, int corners) {
 
 std::vector<std::array<int, 2>> least_tree(const std::vector<Vector3d>& points) {
   std::vector<std::array<int, 2>> lines;
-  const int count = static_cast<int>(points.size());
+  const int count = count_of(points);
   std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
   std::vector<int> nearest(points.size(), 0);
   std::vector<bool> joined(points.size(), false);

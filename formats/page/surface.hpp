@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "common/math/count.hpp"
 #include "formats/scene/shape.hpp"
 #include "formats/sections/section.hpp"
 
@@ -16,7 +17,7 @@ struct Surface {
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise seen from outside
   std::vector<std::array<int, 2>> lines;
 
-  int size() const { return static_cast<int>(vertices.size()); }
+  int size() const { return count_of(vertices); }
   /// Appends another one.
   void add(const Surface& other);
 };

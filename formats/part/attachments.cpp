@@ -1,5 +1,4 @@
 // Beams, point masses, springs, spiders and boundary nodes of part.yaml.
-#include <cmath>
 
 #include "formats/part/reader.hpp"
 #include "formats/yaml/fields.hpp"

@@ -1,5 +1,4 @@
 // Findings of a part's mesh file, groups, places, masses, springs and spiders.
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>

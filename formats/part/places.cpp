@@ -1,6 +1,5 @@
 // Points, places, groups and the mesh file of part.yaml.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "formats/part/reader.hpp"

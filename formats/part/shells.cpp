@@ -1,7 +1,6 @@
 // Materials, plates, discs, cylinders, extrusions, shells and solids of part.yaml.
 #include "formats/part/shells.hpp"
 
-#include <cmath>
 #include <limits>
 
 #include "formats/part/reader.hpp"

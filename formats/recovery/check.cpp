@@ -74,7 +74,7 @@ void check_head(const Recovery& r, const Inspector& inspect) {
 
 void check_coordinates(const Recovery& r, const Inspector& inspect) {
   const std::size_t n = r.dof_node.size();
-  const int boundary = static_cast<int>(r.boundary_name.size());
+  const int boundary = count_of(r.boundary_name);
   if (n < 1 || n > 10'000) inspect.fail("/dof/node", fmt::format("has {} entries, expected 1 to 10000", n));
   std::set<std::string> seen;
   for (const std::string& name : r.boundary_name)
@@ -96,7 +96,7 @@ void check_coordinates(const Recovery& r, const Inspector& inspect) {
 void check_elements(const Recovery& r, const Inspector& inspect) {
   const RecoveryElements& e = r.elements;
   const auto count = e.shape.size();
-  const int groups = static_cast<int>(r.group_name.size());
+  const int groups = count_of(r.group_name);
   inspect.size("/elements/group", e.group.size(), count, "elements");
   inspect.size("/elements/id", e.id.size(), count, "elements");
   inspect.range("/elements/group", e.group, 0, groups - 1);
@@ -125,7 +125,7 @@ void check_beams_and_shells(const Recovery& r, const Inspector& inspect) {
   inspect.size("/beams/offset", static_cast<std::size_t>(r.beam_offset.cols()), 2 * r.beam_axes.size(), "two per beam");
   inspect.finite("/beams/offset", r.beam_offset.data(), static_cast<std::size_t>(r.beam_offset.size()));
   inspect.size("/beams/section", r.beam_section.size(), 2 * r.beam_axes.size(), "two per beam");
-  inspect.range("/beams/section", r.beam_section, 0, static_cast<int>(r.sections.size()) - 1);
+  inspect.range("/beams/section", r.beam_section, 0, count_of(r.sections) - 1);
   inspect.size("/shells/thickness", r.shell_thickness.size(), r.shell_axes.size(), "shells");
   inspect.size("/shells/offset", r.shell_offset.size(), r.shell_axes.size(), "shells");
   inspect.finite("/shells/thickness", r.shell_thickness.data(), r.shell_thickness.size());
@@ -236,7 +236,7 @@ void check(const Recovery& r, const std::string& where) {
   check_second_order(r, inspect);
   inspect.size("/stress_points/group", r.stress_group.size(), r.stress_node.size(), "points");
   inspect.range("/stress_points/node", r.stress_node, 0, r.nodes() - 1);
-  inspect.range("/stress_points/group", r.stress_group, 0, static_cast<int>(r.group_name.size()) - 1);
+  inspect.range("/stress_points/group", r.stress_group, 0, count_of(r.group_name) - 1);
   inspect.size("/surface/element", r.triangle_element.size(), static_cast<std::size_t>(r.triangle.cols()), "triangles");
   inspect.range("/surface/triangle", r.triangle.data(), static_cast<std::size_t>(r.triangle.size()), 0, r.nodes() - 1);
   inspect.range("/surface/element", r.triangle_element, r.beams(), r.elements.count() - 1);

@@ -1,8 +1,6 @@
 // Names and shapes.
 #include "formats/recovery/field_sets.hpp"
 
-#include <algorithm>
-
 #include "common/error.hpp"
 
 namespace tisserand::formats {
@@ -49,7 +47,7 @@ FieldSet force_set(const std::string& group, const Recovery& recovery, NodalForc
   return {group + name_of(force), recovery.nodes(), 3, columns, chunk_items(recovery, RecoveryField::translation)};
 }
 
-int applied_columns(const Recovery& recovery) { return static_cast<int>(recovery.loads->applied.size()); }
+int applied_columns(const Recovery& recovery) { return count_of(recovery.loads->applied); }
 
 }  // namespace
 

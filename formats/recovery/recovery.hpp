@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "common/math/count.hpp"
 #include "common/units.hpp"
 #include "formats/recovery/second_order.hpp"
 #include "formats/superelement/superelement.hpp"
@@ -49,7 +50,7 @@ struct RecoveryElements {
   std::vector<int> first;  ///< elements + 1; into `node`
   std::vector<int> node;   ///< rows of Recovery::position
 
-  int count() const { return static_cast<int>(shape.size()); }
+  int count() const { return count_of(shape); }
 };
 
 inline constexpr int inertia_loads = 12;  ///< six rigid accelerations, six products of angular velocities
@@ -67,15 +68,15 @@ struct AppliedLoad {
 /// velocities ω_j ω_k, jk = xx yy zz yz xz xy (COMPANION.md: g_a, g_jk).
 struct RecoveryLoads {
   Eigen::Vector3d reference_point = Eigen::Vector3d::Zero();  ///< part frame
-  std::vector<AppliedLoad> applied;  ///< since version 1.3: columns behind the twelve
+  std::vector<AppliedLoad> applied;                           ///< since version 1.3: columns behind the twelve
   Eigen::MatrixXd share;      ///< n x columns(): Φᵀ g of internal coordinates, zero for those of the boundary
   Eigen::VectorXd stiffness;  ///< n: ω² of internal coordinates, zero for those of the boundary
   double left_out = 0.0;      ///< no mode that is left out has an ω² below this; 0: none is left out
-  /// n_B x n_B: S̄ of the coordinates of the boundary; without entries: the file has no nodal forces (before version 1.2).
+  /// n_B x n_B: S̄ of the coordinates of the boundary; empty if the file has no nodal forces (before version 1.2).
   Eigen::MatrixXd boundary_stiffness;
 
   bool has_forces() const { return boundary_stiffness.size() > 0; }
-  int columns() const { return inertia_loads + static_cast<int>(applied.size()); }
+  int columns() const { return inertia_loads + count_of(applied); }
 };
 
 /// Forces of the inside on the nodes, by which the static answer of the unreduced part is what recovery gives
@@ -124,10 +125,10 @@ struct Recovery {
   std::vector<int> triangle_element;  ///< shell or solid of each
 
   int nodes() const { return static_cast<int>(position.cols()); }
-  int coordinates() const { return static_cast<int>(dof_node.size()); }
-  int beams() const { return static_cast<int>(beam_axes.size()); }
-  int shells() const { return static_cast<int>(shell_axes.size()); }
-  int stress_points() const { return static_cast<int>(stress_node.size()); }
+  int coordinates() const { return count_of(dof_node); }
+  int beams() const { return count_of(beam_axes); }
+  int shells() const { return count_of(shell_axes); }
+  int stress_points() const { return count_of(stress_node); }
   int internal() const { return static_cast<int>(std::count(dof_node.begin(), dof_node.end(), -1)); }
 };
 
@@ -173,7 +174,7 @@ class RecoveryWriter {
   void append(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows);
   /// The same of the loads' answers: RecoveryLoads::columns(). Only of a file with loads.
   void append_loads(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows);
-  /// The same of forces on nodes: RecoveryLoads::columns(), or one for each internal coordinate. Only of a file with nodal forces.
+  /// Columns of forces on nodes: RecoveryLoads::columns(), or one for each internal coordinate; with nodal forces only.
   void append_forces(NodalForce force, const Eigen::Ref<const Eigen::MatrixXd>& rows);
   /// Translations or rotations of the shapes of second order. Only of a file with such shapes.
   void append_second_order(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows);
@@ -199,7 +200,8 @@ class RecoveryReader {
   FieldRows read(RecoveryField field, int first, int count) const;
   /// The same of the loads' answers: (width · count) x RecoveryLoads::columns(). Only of a file with loads.
   FieldRows read_loads(RecoveryField field, int first, int count) const;
-  /// Nodes [first, first + count): 3 count x RecoveryLoads::columns(), or x internal coordinates. Only of a file with nodal forces.
+  /// Nodes [first, first + count): 3 count x RecoveryLoads::columns(), or x internal coordinates; with nodal forces
+  /// only.
   FieldRows read_forces(NodalForce force, int first, int count) const;
   /// Translations or rotations of nodes [first, first + count): 3 count x shapes of second order; of a file without:
   /// without columns.

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "common/math/count.hpp"
+
 namespace tisserand::formats {
 
 /// u₂ = Σ_r s_r ½ yᵀ C_r y with the shapes s_r; an internal coordinate k that a body leaves out moves by ½ yᵀ C_k y.
@@ -14,7 +16,7 @@ struct SecondOrderForms {
   std::vector<Eigen::MatrixXd> of_coordinate;  ///< C_k
   std::vector<int> coordinate;                 ///< k of each
 
-  int shapes() const { return static_cast<int>(of_shape.size()); }
+  int shapes() const { return count_of(of_shape); }
 };
 
 /// What is said where a body with stiffening has a recovery file without it.

@@ -111,7 +111,7 @@ void write_properties(const hdf5::Output& out, const Recovery& r) {
                      {s.area, s.second_moment_y, s.second_moment_z, s.second_moment_yz, s.centroid_y, s.centroid_z});
     for (const Eigen::Vector2d& point : s.outline) outline.insert(outline.end(), {point.x(), point.y()});
     known.push_back(s.outline_known ? 1 : 0);
-    first.push_back(static_cast<int>(outline.size() / 2));
+    first.push_back(count_of(outline) / 2);
   }
   hdf5::write_dataset(out, "/sections/constants", {r.sections.size(), 6}, constants.data());
   hdf5::write_dataset(out, "/sections/outline_known", known);

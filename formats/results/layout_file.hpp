@@ -1,7 +1,6 @@
 // What a results file says of the columns of its datasets, to and from the file.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "formats/hdf5/file.hpp"

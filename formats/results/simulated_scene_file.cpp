@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t most_items = 10'000'000;
 constexpr std::uint64_t body_numbers = 8, marker_numbers = 7;
 
-std::uint64_t count_of(const hdf5::InputFile& file, const std::string& dataset) {
+std::uint64_t entries_of(const hdf5::InputFile& file, const std::string& dataset) {
   const hdf5::DatasetInfo info = file.info(dataset);
   if (info.shape.empty() || info.shape[0] > most_items)
     throw Error(fmt::format("has shape {}, expected at most {} entries", hdf5::shape_text(info.shape), most_items),
@@ -34,7 +34,7 @@ std::vector<std::int64_t> read_indices(const hdf5::InputFile& file, const std::s
 }
 
 void read_bodies(const hdf5::InputFile& file, SimulatedScene& scene) {
-  const std::uint64_t count = count_of(file, "/scene/body_name");
+  const std::uint64_t count = entries_of(file, "/scene/body_name");
   const auto texts = [&](const char* name) {
     return file.read_texts(std::string("/scene/body_") + name, count, "bodies");
   };
@@ -50,12 +50,12 @@ void read_bodies(const hdf5::InputFile& file, SimulatedScene& scene) {
 
 void read_links(const hdf5::InputFile& file, std::size_t nodes, SimulatedScene& scene) {
   if (!file.has("/scene/link_name")) return;
-  const std::uint64_t count = count_of(file, "/scene/link_name");
+  const std::uint64_t count = entries_of(file, "/scene/link_name");
   const std::vector<std::string> name = file.read_texts("/scene/link_name", count, "joints, springs and loads"),
                                  kind = file.read_texts("/scene/link_kind", count, "joints, springs and loads");
   // A file without any motion of nodes does not name them either.
   const std::size_t known =
-      nodes > 0 || !file.has("/scene/body_of_node") ? nodes : count_of(file, "/scene/body_of_node");
+      nodes > 0 || !file.has("/scene/body_of_node") ? nodes : entries_of(file, "/scene/body_of_node");
   const std::vector<std::int64_t> node =
       read_indices(file, "/scene/link_node", {count, 2}, SimulatedMarker::not_stored, known);
   std::vector<double> marker(count * 2 * marker_numbers);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 
 #include "formats/hdf5/file.hpp"
 #include "formats/results/simulated_scene.hpp"

@@ -18,9 +18,9 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <random>
 #include <utility>
 
+#include "common/math/count.hpp"
 #include "common/text.hpp"
 #include "formats/hdf5/head.hpp"
 #include "formats/results/blocks.hpp"
@@ -52,7 +52,7 @@ void create_growing(const hdf5::Output& out, const Block& block) {
     limit.push_back(e);
     chunk.push_back(e);
   }
-  const int rank = static_cast<int>(extent.size());
+  const int rank = count_of(extent);
   const hdf5::Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   const hdf5::Handle space(H5Screate_simple(rank, extent.data(), limit.data()), H5Sclose);
   H5Pset_obj_track_times(creation.id(), false);

@@ -1,6 +1,5 @@
 // `analysis` or `analyses` of a scene, with the settings that each has of its own and those that all share.
 #include <algorithm>
-#include <iterator>
 
 #include "common/text.hpp"
 #include "formats/scene/reader.hpp"

@@ -1,6 +1,4 @@
 // `bodies` of scene.yaml: superelements, modal bodies, rigid bodies, beams, virtual bodies.
-#include <filesystem>
-#include <limits>
 
 #include "formats/scene/reader.hpp"
 #include "formats/sections/axis.hpp"

@@ -1,5 +1,4 @@
 // `channels` and `inputs` of scene.yaml: reading and findings.
-#include <algorithm>
 
 #include "formats/scene/check_parts.hpp"
 #include "formats/scene/expand/expression.hpp"

@@ -5,8 +5,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
-#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
@@ -150,7 +148,8 @@ struct BushingSpec : MarkerPairSpec {
 
   /// Whether turns about marker axis k, 0 to 2, deflect it or make forces of it.
   bool takes_turns(int k) const;
-  /// The axis `turns`, also where nothing acts on rotations; without it the only one about which it takes turns, or the only one about which it takes none.
+  /// The axis `turns`, also where nothing acts on rotations; without it the only one about which it takes turns, or the
+  /// only one about which it takes none.
   std::optional<int> turning_axis() const;
 };
 
@@ -246,7 +245,7 @@ struct TyreSpec {
 
 struct Scene {
   std::string name, file;
-  std::vector<std::string> files;  ///< that are read for it, itself included, also those that it names
+  std::vector<std::string> files;        ///< that are read for it, itself included, also those that it names
   std::shared_ptr<const YamlNode> tree;  ///< after `include`, instances and overrides; null: made by a program
   Units units = Units::si();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();

@@ -2,7 +2,6 @@
 #include "formats/scene/check_parts.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include "formats/results/blocks.hpp"
 #include "formats/yaml/name_check.hpp"

@@ -1,6 +1,5 @@
 // `shape` of a body in scene.yaml: one solid or a list of them.
 #include <filesystem>
-#include <limits>
 
 #include "formats/scene/check_parts.hpp"
 #include "formats/scene/reader.hpp"

@@ -2,7 +2,6 @@
 #include "formats/study/check.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "common/text.hpp"
 #include "formats/scene/expand/expression.hpp"

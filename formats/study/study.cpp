@@ -2,7 +2,6 @@
 #include "formats/study/study.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "common/text.hpp"
 #include "formats/scene/integrator_reader.hpp"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -27,9 +26,10 @@ struct CanonicalMatrices {
       0;  ///< internal directions without mass: they carry no inertia and no weight and are left out
 };
 
-/// Coordinates without stiffness, whose rows of S are zero (mechanisms of a part), come first with the eigenvalue 0; the
-/// others are made orthogonal to them in M. Else congruence with y_I = −S_II⁻¹ S_IB y_B + Q η, where S_II Q = M_II Q Λ and QᵀM_II Q = 1. Nothing is zeroed. Throws
-/// Error (at `where`) if S_II is not safely positive definite or M_II is indefinite.
+/// Coordinates without stiffness, whose rows of S are zero (mechanisms of a part), come first with the eigenvalue 0;
+/// the others are made orthogonal to them in M. Else congruence with y_I = −S_II⁻¹ S_IB y_B + Q η, where S_II Q = M_II
+/// Q Λ and QᵀM_II Q = 1. Nothing is zeroed. Throws Error (at `where`) if S_II is not safely positive definite or M_II
+/// is indefinite.
 CanonicalMatrices canonical_form(const PartitionedMatrices& matrices, const std::string& where);
 
 /// Number of modes to keep of `eigenvalue` (ascending) so that at least `wanted` are kept and no cluster of eigenvalues

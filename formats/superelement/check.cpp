@@ -9,6 +9,7 @@
 #include <Eigen/QR>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "common/text.hpp"
 #include "formats/hdf5/head.hpp"
 #include "formats/superelement/names.hpp"
@@ -70,7 +71,7 @@ void check_names(const Superelement& e, const FilePlace& place) {
 
 /// Each row of the table is a coordinate of its own; each node owns three translations, three rotations, or both.
 void check_dof_table(const Superelement& e, const FilePlace& place) {
-  const int nodes = static_cast<int>(e.node_name.size()), n = static_cast<int>(e.size());
+  const int nodes = count_of(e.node_name), n = count_of(e);
   const int internal = static_cast<int>(std::count(e.dof_node.begin(), e.dof_node.end(), -1));
   std::vector<std::array<int, 6>> owner(e.node_name.size(), {-1, -1, -1, -1, -1, -1});
   std::vector<int> internal_owner(static_cast<std::size_t>(internal), -1);

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "common/text.hpp"
 
 namespace tisserand::formats {
@@ -100,8 +101,8 @@ class Joined {
       throw Error(fmt::format("has more than {} triangles", most_triangles), path_, "reduce the surface before");
     std::array<int, 3> triangle{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [found, is_new] = index_.try_emplace({corners[k].x(), corners[k].y(), corners[k].z()},
-                                                      static_cast<int>(surface_.vertices.size()));
+      const auto [found, is_new] =
+          index_.try_emplace({corners[k].x(), corners[k].y(), corners[k].z()}, count_of(surface_.vertices));
       if (is_new) surface_.vertices.push_back(corners[k]);
       triangle[k] = found->second;
     }
@@ -130,7 +131,8 @@ TriangleSurface read_binary_stl(const std::string& bytes, const std::string& pat
   for (std::size_t i = 0; i < count; ++i) {
     const char* at = bytes.data() + stl_head + i * stl_triangle + 12;  // after the normal
     std::array<Eigen::Vector3d, 3> corners;
-    for (int k = 0; k < 9; ++k) corners[k / 3][k % 3] = static_cast<double>(std::bit_cast<float>(little_endian(at + 4 * k)));
+    for (int k = 0; k < 9; ++k)
+      corners[k / 3][k % 3] = static_cast<double>(std::bit_cast<float>(little_endian(at + 4 * k)));
     for (const Eigen::Vector3d& corner : corners)
       if (!corner.allFinite())
         throw Error(fmt::format("triangle {} has a corner that is no finite number", i + 1), path, again);

@@ -2,7 +2,6 @@
 #include "formats/yaml/line_check.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

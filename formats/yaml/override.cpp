@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "common/text.hpp"
 #include "formats/yaml/name_check.hpp"
 #include "formats/yaml/tree.hpp"
@@ -89,7 +89,7 @@ YamlNode& enter(const Walk& walk, YamlNode& node, std::size_t i) {
 
 void apply(YamlDocument& document, const Override& change, const std::vector<std::string_view>& collections) {
   document.sources.push_back({YamlSourceKind::option, where_of(change), ""});
-  const int source = static_cast<int>(document.sources.size()) - 1;
+  const int source = count_of(document.sources) - 1;
   YamlNode value;
   if (!change.value.empty()) {
     try {

@@ -2,7 +2,6 @@
 #include "mechanism/analyses/assembly.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>

@@ -7,6 +7,7 @@
 
 #include <Eigen/SparseCore>
 
+#include "common/math/count.hpp"
 #include "mechanism/analyses/start_velocities.hpp"
 #include "mechanism/equations/tangent.hpp"
 #include "mechanism/model/connected_bodies.hpp"
@@ -44,7 +45,7 @@ struct StartProblem {
   StartMatrix M;      ///< of w
   Eigen::VectorXd c;  ///< B v = c
   Eigen::VectorXd w;  ///< w₀
-  int rows() const { return static_cast<int>(c.size()); }
+  int rows() const { return count_of(c); }
 };
 
 /// 1/L for rows that are lengths.

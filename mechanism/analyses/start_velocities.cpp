@@ -90,8 +90,8 @@ struct StartSystem {
 StartSystem start_system(const StartProblem& problem, const std::vector<int>& free, const Deformations* deformations,
                          int rows) {
   const Model& model = problem.model;
-  StartSystem system{deformations == nullptr ? 0 : static_cast<int>(deformations->coordinates.size()),
-                     static_cast<int>(free.size()),
+  StartSystem system{deformations == nullptr ? 0 : count_of(deformations->coordinates),
+                     count_of(free),
                      rows,
                      model.length * model.equation_scale.head(model.sizes.boundary).matrix(),
                      {},

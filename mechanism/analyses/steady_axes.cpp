@@ -2,7 +2,6 @@
 #include "mechanism/analyses/steady_axes.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>

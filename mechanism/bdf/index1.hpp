@@ -1,8 +1,6 @@
 // The equations of motion as an ordinary differential equation: rates of a flat vector of positions and velocities.
 #pragma once
 
-#include <string>
-
 #include "formats/scene/scene.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"

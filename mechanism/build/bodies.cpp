@@ -46,7 +46,7 @@ int add_node(const std::string& name, const formats::InitialMotion& start, const
   if (rotations) node.rotation = std::exchange(c.model.sizes.boundary, c.model.sizes.boundary + 3);
   c.model.nodes.push_back(node);
   c.markers.start.push_back(motion_at(start, position, c.markers.origin));
-  return static_cast<int>(c.model.nodes.size()) - 1;
+  return count_of(c.model.nodes) - 1;
 }
 
 /// Notes what the scene says of the velocities of a body whose first node is `node`.
@@ -138,9 +138,9 @@ class BodyBuilder {
     add_frame(spec.name, {built.body.node, Vector3d::Zero(), part_axes});
     for (ModalNode& node : built.nodes) {
       const std::string name = spec.name + "/" + node.name;
-      node.body = static_cast<int>(c_.model.modal_bodies.size());
+      node.body = count_of(c_.model.modal_bodies);
       node.node = add_node(name, start, node.x, 0, 0, c_);
-      c_.model.nodes.back().modal = static_cast<int>(c_.model.modal_nodes.size());
+      c_.model.nodes.back().modal = count_of(c_.model.modal_nodes);
       c_.model.modal_nodes.push_back(std::move(node));
       add_place(name, {c_.model.modal_nodes.back().node, Vector3d::Zero(), part_axes});
     }
@@ -266,8 +266,8 @@ class BodyBuilder {
       add_place(name, {nodes.back(), Vector3d::Zero(), Matrix3d::Identity()});
     }
     note_start(spec.name, spec.start, nodes.front(), c_);
-    const int last = static_cast<int>(c_.model.places.size()) - 1;
-    add_alias(spec.name + "/start", last + 1 - static_cast<int>(nodes.size()));
+    const int last = count_of(c_.model.places) - 1;
+    add_alias(spec.name + "/start", last + 1 - count_of(nodes));
     add_alias(spec.name + "/end", last);
     const Vector3d gravity = spec.gravity.value_or(c_.scene.gravity);
     const auto append = [&](const auto& elements, auto& pool) {
@@ -287,7 +287,7 @@ class BodyBuilder {
 
   /// Kept ones are nodes.
   void add_virtual_body(const formats::VirtualBodySpec& spec) {
-    int node = static_cast<int>(c_.markers.start.size());
+    int node = count_of(c_.markers.start);
     switch (c_.scene.virtual_bodies) {
       case formats::VirtualBodies::keep:
         node = add_virtual_node(spec, c_);
@@ -383,7 +383,7 @@ void eliminate_virtual_bodies(Construction& c) {
   const std::vector<const formats::VirtualBodySpec*> virtual_bodies = eliminated_bodies(c.scene);
   if (virtual_bodies.empty()) return;
 
-  const int first = static_cast<int>(c.model.nodes.size());
+  const int first = count_of(c.model.nodes);
   TiedBodies tied = tie_virtual_bodies(c.scene, c.model, first, c.markers);
   c.markers.start.resize(static_cast<std::size_t>(first));
   std::map<int, int> node_of_root;

@@ -14,10 +14,10 @@ namespace tisserand::mechanism {
 namespace {
 
 void finish(Construction& c) {
-  c.model.sizes.nodes = static_cast<int>(c.model.nodes.size());
+  c.model.sizes.nodes = count_of(c.model.nodes);
   c.model.sizes.boundary += c.model.sizes.modal;
   c.model.sizes.internal = c.model.internal_offset.back();
-  c.model.sizes.superelements = static_cast<int>(c.model.superelements.size());
+  c.model.sizes.superelements = count_of(c.model.superelements);
   c.model.breakpoints.assign(c.breakpoints.begin(), c.breakpoints.end());
   if (c.scene.integrator.step > 0.0) c.model.motion_spacing = 0.25 * c.scene.integrator.step;
   finish_model(c.model, c.scene.integrator.linear_solver);
@@ -64,7 +64,7 @@ BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files) {
     });
   for (const formats::SpringSpec& spring : scene.springs) c.collect([&] { joints.add(spring); });
   for (const formats::BushingSpec& bushing : scene.bushings) c.collect([&] { joints.add(bushing); });
-  if (std::string turned = joints.turned_at_start(scene.bushings); !turned.empty()) c.notes.push_back(std::move(turned));
+  if (const std::string turned = joints.turned_at_start(scene.bushings); !turned.empty()) c.notes.push_back(turned);
   for (const formats::LoadSpec& load : scene.loads) c.collect([&] { add_load(load, c); });
   for (const formats::PartLoadSpec& load : scene.part_loads) c.collect([&] { add_part_load(load, c); });
   c.throw_errors();

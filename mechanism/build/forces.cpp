@@ -29,8 +29,7 @@ void JointBuilder::add(const formats::SpringSpec& spec) {
   spring.has_force = spec.force.has_value();
   if (spec.force) {
     spring.force = *spec.force;
-    note_function(spring.force, {ChannelUse::Owner::spring, static_cast<int>(model_.springs.size()), 0, 0, 0}, model_,
-                  breakpoints_);
+    note_function(spring.force, {ChannelUse::Owner::spring, count_of(model_.springs), 0, 0, 0}, model_, breakpoints_);
   }
   model_.springs.push_back(std::move(spring));
 }
@@ -49,7 +48,7 @@ int JointBuilder::add_distance(const std::string& name, const std::string& subje
     throw Error(fmt::format("{} has no direction: its ends are at the same place", subject), where,
                 "move one end, or use the coordinates of a joint");
   model_.coordinates.push_back(std::move(coordinate));
-  return static_cast<int>(model_.coordinates.size()) - 1;
+  return count_of(model_.coordinates) - 1;
 }
 
 int JointBuilder::add_angle(const formats::SpringSpec& spec) {
@@ -64,7 +63,7 @@ int JointBuilder::add_angle(const formats::SpringSpec& spec) {
   check_marker(model_, subject, use_axes, spec.a, coordinate.a);
   check_marker(model_, subject, use_axes, spec.b, coordinate.b);
   model_.coordinates.push_back(std::move(coordinate));
-  return static_cast<int>(model_.coordinates.size()) - 1;
+  return count_of(model_.coordinates) - 1;
 }
 
 void JointBuilder::add(const formats::BushingSpec& spec) {
@@ -88,7 +87,7 @@ void JointBuilder::add(const formats::BushingSpec& spec) {
   bushing.rotations = rotations;
   if (const std::optional<int> axis = spec.turning_axis()) {
     bushing.axis = *axis;
-    bushing.coordinate = static_cast<int>(model_.coordinates.size());
+    bushing.coordinate = count_of(model_.coordinates);
     Coordinate turn{
         spec.name + "/turn", bushing.a, bushing.b, {RelationKind::angle, static_cast<std::uint8_t>(*axis), 0}};
     turn.active = true;

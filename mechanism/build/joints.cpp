@@ -70,8 +70,8 @@ void JointBuilder::add_coordinates(const Joint& joint) {
     coordinate.a = joint.a;
     coordinate.b = joint.b;
     coordinate.relation = free.relation;
-    coordinate_[joint.name + "/" + free.name] = static_cast<int>(model_.coordinates.size());
-    if (all.size() == 1) coordinate_[joint.name] = static_cast<int>(model_.coordinates.size());
+    coordinate_[joint.name + "/" + free.name] = count_of(model_.coordinates);
+    if (all.size() == 1) coordinate_[joint.name] = count_of(model_.coordinates);
     model_.coordinates.push_back(std::move(coordinate));
   }
 }
@@ -79,14 +79,14 @@ void JointBuilder::add_coordinates(const Joint& joint) {
 void JointBuilder::add_friction(const formats::JointSpec& joint) {
   const formats::FrictionSpec& spec = *joint.friction;
   Friction friction;
-  friction.joint = static_cast<int>(model_.joints.size());
+  friction.joint = count_of(model_.joints);
   friction.kinetic = spec.coefficient;
   friction.stiction = spec.static_coefficient.value_or(spec.coefficient);
   friction.velocity = spec.velocity;
   friction.radius = spec.radius;
   friction.inverse_arm = spec.arm ? 1.0 / *spec.arm : 0.0;
   if (joint_law(joint.kind).threaded) {
-    friction.thread = static_cast<int>(model_.couplings.size()) - 1;
+    friction.thread = count_of(model_.couplings) - 1;
     friction.lead = joint.pitch / (2.0 * std::numbers::pi);
   }
   model_.frictions.push_back(friction);
@@ -101,7 +101,7 @@ int JointBuilder::add_thread(const formats::JointSpec& spec) {
   const int angle = coordinate_.at(spec.name + "/angle"), z = coordinate_.at(spec.name + "/z");
   thread.terms = {{z, 1.0}, {angle, static_cast<double>(-spec.pitch / (2.0 * std::numbers::pi))}};
   activate(thread);
-  return static_cast<int>(model_.couplings.size()) - 1;
+  return count_of(model_.couplings) - 1;
 }
 
 void JointBuilder::activate(Coupling& coupling) {
@@ -150,7 +150,7 @@ void JointBuilder::add(const formats::MotionSpec& spec) {
   const int coordinate = find_coordinate(spec.coordinate);
   motion.length = is_length_coordinate(coordinate);
   motion.terms = {{coordinate, 1.0}};
-  motion.motion = static_cast<int>(model_.motions.size());
+  motion.motion = count_of(model_.motions);
   const TimeFunction function(spec.value, model_.scope);  // reports syntax errors now
   if (!function.channels().empty())
     throw Error(

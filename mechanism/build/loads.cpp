@@ -36,7 +36,7 @@ void add_load(const formats::LoadSpec& spec, Construction& c) {
   if (load.at.node < 0 && load.at.follower < 0)
     throw Error(fmt::format("load '{}' acts on ground", spec.name), spec.where, "name a node of a body");
   if (load.at.node >= 0) check_load_node(spec, load, c);
-  const int index = static_cast<int>(c.model.loads.size());
+  const int index = count_of(c.model.loads);
   for (int k = 0; k < 3; ++k)
     note_function(spec.components[k], {ChannelUse::Owner::load, index, k, 0, 0}, c.model, c.breakpoints);
   c.model.loads.push_back(std::move(load));

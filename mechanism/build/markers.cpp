@@ -1,7 +1,6 @@
 // Finding places by name.
 #include "mechanism/build/markers.hpp"
 
-#include <algorithm>
 #include <functional>
 
 #include <fmt/format.h>

@@ -25,7 +25,7 @@ int count_modes(const formats::ModalBody& file, const formats::ModalBodySpec& sp
   if (spec.modes && *spec.modes > all)
     throw Error(fmt::format("body '{}': {} modes are asked for, the file has {}", spec.name, *spec.modes, all),
                 spec.where, "ask for fewer, or write a file with more");
-  if (static_cast<int>(spec.damping.ratios.size()) > all)
+  if (count_of(spec.damping.ratios) > all)
     throw Error(fmt::format("body '{}': damping: {} ratios for {} modes", spec.name, spec.damping.ratios.size(), all),
                 spec.where, "give one ratio per mode at most");
   if (spec.modes) return *spec.modes;

@@ -95,7 +95,7 @@ void add_part_load(const formats::PartLoadSpec& spec, Construction& c) {
     load.force = found->force;
     load.moment = found->moment;
   }
-  const int index = static_cast<int>(c.model.part_loads.size());
+  const int index = count_of(c.model.part_loads);
   note_function(spec.value, {ChannelUse::Owner::part_load, index, 0, 0, 0}, c.model, c.breakpoints);
   c.model.part_loads.push_back(std::move(load));
 }

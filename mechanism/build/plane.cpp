@@ -1,5 +1,4 @@
 // Normal from joints, and every vector of the model once.
-#include <algorithm>
 #include <cmath>
 
 #include "mechanism/build/planar.hpp"

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -108,7 +109,7 @@ int find_or_build(const formats::SuperelementBodySpec& spec, const formats::Load
   for (const BuiltSuperelements::Entry& entry : entries)
     if (make_the_same(entry.options, options)) return entry.body;
   bodies.push_back(build_superelement_body(file.superelement, file.report.rigid, options));
-  const int body = static_cast<int>(bodies.size()) - 1;
+  const int body = count_of(bodies) - 1;
   entries.push_back({std::move(options), body});
   return body;
 }

@@ -159,7 +159,7 @@ class Grouping {
     Marker pose = place_of_marker;
     pose.R = place_of_marker.R * own.R.transpose();
     pose.p = place_of_marker.p - pose.R * own.p;
-    pose.follower = static_cast<int>(result_.ties.size());
+    pose.follower = count_of(result_.ties);
     const NodeMotion carrier = markers_.motion(pose.node);
     NodeMotion& start = markers_.start[static_cast<std::size_t>(first_) + body];
     const Eigen::Vector3d x = marker_position(pose, carrier);

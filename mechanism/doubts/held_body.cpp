@@ -87,7 +87,7 @@ FreePart free_part(const SuperelementBody& body, const std::vector<bool>& held) 
   for (int k = 0; k < nb + body.modes; ++k)
     if (!held[k]) part.free.push_back(k);
   if (part.free.size() > most_coordinates) return {};
-  const int n = static_cast<int>(part.free.size());
+  const int n = count_of(part.free);
   part.unit = coordinate_units(body)(part.free);
   part.S.resize(n, n);
   part.M.resize(n, n);

@@ -2,7 +2,6 @@
 // forces, spin.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numbers>
 #include <optional>

@@ -1,5 +1,4 @@
 // Whether straight superelements are stiff enough in torsion for the inertia option that they spin with.
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -163,7 +162,7 @@ class Torsion : public Doubt {
     std::map<int, int> row;  // of places that can turn
     const auto row_of = [&](std::size_t use, int node) {
       const int place = twist_.place[model.superelements[use].nodes[node]];
-      return twist_.held[place] ? -1 : row.try_emplace(place, static_cast<int>(row.size())).first->second;
+      return twist_.held[place] ? -1 : row.try_emplace(place, count_of(row)).first->second;
     };
     const auto pieces = [&](auto visit) {
       for (std::size_t i = 0; i < seen_.size(); ++i)

@@ -1,7 +1,6 @@
 // Whether tyres stayed in the ranges for which the coefficients of their files were fitted.
 #include <array>
 #include <cmath>
-#include <utility>
 #include <variant>
 
 #include <fmt/format.h>

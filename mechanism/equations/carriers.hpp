@@ -5,8 +5,6 @@
 // other nodes. Maps without such a carrier list none and take the short way.
 #pragma once
 
-#include <vector>
-
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/model/element_map.hpp"
 

@@ -1,5 +1,4 @@
 // Joints, couplings and springs: everything that two markers do to each other.
-#include <cmath>
 
 #include "common/math/rotation.hpp"
 #include "mechanism/equations/terms.hpp"

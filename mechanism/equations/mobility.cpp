@@ -2,7 +2,6 @@
 #include "mechanism/equations/mobility.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <utility>
 

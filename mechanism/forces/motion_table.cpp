@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/math/count.hpp"
+
 namespace tisserand::mechanism {
 namespace {
 
@@ -16,8 +18,8 @@ struct Slopes {
 
 /// Of the polynomial through the five points nearest to point i by number (all, if there are fewer): Newton's form.
 Slopes polynomial_slopes(const std::vector<double>& t, const std::vector<double>& y, int i) {
-  const int count = std::min<int>(5, static_cast<int>(t.size()));
-  const int first = std::clamp(i - 2, 0, static_cast<int>(t.size()) - count);
+  const int count = std::min<int>(5, count_of(t));
+  const int first = std::clamp(i - 2, 0, count_of(t) - count);
   std::array<double, 5> x{}, c{};
   for (int k = 0; k < count; ++k) {
     x[k] = t[first + k] - t[i];
@@ -84,7 +86,7 @@ double first_share(double h, double secant, const Slopes& a, const Slopes& b) {
 }
 
 std::vector<Slopes> smooth_slopes(const std::vector<double>& t, const std::vector<double>& y) {
-  const int n = static_cast<int>(t.size());
+  const int n = count_of(t);
   std::vector<double> h(n - 1), secant(n - 1), share(n - 1);
   for (int i = 0; i + 1 < n; ++i) {
     h[i] = t[i + 1] - t[i];
@@ -113,7 +115,7 @@ std::vector<Slopes> smooth_slopes(const std::vector<double>& t, const std::vecto
 
 /// Second derivatives at the points of the natural cubic spline (tridiagonal elimination).
 std::vector<double> spline_curvature(const std::vector<double>& t, const std::vector<double>& y) {
-  const int n = static_cast<int>(t.size());
+  const int n = count_of(t);
   std::vector<double> m(n, 0.0), upper(n, 0.0);
   for (int i = 1; i + 1 < n; ++i) {
     const double h0 = t[i] - t[i - 1], h1 = t[i + 1] - t[i];
@@ -142,7 +144,7 @@ std::array<double, 6> quintic(double y, double rise, double h, const Slopes& a, 
 
 MotionTable::MotionTable(const formats::TimeTable& table) {
   const std::vector<double>&t = table.time, &y = table.value;
-  const int n = static_cast<int>(t.size());
+  const int n = count_of(t);
   last_ = t.back();
   if (n == 1) pieces_.push_back({t[0], {y[0]}});
   const std::vector<Slopes> slopes =

@@ -2,6 +2,7 @@
 #include "mechanism/joints/joint_laws.hpp"
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -99,7 +100,7 @@ static_assert(slip_in_three_directions(), "a sliding velocity has three componen
 
 const JointLaw& joint_law(JointKind kind) {
   const int k = static_cast<int>(kind);
-  TISSERAND_ENSURE(k >= 0 && k < static_cast<int>(laws.size()), "joint of kind {} without a law", k);
+  TISSERAND_ENSURE(k >= 0 && k < count_of(laws), "joint of kind {} without a law", k);
   return laws[k];
 }
 

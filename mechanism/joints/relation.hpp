@@ -1,7 +1,6 @@
 // Scalar relations between two markers: what joints hold at zero, and what joint coordinates measure.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include <Eigen/Core>

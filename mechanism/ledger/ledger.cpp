@@ -2,7 +2,6 @@
 #include "mechanism/ledger/ledger.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -211,7 +210,7 @@ class LedgerMaker {
   Ledger finished() {
     ledger_.scene = request_.scene.name;
     ledger_.doubt = reference_.doubt;
-    ledger_.windows = static_cast<int>(reference_.windows.size());
+    ledger_.windows = count_of(reference_.windows);
     if (ledger_.windows > 0) ledger_.window = reference_.windows.front().end - reference_.windows.front().start;
     if (!own_per_step_.empty()) {
       const auto [least, most] = std::ranges::minmax(own_per_step_);

@@ -1,16 +1,13 @@
 // Names, columns and sizes of what is compared.
 #include "mechanism/ledger/measures.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
-#include <optional>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "common/text.hpp"
 #include "formats/results/blocks.hpp"
 #include "mechanism/model/state.hpp"
@@ -150,7 +147,7 @@ MeasureSizes::MeasureSizes(const std::vector<Measured>& list) {
   for (const Measured& one : list) {
     from_first_.push_back(one.kind == MeasureKind::position || one.kind == MeasureKind::deflection ||
                           one.kind == MeasureKind::direction);
-    group_of_.push_back(groups.try_emplace(one.group, static_cast<int>(groups.size())).first->second);
+    group_of_.push_back(groups.try_emplace(one.group, count_of(groups)).first->second);
   }
   group_size_.assign(groups.size(), 0.0);
 }

@@ -1,7 +1,6 @@
 // The command `mechanism ledger`: analyses before the one that is meant, files, and its ledger.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "mechanism/ledger/ledger.hpp"

@@ -48,7 +48,7 @@ class ReferenceListener : public RunListener {
   }
   void row(const formats::ResultsRow& row) override { run_.sizes->observe(run_.measures->values(row)); }
   void state(const State& state) override {
-    const int next = static_cast<int>(run_.windows.size());
+    const int next = count_of(run_.windows);
     if (next == stage_.choice.windows) return;
     const auto [start, end] = window_times(scene_.integrator, stage_.choice, next);
     const double round_off = 1e-9 * run_time(scene_), time = state.time();

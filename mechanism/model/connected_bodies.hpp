@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/math/count.hpp"
 #include "mechanism/model/model.hpp"
 
 namespace tisserand::mechanism {
@@ -13,7 +14,7 @@ struct Parts {
   std::vector<std::string> name;  ///< of the body
   std::vector<int> first_node;    ///< one node of each, whose place is the part's origin
   std::vector<double> mass;       ///< 0: a body without mass
-  int count() const { return static_cast<int>(name.size()); }
+  int count() const { return count_of(name); }
   bool is_massless(int node) const { return mass[of_node[node]] == 0.0; }
 };
 

@@ -138,14 +138,14 @@ ConstraintMap constraint_slots(const SparsePattern& pattern, const ElementMap& m
 void number_constraints(Model& model) {
   model.length_row.clear();
   for (Joint& joint : model.joints) {
-    joint.row = static_cast<int>(model.length_row.size());
+    joint.row = count_of(model.length_row);
     for (int k = 0; k < joint.size(); ++k) model.length_row.push_back(is_length(joint, k));
   }
   for (Coupling& coupling : model.couplings) {
-    coupling.row = static_cast<int>(model.length_row.size());
+    coupling.row = count_of(model.length_row);
     model.length_row.push_back(coupling.length);
   }
-  model.sizes.constraints = static_cast<int>(model.length_row.size());
+  model.sizes.constraints = count_of(model.length_row);
   model.sizes.hinges = 0;
   for (Coordinate& coordinate : model.coordinates)
     coordinate.turn = coordinate.relation.kind == RelationKind::angle ? model.sizes.hinges++ : -1;

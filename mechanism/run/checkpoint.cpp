@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <limits>
 #include <sstream>
-#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -86,11 +85,11 @@ std::vector<formats::ValueChange> changes_since(const Run& run, const std::strin
 [[noreturn]] void throw_of_another_scene(const Run& run, const formats::Checkpoint& checkpoint,
                                          const std::string& file) {
   const std::vector<formats::ValueChange> changes = changes_since(run, checkpoint.values);
-  throw Error(fmt::format("is a checkpoint of scene '{}' with other bodies, joints or superelements (or companion "
-                          "files) than '{}' has{}{}",
-                          checkpoint.scene, run.scene.name, changes.empty() ? "" : ":",
-                          formats::changes_text(changes, "\n  ")),
-              file, "go on with the scene that wrote it; integrator, output and tolerances may differ");
+  throw Error(
+      fmt::format("is a checkpoint of scene '{}' with other bodies, joints or superelements (or companion "
+                  "files) than '{}' has{}{}",
+                  checkpoint.scene, run.scene.name, changes.empty() ? "" : ":", formats::changes_text(changes, "\n  ")),
+      file, "go on with the scene that wrote it; integrator, output and tolerances may differ");
 }
 
 /// `values`: of the scene that the file belongs to.
@@ -107,8 +106,8 @@ void compare_scenes(Run& run, const std::string& file, const std::string& values
   if (changed == ChangedValues::refused)
     throw Error(fmt::format("belongs to a scene that differs in {}:{}", count, formats::changes_text(changes, "\n  ")),
                 file, "set them back, or go on with the changed scene by --changed");
-  run.report.notes.push_back(fmt::format("goes on with {} changed since {}:{}", count, file,
-                                         formats::changes_text(changes, "\n    ")));
+  run.report.notes.push_back(
+      fmt::format("goes on with {} changed since {}:{}", count, file, formats::changes_text(changes, "\n    ")));
 }
 
 void resume_checkpoint(Run& run, const std::string& file, Joining joining, ChangedValues changed) {
@@ -205,9 +204,9 @@ void Checkpoints::write(Run& run, const Schedule& schedule, Stepper& stepper, fo
   const State& state = run.built.state;
   const std::vector<std::string> off = run.automatic != nullptr ? run.automatic->off() : std::vector<std::string>{};
   results.flush();
-  formats::write_checkpoint(path_, {scene_, producer(), fingerprint(run.built.model, state), State::version,
-                                    state.time(), results_, results.run(), results.rows(), state.block(),
-                                    schedule.memory(), run.values, join(off, "\n")});
+  formats::write_checkpoint(
+      path_, {scene_, producer(), fingerprint(run.built.model, state), State::version, state.time(), results_,
+              results.run(), results.rows(), state.block(), schedule.memory(), run.values, join(off, "\n")});
   written_ = true;
   stepper.forget(run.workspace);
   set_next(state.time());

@@ -243,7 +243,7 @@ void add_modal_names(const Model& model, formats::ResultsLayout& layout) {
     layout.modal_offset.push_back(layout.modal_offset.back() + body.modes_in_space());
     for (const ModalNode& node : nodes_of(model, i))
       if (node.active) layout.modal_nodes.push_back(own_name(model, node));
-    layout.modal_node_offset.push_back(static_cast<int>(layout.modal_nodes.size()));
+    layout.modal_node_offset.push_back(count_of(layout.modal_nodes));
   }
 }
 
@@ -322,7 +322,7 @@ void keep_chosen_places(const formats::Scene& scene, Model& model) {
   std::vector<int> at(model.places.size(), -1);
   for (std::size_t i = 0; i < model.places.size(); ++i) {
     if (!chosen[i]) continue;
-    at[i] = static_cast<int>(places.size());
+    at[i] = count_of(places);
     places.push_back(std::move(model.places[i]));
   }
   model.places = std::move(places);
@@ -344,11 +344,11 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
     const SuperelementBody& body = body_of(model, i);
     layout.superelements.push_back(model.superelements[i].name);
     layout.modes_offset.push_back(layout.modes_offset.back() + static_cast<int>(file_coordinate_count(body)));
-    layout.boundary_offset.push_back(layout.boundary_offset.back() + static_cast<int>(body.node.size()));
+    layout.boundary_offset.push_back(layout.boundary_offset.back() + count_of(body.node));
     for (const SuperelementNode& node : body.node) layout.boundary_nodes.push_back(node.name);
     layout.strained = layout.strained || body.second_order.stiffening;
     for (const BodyLoadCase& load : body.load_cases) layout.load_cases.push_back(load.name);
-    layout.load_case_offset.push_back(static_cast<int>(layout.load_cases.size()));
+    layout.load_case_offset.push_back(count_of(layout.load_cases));
   }
   add_modal_names(model, layout);
   for (const Joint& joint : model.joints) layout.joints.push_back(joint.name);

@@ -241,7 +241,7 @@ formats::SimulatedScene simulated_scene(const formats::Scene& scene, const BodyF
   for (const formats::BodySpec& spec : scene.bodies) {
     SimulatedBody body = std::visit([&](const auto& one) { return described(one, read); }, spec);
     body.name = std::visit([](const auto& one) { return one.name; }, spec);
-    index[body.name] = static_cast<int>(simulated.bodies.size());
+    index[body.name] = count_of(simulated.bodies);
     simulated.bodies.push_back(std::move(body));
   }
   std::map<std::string, SimulatedBody*> by_name;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "mechanism/solver/back_ends.hpp"
 
 namespace tisserand::mechanism {
@@ -32,7 +33,7 @@ ComplexSolver::~ComplexSolver() = default;
 
 FactorReport ComplexSolver::numeric(std::span<const std::complex<double>> values) {
   const SparsePattern& pattern = *engine_->pattern;
-  TISSERAND_ENSURE(static_cast<int>(values.size()) == pattern.values(), "{} values", values.size());
+  TISSERAND_ENSURE(count_of(values) == pattern.values(), "{} values", values.size());
   if (pattern.size() == 0) return {true, 1.0, -1, 1.0};
   const auto* numbers = reinterpret_cast<const double*>(values.data());
   const auto count = static_cast<Eigen::Index>(2 * values.size());
@@ -43,7 +44,7 @@ FactorReport ComplexSolver::numeric(std::span<const std::complex<double>> values
 
 void ComplexSolver::solve(std::span<std::complex<double>> right_hand_side) {
   const SparsePattern& pattern = *engine_->pattern;
-  TISSERAND_ENSURE(static_cast<int>(right_hand_side.size()) == pattern.size(), "{} rows", right_hand_side.size());
+  TISSERAND_ENSURE(count_of(right_hand_side) == pattern.size(), "{} rows", right_hand_side.size());
   if (pattern.size() == 0) return;
   engine_->solver->solve(reinterpret_cast<double*>(right_hand_side.data()));
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <new>
-#include <random>
 
 #include "common/error.hpp"
 #include "mechanism/solver/back_ends.hpp"

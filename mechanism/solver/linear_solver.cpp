@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "mechanism/solver/back_ends.hpp"
 
 namespace tisserand::mechanism {
@@ -182,7 +183,7 @@ LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 
 FactorReport LinearSolver::numeric(std::span<const double> values) {
   const SparsePattern& pattern = *engine_->pattern;
-  TISSERAND_ENSURE(static_cast<int>(values.size()) == pattern.values(), "{} values", values.size());
+  TISSERAND_ENSURE(count_of(values) == pattern.values(), "{} values", values.size());
   if (pattern.size() == 0) return {true, 1.0, -1, 1.0};
   // 0 if all are finite, else NaN.
   if ((0.0 * Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Eigen::Index>(values.size()))).sum() != 0.0)
@@ -192,7 +193,7 @@ FactorReport LinearSolver::numeric(std::span<const double> values) {
 
 void LinearSolver::solve(std::span<double> right_hand_side) {
   const int n = engine_->pattern->size();
-  TISSERAND_ENSURE(static_cast<int>(right_hand_side.size()) == n, "{} rows", right_hand_side.size());
+  TISSERAND_ENSURE(count_of(right_hand_side) == n, "{} rows", right_hand_side.size());
   if (n > 0) engine_->solve(right_hand_side.data());
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 
 namespace tisserand::mechanism {
 
@@ -16,7 +17,7 @@ SparsePattern::SparsePattern(int size, std::vector<Position> positions, Storage 
       std::unique(positions.begin(), positions.end(),
                   [](const Position& a, const Position& b) { return a.row == b.row && a.column == b.column; }),
       positions.end());
-  nonzeros_ = static_cast<int>(positions.size());
+  nonzeros_ = count_of(positions);
   column_start_.assign(static_cast<std::size_t>(size) + 1, 0);
   rows_.reserve(positions.size());
   for (const Position& p : positions) {

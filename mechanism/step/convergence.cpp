@@ -76,9 +76,9 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
   norms.force_ratio = norms.residual / allowed;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const auto& r = evaluation.superelements[i].forces.r_I;
-    for (Eigen::Index k = 0; k < r.size(); ++k)
+    for (int k = 0; k < r.size(); ++k)
       raise(norms.force_ratio, norms.worst_coordinate, std::abs(r[k]) * internal_ratio,
-            model.sizes.boundary + model.internal_offset[i] + static_cast<int>(k));
+            model.sizes.boundary + model.internal_offset[i] + k);
     raise(norms.force_ratio, norms.worst_coordinate, evaluation.superelements[i].motion.frame_error / frame_tolerance,
           model.superelements.maps[i].coordinates.front());
   }

@@ -2,7 +2,6 @@
 #include "mechanism/step/road_ahead.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace tisserand::mechanism {

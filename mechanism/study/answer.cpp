@@ -9,6 +9,7 @@
 #include <set>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "common/sha256.hpp"
 #include "common/text.hpp"
 #include "formats/scene/expand/tree.hpp"
@@ -98,7 +99,7 @@ std::vector<int> asked_quantities(const formats::Study& study, const std::string
 }
 
 std::vector<Cell> task_of(const StudyCells& plan, int task) {
-  if (task < 0 || task >= static_cast<int>(plan.cells.size()))
+  if (task < 0 || task >= count_of(plan.cells))
     throw Error(fmt::format("there is no setting {}", task), "--task",
                 fmt::format("take a number from 0 to {}", plan.cells.size() - 1));
   return {plan.cells[task]};

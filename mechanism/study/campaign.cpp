@@ -11,6 +11,7 @@
 
 #include "common/child.hpp"
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "common/parallel.hpp"
 #include "common/progress.hpp"
 #include "common/text.hpp"
@@ -122,7 +123,7 @@ void make_parts(const Campaign& campaign, const std::vector<const Cell*>& cells)
   std::atomic<std::size_t> next{0};
   Progress progress("reducing parts", static_cast<double>(parts.size()));
   std::mutex telling;
-  on_threads(static_cast<int>(std::min<std::size_t>(parts.size(), core_count())) + (parts.empty() ? 1 : 0), [&](int) {
+  on_threads(std::min(count_of(parts), core_count()) + (parts.empty() ? 1 : 0), [&](int) {
     for (std::size_t k = next++; k < parts.size() && !is_interrupted(campaign); k = next++) {
       reduce_part(*parts[k], campaign.control.interrupted);
       const std::lock_guard lock(telling);
@@ -185,7 +186,7 @@ std::vector<Series> histories_of(const Campaign& campaign, const Cell& cell) {
 
 MedianTime median_of(std::vector<double> seconds) {
   std::ranges::sort(seconds);
-  const int n = static_cast<int>(seconds.size());
+  const int n = count_of(seconds);
   if (n == 0) return {};
   // P(x_(k) <= median <= x_(n+1-k)) = 1 - 2 Σ_{i<k} C(n, i) / 2^n of any continuous distribution.
   double binomial = 1.0, tail = 0.0;
@@ -204,7 +205,7 @@ bool is_known(const formats::Study& study, const std::vector<RunRecord>& runs) {
   const RunRecord& last = runs.back();
   if (last.outcome == CellOutcome::over_budget) return study.run_budget > 0.0 && study.run_budget <= last.limit;
   if (last.outcome == CellOutcome::failed) return true;
-  const int count = static_cast<int>(runs.size());
+  const int count = count_of(runs);
   if (study.timing == formats::StudyTiming::together || count >= study.repeats) return true;
   if (count < fewest_repeats) return false;
   std::vector<double> seconds;
@@ -224,7 +225,7 @@ ReferenceHistories make_reference(Campaign& campaign, const std::vector<Cell>& r
     const std::string results = results_path(apart.folder, cell);
     if (!fs::exists(results) || !formats::ResultsReader(results).completed()) left.push_back(&cell);
   }
-  on_threads(std::max(1, static_cast<int>(left.size())), [&](int k) {
+  on_threads(std::max(1, count_of(left)), [&](int k) {
     if (left.empty()) return;
     RunRecord record;
     if (run_once(apart, *left[k], record) && record.outcome != CellOutcome::completed)

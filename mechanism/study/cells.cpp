@@ -2,7 +2,6 @@
 #include "mechanism/study/cells.hpp"
 
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <map>
 

@@ -9,13 +9,15 @@
 
 #include <fmt/format.h>
 
+#include "common/math/count.hpp"
+
 namespace tisserand::mechanism {
 namespace {
 
 int axis_of_lines(const formats::Study& study, int series) {
   const std::vector<formats::StudyAxis>& axes = study.series[series].axes;
   const auto found = std::ranges::find(axes, study.along, &formats::StudyAxis::name);
-  return found == axes.end() ? static_cast<int>(axes.size()) - 1 : static_cast<int>(found - axes.begin());
+  return found == axes.end() ? count_of(axes) - 1 : static_cast<int>(found - axes.begin());
 }
 
 }  // namespace
@@ -45,7 +47,7 @@ std::vector<StudyRow> rows_of(const formats::Study& study, const StudyCells& pla
       std::vector<double> seconds;
       for (const RunRecord& run : runs)
         if (run.outcome == last.outcome) seconds.push_back(run.cpu_seconds);
-      row.repeats = static_cast<int>(seconds.size());
+      row.repeats = count_of(seconds);
       row.time = median_of(std::move(seconds));
     }
     rows.push_back(std::move(row));

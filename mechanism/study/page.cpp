@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "common/text.hpp"
 #include "mechanism/histories/plot.hpp"
 
@@ -146,7 +147,7 @@ struct Book {
     for (const StudyLine& line : lines) {
       const std::vector<int>& index = rows[line.rows.front()].cell->index;
       const int first = line.axis == 0 ? 1 : 0;
-      const bool splits = lines.size() > most_lines && static_cast<int>(index.size()) > 2;
+      const bool splits = lines.size() > most_lines && count_of(index) > 2;
       groups[lines.size() > most_lines ? std::pair(line.series, splits ? index[first] : 0) : std::pair(0, 0)].push_back(
           &line);
     }
@@ -171,8 +172,7 @@ struct Book {
           const std::vector<int>& index = rows[line.rows.front()].cell->index;
           bool is_finest = true;
           for (int k = 0; k < std::ssize(index); ++k)
-            is_finest =
-                is_finest && (k == a || index[k] + 1 == static_cast<int>(study.series[s].axes[k].values.size()));
+            is_finest = is_finest && (k == a || index[k] + 1 == count_of(study.series[s].axes[k].values));
           if (is_finest) finest.push_back(std::move(line));
         }
       }

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "common/text.hpp"
 #include "mechanism/study/answer.hpp"
 #include "mechanism/study/cluster.hpp"
@@ -37,7 +38,7 @@ std::string perform_study(const StudyRequest& request, const StudyControl& contr
   }
   if (request.place == StudyPlace::slurm) {
     make_all_parts(campaign, plan.cells);
-    submit(campaign, static_cast<int>(plan.cells.size()));
+    submit(campaign, count_of(plan.cells));
     Journal collected(folder, "", measure_key(study, plan));
     const Campaign all{study, folder, collected, control};
     require_all_recorded(all, plan.cells);

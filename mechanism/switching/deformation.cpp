@@ -60,7 +60,7 @@ std::vector<int> welded_parts(const Model& model) {
   for (int i = 0; i < std::ssize(model.superelements); ++i)
     for (const int node : model.superelements[i].nodes) owner[node] = i;
   for (std::size_t i = part.size(); i < deforming_bodies(model); ++i) part.push_back(static_cast<int>(i));
-  const auto before = static_cast<int>(model.superelements.size());
+  const auto before = count_of(model.superelements);
   for (const ModalNode& node : model.modal_nodes) owner[node.node] = before + node.body;
   for (const Joint& joint : model.joints) {
     const int a = joint.a.node < 0 ? -1 : owner[joint.a.node], b = joint.b.node < 0 ? -1 : owner[joint.b.node];

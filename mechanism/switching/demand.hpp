@@ -21,7 +21,6 @@
 #pragma once
 
 #include <map>
-#include <string>
 #include <vector>
 
 #include "mechanism/build/effects.hpp"
@@ -51,9 +50,9 @@ class Demand {
   double modal_force() const;
   /// Largest elastic force of a body in this window.
   double force(std::size_t index) const { return bodies_[index].f; }
-  /// D of a use: the largest so far, with F of the latest sample. While the run goes on it is that by places alone where
-  /// F grows faster than in proportion to the time of the run, as at a start from rest: what matters beside it now may
-  /// be nothing beside what comes.
+  /// D of a use: the largest so far, with F of the latest sample. While the run goes on it is that by places alone
+  /// where F grows faster than in proportion to the time of the run, as at a start from rest: what matters beside it
+  /// now may be nothing beside what comes.
   double of(std::size_t use, bool ended) const;
   /// When D of a use was the largest.
   double time_of(std::size_t use) const { return judged_[use].time; }

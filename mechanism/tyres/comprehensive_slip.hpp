@@ -1,7 +1,6 @@
 // Force of a tyre in its contact patch by comprehensive slip: longitudinal slip, slip angle and camber together.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/math/dual.hpp"

@@ -27,7 +27,7 @@ double derivative_of_polynomial(const std::vector<double>& x, const Value& value
 /// Derivatives along a line of a grid, each run of finite values for itself; not-a-number at the others.
 template <class Value, class Store>
 void differentiate(const std::vector<double>& x, const Value& value, const Store& store) {
-  const int size = static_cast<int>(x.size());
+  const int size = count_of(x);
   for (int begin = 0, end = 0; begin < size; begin = end + 1) {
     for (end = begin; end < size && std::isfinite(value(end));) ++end;
     const int count = std::min(stencil, end - begin);
@@ -44,7 +44,7 @@ struct HermiteWeights {
   double value[2], slope[2], d_value[2], d_slope[2];
 
   HermiteWeights(const std::vector<double>& axis, double at) {
-    const int last = static_cast<int>(axis.size()) - 2;
+    const int last = count_of(axis) - 2;
     first = std::clamp(static_cast<int>(std::ranges::upper_bound(axis, at) - axis.begin()) - 1, 0, last);
     const double begin = axis[first], end = axis[first + 1], h = end - begin, x = (at - begin) / h;
     if (!(x >= 0.0) || x > 1.0) {
@@ -72,7 +72,7 @@ struct HermiteWeights {
 
 HeightGrid::HeightGrid(const formats::RoadHeights& heights)
     : along_(heights.along), across_(heights.across), nodes_(along_.size() * across_.size()) {
-  const int rows = static_cast<int>(along_.size()), columns = width();
+  const int rows = count_of(along_), columns = width();
   const auto at = [&](int i, int k) -> Node& { return nodes_[i * columns + k]; };
   for (int i = 0; i < rows; ++i)
     for (int k = 0; k < columns; ++k) at(i, k).z = heights.height(i, k);
@@ -89,7 +89,7 @@ HeightGrid::HeightGrid(const formats::RoadHeights& heights)
 }
 
 void HeightGrid::fill_holes() {
-  const int rows = static_cast<int>(along_.size()), columns = width();
+  const int rows = count_of(along_), columns = width();
   missing_.resize(nodes_.size());
   for (std::size_t n = 0; n < nodes_.size(); ++n)
     if (!std::isfinite(nodes_[n].z)) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/math/count.hpp"
 #include "formats/roads/road_heights.hpp"
 
 namespace tisserand::mechanism {
@@ -35,7 +36,7 @@ class HeightGrid {
   struct Node {
     double z = 0.0, by_s = 0.0, by_t = 0.0, by_st = 0.0;
   };
-  int width() const { return static_cast<int>(across_.size()); }
+  int width() const { return count_of(across_); }
   /// Holes get the height of the next point beside them, else of the next row, and no slopes.
   void fill_holes();
 

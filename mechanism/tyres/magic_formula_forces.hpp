@@ -2,7 +2,6 @@
 // (4.E67); readings, axes and signs as in magic_formula.hpp.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/math/dual.hpp"

@@ -45,7 +45,7 @@ ReferenceLine::ReferenceLine(const Eigen::Matrix2Xd& points, double u_begin, dou
 }
 
 void ReferenceLine::build(int box, int first, int end) {
-  if (box >= static_cast<int>(boxes_.size())) boxes_.resize(box + 1);
+  if (box >= count_of(boxes_)) boxes_.resize(box + 1);
   for (int i = first; i < end; ++i) boxes_[box].extend(points_[i]);
   if (end - first <= points_of_leaf) return;
   const int middle = (first + end) / 2;

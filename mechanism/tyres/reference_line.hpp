@@ -6,6 +6,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "common/math/count.hpp"
+
 namespace tisserand::mechanism {
 
 /// A point of the plane along the line (u) and to its left (v), with gradients in x and y.
@@ -39,7 +41,7 @@ class ReferenceLine {
     double distance;  ///< squared
     int point;
   };
-  int last() const { return static_cast<int>(points_.size()) - 1; }
+  int last() const { return count_of(points_) - 1; }
   At at(double u) const;
   void build(int box, int first, int end);
   void search(int box, int first, int end, const Eigen::Vector2d& p, Nearest& nearest) const;

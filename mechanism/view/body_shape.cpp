@@ -87,7 +87,7 @@ BodyShape nodes_of_body(const ViewedRun& run, const ViewedBody& body) {
   }
   shape.stations = nodes;
   shape.surface.lines = least_tree(shape.surface.vertices);
-  shape.all_vertices = static_cast<int>(all.size());
+  shape.all_vertices = count_of(all);
   return shape;
 }
 
@@ -112,9 +112,9 @@ BodyShape ball_of_inertia(const ViewedRun& run, const ViewedBody& body) {
 }
 
 /// Stored nodes 0, 1, ... of a beam, each with its number; empty unless all turn.
-std::vector<std::pair<int, int>> stations_of(const ViewedRun& run, const ViewedBody& body, std::size_t all) {
+std::vector<std::pair<int, int>> stations_of(const ViewedRun& run, const ViewedBody& body, int all) {
   std::map<std::string, int> numbers;
-  for (std::size_t i = 0; i < all; ++i) numbers[fmt::format("{}/{}", body.name, i)] = static_cast<int>(i);
+  for (int i = 0; i < all; ++i) numbers[fmt::format("{}/{}", body.name, i)] = i;
   std::vector<std::pair<int, int>> stations;  // number in the mesh, stored node
   for (const int node : body.nodes) {
     const auto found = numbers.find(run.layout().nodes[node]);
@@ -130,7 +130,7 @@ std::vector<std::pair<int, int>> stations_of(const ViewedRun& run, const ViewedB
 /// nine coordinates per station, of which the deformation is linear.
 BodyShape swept_section(const ViewedRun& run, const ViewedBody& body, const formats::BeamBodySpec& spec) {
   const BeamMesh mesh = mesh_beam(spec, 0);
-  const auto stations = stations_of(run, body, mesh.position.size());
+  const auto stations = stations_of(run, body, count_of(mesh.position));
   if (stations.size() < 2) return nodes_of_body(run, body);
   const Outline outline = outline_of(spec.section, 0.01 * mesh.length);
   const Index corners = static_cast<Index>(outline.size()), count = static_cast<Index>(stations.size());

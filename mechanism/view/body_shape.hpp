@@ -1,9 +1,7 @@
 // What is drawn of a body, in the axes of its frame, and how it deforms.
 #pragma once
 
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "formats/page/deformation.hpp"

@@ -6,6 +6,7 @@
 #include <set>
 #include <string_view>
 
+#include "common/math/count.hpp"
 #include "common/stable_sort.hpp"
 #include "common/text.hpp"
 
@@ -39,10 +40,13 @@ std::vector<Dataset> datasets_of(const formats::ResultsReader& reader) {
 
 /// What people look at first.
 std::size_t rank_of(const std::string& dataset) {
-  constexpr std::array<std::string_view, 13> first{"channels",       "energy",         "solver",         "joints/coordinate",
-                                                   "motions",        "couplings",      "joints",
-                                                   "nodes/position", "forces",         "superelements/boundary_force",
-                                                   "nodes/rotation", "nodes/velocity", "superelements"};
+  constexpr std::array<std::string_view, 13> first{"channels",       "energy",
+                                                   "solver",         "joints/coordinate",
+                                                   "motions",        "couplings",
+                                                   "joints",         "nodes/position",
+                                                   "forces",         "superelements/boundary_force",
+                                                   "nodes/rotation", "nodes/velocity",
+                                                   "superelements"};
   const auto found = std::ranges::find_if(first, [&](std::string_view begin) { return dataset.starts_with(begin); });
   return static_cast<std::size_t>(found - first.begin());
 }
@@ -94,7 +98,7 @@ PageChannels add_channels(const ViewedRun& run, const std::vector<std::string>& 
       if (values.size() == 0) values = run.reader->read_dataset(dataset.name, run.rows);
       if (group_of(channel.name) != group) blocks.next();
       group = group_of(channel.name);
-      page.index[channel.name] = static_cast<int>(page.list.size());
+      page.index[channel.name] = count_of(page.list);
       page.list.push_back({{"path", channel.name},
                            {"unit", channel.unit},
                            {"values", blocks.add_floats(PageRows(values.col(static_cast<Eigen::Index>(c))),

@@ -23,7 +23,7 @@ using formats::Recovery;
 std::string content_id_of(const ViewedRun& run, const ViewedBody& body) {
   if (!body.file.content_id.empty()) return body.file.content_id;
   const auto& ids = run.layout().superelement_content_ids;
-  return body.superelement >= 0 && body.superelement < static_cast<int>(ids.size()) ? ids[body.superelement] : "";
+  return body.superelement >= 0 && body.superelement < count_of(ids) ? ids[body.superelement] : "";
 }
 
 /// A recovery file and the mirror image of it that a body is.

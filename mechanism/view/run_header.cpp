@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <optional>
 
 #include "common/text.hpp"
 #include "formats/page/header_parts.hpp"

@@ -30,8 +30,8 @@ Track wheel_of(const ViewedRun& run, const SimulatedLink& tyre) {
   return carried(run.nodes[wheel.node], wheel.position, wheel.orientation);
 }
 
-/// A ring about y: outer face, inner face and both sides. It lies a little outside of the circle, so that a wheel that is
-/// drawn with the same radius is inside.
+/// A ring about y: outer face, inner face and both sides. It lies a little outside of the circle, so that a wheel that
+/// is drawn with the same radius is inside.
 Surface ring(double radius) {
   Surface surface;
   const double outer = larger * radius / std::cos(std::numbers::pi / spokes);
@@ -94,7 +94,7 @@ Surface strip(const Road& road, const Eigen::AlignedBox2d& box, double radius) {
   const StripStations at = stations_of(road, box, radius);
   Surface surface;
   std::vector<bool> there;
-  const int width = static_cast<int>(at.across.size());
+  const int width = count_of(at.across);
   for (std::size_t i = 0; i < at.along.size(); ++i)
     for (int k = 0; k < width; ++k) {
       const auto [point, is_there] = strip_point(road, at.along[i], at.across[k]);

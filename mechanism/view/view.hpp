@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "mechanism/histories/series.hpp"
 #include "mechanism/view/run_header.hpp"

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "common/text.hpp"
 
 namespace tisserand::mechanism {
@@ -47,7 +48,7 @@ void name_bodies(ViewedRun& run) {
   std::map<std::string, int> index;
   for (const std::string& node : run.layout().nodes) {
     const std::string name = node.substr(0, node.rfind('/'));
-    if (index.emplace(name, static_cast<int>(run.bodies.size())).second) {
+    if (index.emplace(name, count_of(run.bodies)).second) {
       run.bodies.emplace_back();
       run.bodies.back().name = name;
       run.bodies.back().kind = "unknown";
@@ -159,7 +160,7 @@ void drop_unseen(ViewedRun& run) {
       unseen.push_back(run.bodies[i].name);
       continue;
     }
-    number[i] = static_cast<int>(seen.size());
+    number[i] = count_of(seen);
     seen.push_back(std::move(run.bodies[i]));
   }
   run.bodies = std::move(seen);

@@ -11,6 +11,7 @@
 #include <slepcsys.h>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "common/memory/short_memory.hpp"
 #include "reducer/algebra/ranks.hpp"
 
@@ -51,7 +52,7 @@ SolverSession::SolverSession() {
   std::array<std::string, 5> words{"reducer", "-skip_petscrc", "-no_signal_handler", "-options_left", "no"};
   std::array<char*, 6> arguments{};
   for (std::size_t i = 0; i < words.size(); ++i) arguments[i] = words[i].data();
-  int count = static_cast<int>(words.size());
+  int count = count_of(words);
   char** begin = arguments.data();
   if (SlepcInitialize(&count, &begin, nullptr, nullptr) != 0)
     throw Error("PETSc and SLEPc do not start", "reducer", "check the installation of MPI, PETSc and SLEPc");

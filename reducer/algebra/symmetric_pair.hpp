@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "common/math/count.hpp"
 #include "reducer/algebra/petsc.hpp"
 
 namespace tisserand::reducer {
@@ -14,7 +15,7 @@ struct SymmetricPair {
   std::vector<double> S;
   std::vector<double> M;
 
-  int size() const { return static_cast<int>(begin.size()) - 1; }
+  int size() const { return count_of(begin) - 1; }
 };
 
 /// The matrix with the pattern of `pair` and the values S or M of it.

@@ -62,7 +62,7 @@ void find_faulty(const Mesh& mesh, const std::vector<Element>& elements, int fir
 }  // namespace
 
 std::vector<int> faulty_elements(const Mesh& mesh) {
-  const int beams = static_cast<int>(mesh.beams.size()), shells = static_cast<int>(mesh.shells.size());
+  const int beams = count_of(mesh.beams), shells = count_of(mesh.shells);
   std::vector<int> faulty;
   find_faulty(mesh, mesh.beams, 0, faulty);
   find_faulty(mesh, mesh.shells, beams, faulty);

@@ -10,6 +10,7 @@
 #include <Eigen/QR>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "formats/superelement/scaling.hpp"
 
 namespace tisserand::reducer::exchange {
@@ -110,7 +111,7 @@ ElasticModes elastic_modes(const formats::Superelement& element, const std::stri
 }
 
 std::string mbdyn_text(const formats::Superelement& element, const std::string& where) {
-  const auto nodes = static_cast<int>(element.node_name.size());
+  const auto nodes = count_of(element.node_name);
   std::vector<std::array<Eigen::Index, 6>> rows;
   for (int b = 0; b < nodes; ++b) rows.push_back(rows_of_node(element, b, where));
   const ElasticModes modes = elastic_modes(element, where);

@@ -2,7 +2,6 @@
 #include "reducer/faces/outward.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <map>
 #include <utility>

@@ -47,7 +47,7 @@ void element_field(const auto& elements, const MotionSource& shapes, const forma
     std::vector<int> nodes, begin{0};
     for (int e = first; e < first + count; ++e) {
       for (const int node : nodes_of(elements[e])) nodes.push_back(node);
-      begin.push_back(static_cast<int>(nodes.size()));
+      begin.push_back(count_of(nodes));
     }
     const MatrixXd motion = shapes.motions(nodes);
     MatrixXd rows(static_cast<Index>(width) * count, motion.cols());
@@ -78,7 +78,7 @@ struct PointTable {
 };
 
 PointTable point_table(const Mesh& mesh, const formats::Recovery& tables) {
-  const int points = tables.stress_points(), beside = static_cast<int>(mesh.beams.size() + mesh.shells.size());
+  const int points = tables.stress_points(), beside = count_of(mesh.beams) + count_of(mesh.shells);
   std::vector<int> of_node(static_cast<std::size_t>(mesh.nodes()) + 1, 0);
   for (const int node : tables.stress_node) ++of_node[node + 1];
   std::partial_sum(of_node.begin(), of_node.end(), of_node.begin());
@@ -93,7 +93,7 @@ PointTable point_table(const Mesh& mesh, const formats::Recovery& tables) {
       table.point.push_back(point);
       ++table.around[point + 1];
     }
-    table.first.push_back(static_cast<int>(table.point.size()));
+    table.first.push_back(count_of(table.point));
   }
   std::partial_sum(table.around.begin(), table.around.end(), table.around.begin());
   table.solid.resize(table.point.size());

@@ -136,7 +136,7 @@ std::vector<Meeting> outer_faces(const Mesh& mesh) {
 
 Surface surface(const Mesh& mesh) {
   SurfaceBuilder builder(mesh);
-  const int beams = static_cast<int>(mesh.beams.size()), shells = static_cast<int>(mesh.shells.size());
+  const int beams = count_of(mesh.beams), shells = count_of(mesh.shells);
   for (int s = 0; s < shells; ++s) {
     const ShellElement& shell = mesh.shells[s];
     if (shell.corners() == 3)

@@ -48,7 +48,7 @@ class ElementTable {
     elements_.group.push_back(group);
     elements_.id.push_back(id);
     elements_.node.insert(elements_.node.end(), nodes, nodes + formats::node_count(shape));
-    elements_.first.push_back(static_cast<int>(elements_.node.size()));
+    elements_.first.push_back(count_of(elements_.node));
   }
 
  private:
@@ -230,8 +230,8 @@ Recovery mesh_tables(const Mesh& mesh) {
   for (const BeamProperty& property : mesh.beam_properties) r.group_name.push_back(property.name);
   for (const ShellProperty& property : mesh.shell_properties) r.group_name.push_back(property.name);
   for (const SolidProperty& property : mesh.solid_properties) r.group_name.push_back(property.name);
-  const int shell_groups = static_cast<int>(mesh.beam_properties.size());
-  const int solid_groups = shell_groups + static_cast<int>(mesh.shell_properties.size());
+  const int shell_groups = count_of(mesh.beam_properties);
+  const int solid_groups = shell_groups + count_of(mesh.shell_properties);
   ElementTable table(r.elements);
   add_beams(mesh, table, r);
   add_shells(mesh, shell_groups, table);
@@ -279,7 +279,7 @@ RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eig
   Recovery head = head_of(body, [&](const Eigen::Vector3d& axes) {
     return formats::mirrored(formats::LoadedModalBody{body, {}}, axes).body;
   });
-  for (int k = 0; k < static_cast<int>(q.cols()); ++k) {
+  for (int k = 0; k < q.cols(); ++k) {
     head.dof_node.push_back(-1);
     head.dof_component.push_back(k);
   }

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <new>
 
 #include "common/confined/call_filter.hpp"
 #include "reducer/mesher/parcel.hpp"
@@ -124,15 +123,15 @@ void allow_harmless(CallFilter& filter) {
 #endif
 }
 
-/// What no geometry does by accident: the process ends, and its parent says why. Of gmsh's language only `Sleep` sleeps.
-/// Sockets are not among them: the C
-/// library asks for names of users through one, which OpenCASCADE wants to know for IGES.
+/// What no geometry does by accident: the process ends, and its parent says why. Of gmsh's language only `Sleep`
+/// sleeps. Sockets are not among them: the C library asks for names of users through one, which OpenCASCADE wants to
+/// know for IGES.
 void kill_harmful(CallFilter& filter) {
   using enum CallFilter::Action;
-  filter.add(kill_process, {SYS_execve, SYS_execveat, SYS_mkdirat, SYS_unlinkat, SYS_renameat, SYS_renameat2,
-                            SYS_linkat, SYS_symlinkat, SYS_truncate, SYS_ftruncate, SYS_fchmod, SYS_fchmodat,
-                            SYS_fchown, SYS_fchownat, SYS_mknodat, SYS_ptrace, SYS_kill,
-                            SYS_nanosleep, SYS_clock_nanosleep});
+  filter.add(kill_process,
+             {SYS_execve, SYS_execveat, SYS_mkdirat, SYS_unlinkat, SYS_renameat, SYS_renameat2, SYS_linkat,
+              SYS_symlinkat, SYS_truncate, SYS_ftruncate, SYS_fchmod, SYS_fchmodat, SYS_fchown, SYS_fchownat,
+              SYS_mknodat, SYS_ptrace, SYS_kill, SYS_nanosleep, SYS_clock_nanosleep});
 #if defined(__x86_64__)
   filter.add(kill_process, {SYS_fork, SYS_vfork, SYS_mkdir, SYS_rmdir, SYS_unlink, SYS_rename, SYS_link, SYS_symlink,
                             SYS_chmod, SYS_chown, SYS_lchown, SYS_mknod});

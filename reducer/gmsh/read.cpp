@@ -14,6 +14,7 @@
 #include <gmsh.h>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "reducer/gmsh/curved.hpp"
 #include "reducer/gmsh/geometry.hpp"
 #include "reducer/gmsh/session.hpp"
@@ -130,7 +131,8 @@ void generate(const GeometryRequest& request, std::vector<std::string>& warnings
   const int dimension = std::min(request.dimension, gmsh::model::getDimension());
   gmsh::vectorpair entities;
   gmsh::model::getEntities(entities, dimension);
-  if (entities.empty() || dimension < 1) throw Error("the geometry has no edges, faces or volumes", file, open_with_gmsh);
+  if (entities.empty() || dimension < 1)
+    throw Error("the geometry has no edges, faces or volumes", file, open_with_gmsh);
   const bool meshed = std::ranges::all_of(entities, [](const auto& e) { return has_cells(e.first, e.second); });
   if (!meshed) {
     check_size(request, dimension, entities);
@@ -156,7 +158,7 @@ class NodeTable {
     mesh.node_id.reserve(tags.size());
     row_.reserve(tags.size());
     for (std::size_t i = 0; i < tags.size(); ++i) {
-      if (!row_.emplace(tags[i], static_cast<int>(mesh.position.size())).second) continue;
+      if (!row_.emplace(tags[i], count_of(mesh.position)).second) continue;
       mesh.position.push_back(scale *
                               Eigen::Vector3d(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]));
       mesh.node_id.push_back(static_cast<long>(tags[i]));
@@ -198,7 +200,7 @@ class Reader {
     std::vector<std::vector<std::size_t>> ids, nodes;
     gmsh::model::mesh::getElements(types, ids, nodes, dimension, tag);
     for (std::size_t t = 0; t < types.size(); ++t) read_cells(entity, types[t], ids[t], nodes[t]);
-    row_of_[{dimension, tag}] = static_cast<int>(mesh_.entities.size());
+    row_of_[{dimension, tag}] = count_of(mesh_.entities);
     mesh_.entities.push_back(entity);
   }
 

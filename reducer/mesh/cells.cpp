@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "common/math/count.hpp"
+
 namespace tisserand::reducer {
 namespace {
 
@@ -70,7 +72,7 @@ Eigen::Vector3d middle_of(const Cell& cell, const Points& position) {
   const std::span<const int> corners = corners_of(cell);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const int node : corners) sum += position[node];
-  return sum / static_cast<int>(corners.size());
+  return sum / count_of(corners);
 }
 
 FaceKey face_key(std::span<const int> corners) {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "common/math/count.hpp"
 #include "reducer/mesh/mesh.hpp"
 
 namespace tisserand::reducer {
@@ -18,7 +19,7 @@ struct Coordinates {
   std::vector<int> node;       ///< of each coordinate
   std::vector<int> component;  ///< of each coordinate, 0-5
 
-  int count() const { return static_cast<int>(node.size()); }
+  int count() const { return count_of(node); }
   bool rotates(int n) const { return first[n + 1] - first[n] == 6; }
   /// Number of a node's coordinate; only if it has that component.
   int of(int n, int c) const { return first[n] + c; }

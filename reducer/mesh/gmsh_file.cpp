@@ -75,7 +75,7 @@ std::vector<MshEntity> entities_of(const std::vector<Batch>& batches, Groups& gr
   std::array<int, 4> count{};
   for (const Batch& batch : batches) {
     if (batch.nodes.empty()) continue;
-    const int next = static_cast<int>(groups.size()) + 1;
+    const int next = count_of(groups) + 1;
     const int group = groups.emplace(std::pair{batch.dimension, batch.name}, next).first->second;
     entities.push_back({&batch, ++count[batch.dimension], group});
   }

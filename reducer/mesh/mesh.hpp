@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include "common/math/count.hpp"
 #include "formats/part/part.hpp"
 #include "reducer/mesh/loads.hpp"
 #include "reducer/properties/beam_data.hpp"
@@ -167,14 +168,14 @@ struct Mesh {
   std::vector<std::string> warnings;  ///< of the way in: to be told and kept in the certificate
 
   int nodes() const { return static_cast<int>(position.cols()); }
-  int elements() const { return static_cast<int>(beams.size() + shells.size() + solids.size() + springs.size()); }
+  int elements() const { return count_of(beams) + count_of(shells) + count_of(solids) + count_of(springs); }
 };
 
 /// Appends a row and returns its number.
 template <class Row>
 int add_row(std::vector<Row>& rows, std::type_identity_t<Row> row) {
   rows.push_back(std::move(row));
-  return static_cast<int>(rows.size()) - 1;
+  return count_of(rows) - 1;
 }
 
 /// Normal of a shell, as long as twice its area.

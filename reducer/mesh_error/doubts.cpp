@@ -29,7 +29,7 @@ struct DoubtLimits {
 };
 
 DoubtLimits limits_of(const Mesh& mesh, int element) {
-  const int shells = static_cast<int>(mesh.shells.size());
+  const int shells = count_of(mesh.shells);
   if (element < shells) return {3.0, mesh.shells[element].corners() == 3 ? 0.42 : 0.55};
   switch (mesh.solids[element - shells].shape) {
     case SolidShape::tetrahedron4:
@@ -92,22 +92,21 @@ VectorXd traction_energy(const Mesh& mesh, const SolidElement& solid, const std:
 }  // namespace
 
 const char* explain(MeshDoubt doubt) {
-  constexpr const char* texts[] = {
-      "",
-      "errors above 50 % mix the modes",
-      "smoothed stresses do not vanish at free faces, there are too few elements across",
-      "stresses scatter from element to element, there are too few elements per wave",
-      "errors of opposite sign cancel",
-      "a curve turns by more than 25 degrees from element to element",
-      "there are fewer than three elements between folds",
-      "doubly curved shells turn by more than 1.5 degrees from element to element"};
+  constexpr const char* texts[] = {"",
+                                   "errors above 50 % mix the modes",
+                                   "smoothed stresses do not vanish at free faces, there are too few elements across",
+                                   "stresses scatter from element to element, there are too few elements per wave",
+                                   "errors of opposite sign cancel",
+                                   "a curve turns by more than 25 degrees from element to element",
+                                   "there are fewer than three elements between folds",
+                                   "doubly curved shells turn by more than 1.5 degrees from element to element"};
   static_assert(std::size(texts) == static_cast<std::size_t>(MeshDoubt::double_curvature) + 1);
   return texts[static_cast<std::size_t>(doubt)];
 }
 
 MeshMeasures mesh_measures(const Mesh& mesh, const MatrixXd& motion, const VectorXd& lambda) {
-  const int shells = static_cast<int>(mesh.shells.size()), count = shells + static_cast<int>(mesh.solids.size());
-  const int modes = static_cast<int>(lambda.size());
+  const int shells = count_of(mesh.shells), count = shells + count_of(mesh.solids);
+  const int modes = count_of(lambda);
   const SmoothStress smooth(mesh, motion);
   const auto faces = free_faces(mesh);
   const MatrixXd none = MatrixXd::Zero(count, modes);
@@ -145,7 +144,7 @@ MeshDoubts mesh_doubts(const Mesh& mesh, const MeshMeasures& measures, const Vec
   constexpr double turned_size = 0.1;                   ///< a cylinder of 8 to 12 shells around errs by 6 to 20 %
   constexpr double few_turned = 0.1, few_folded = 0.2;  // shares of the strain energy
   const Index modes = lambda.size();
-  const int shells = static_cast<int>(mesh.shells.size()), count = static_cast<int>(measures.error.rows());
+  const int shells = count_of(mesh.shells), count = static_cast<int>(measures.error.rows());
   const std::vector<ShellForm> forms = shell_forms(mesh);
   Eigen::MatrixXd at_node = MatrixXd::Zero(mesh.nodes(), modes);
   VectorXd traction = VectorXd::Zero(modes), scatter = traction, turned = traction, folded = traction,

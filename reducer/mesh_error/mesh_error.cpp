@@ -29,7 +29,7 @@ MatrixXd motions(const Mesh& mesh, const System& system, const MatrixXd& q) {
 
 MatrixXd beam_errors(const Mesh& mesh, const MatrixXd& motion, const VectorXd& lambda) {
   MatrixXd errors(static_cast<Eigen::Index>(mesh.beams.size()), lambda.size());
-  const int count = static_cast<int>(mesh.beams.size());
+  const int count = count_of(mesh.beams);
   on_threads(core_count(), [&](int t) {
     const Share share = share_of(count, t, core_count());
     for (int e = share.first; e < share.end; ++e) {
@@ -54,8 +54,8 @@ Properties by_property(const Mesh& mesh, const MatrixXd& errors) {
   for (const ShellProperty& p : mesh.shell_properties) result.name.push_back(p.name);
   for (const SolidProperty& p : mesh.solid_properties) result.name.push_back(p.name);
   result.error = MatrixXd::Zero(static_cast<Eigen::Index>(result.name.size()), errors.cols());
-  const int shells = static_cast<int>(mesh.beam_properties.size());
-  const int solids = shells + static_cast<int>(mesh.shell_properties.size());
+  const int shells = count_of(mesh.beam_properties);
+  const int solids = shells + count_of(mesh.shell_properties);
   Eigen::Index row = 0;
   for (const BeamElement& beam : mesh.beams) result.error.row(beam.property) += errors.row(row++);
   for (const ShellElement& shell : mesh.shells) result.error.row(shells + shell.property) += errors.row(row++);

@@ -20,7 +20,7 @@ struct Corner {
   int corner = 0;
 };
 
-int shells(const Mesh& mesh) { return static_cast<int>(mesh.shells.size()); }
+int shells(const Mesh& mesh) { return count_of(mesh.shells); }
 
 double angle_of(const Mesh& mesh, const Corner& c) {
   return c.element < shells(mesh) ? angle_at_corner(mesh, mesh.shells[c.element], c.corner)
@@ -30,7 +30,7 @@ double angle_of(const Mesh& mesh, const Corner& c) {
 /// Corners at each node.
 std::vector<std::vector<Corner>> corners_at_nodes(const Mesh& mesh) {
   std::vector<std::vector<Corner>> at(static_cast<std::size_t>(mesh.nodes()));
-  const int elements = shells(mesh) + static_cast<int>(mesh.solids.size());
+  const int elements = shells(mesh) + count_of(mesh.solids);
   for (int e = 0; e < elements; ++e)
     for (int c = 0; c < corners_of(mesh, e); ++c) at[corner_node(mesh, e, c)].push_back({e, c});
   return at;
@@ -84,7 +84,7 @@ class Groups {
 Groups groups_at(const Mesh& mesh, const Eigen::Matrix3Xd& normal, const std::vector<Corner>& corners,
                  std::vector<ShellEdges>& ending) {
   Groups groups(corners.size());
-  const int count = static_cast<int>(corners.size()), border = shells(mesh);
+  const int count = count_of(corners), border = shells(mesh);
   const auto shares_edge = [&](const Corner& c, int node) {
     if (c.element >= border) return false;
     const auto ends = beside(mesh.shells[c.element], c.corner);
@@ -121,7 +121,7 @@ void make_patches(const Mesh& mesh, StressPatches& all) {
     for (int i = 0; i < std::ssize(corners); ++i) {
       int& patch = patch_of[groups.of(i)];
       if (patch < 0) {
-        patch = static_cast<int>(all.patch.size());
+        patch = count_of(all.patch);
         all.patch.emplace_back().node = node;
       }
       all.patch[patch].elements.push_back(corners[i].element);
@@ -182,7 +182,7 @@ int corner_node(const Mesh& mesh, int element, int corner) {
 
 StressPatches stress_patches(const Mesh& mesh) {
   StressPatches all;
-  const int elements = shells(mesh) + static_cast<int>(mesh.solids.size());
+  const int elements = shells(mesh) + count_of(mesh.solids);
   all.first.push_back(0);
   for (int e = 0; e < elements; ++e) all.first.push_back(all.first.back() + corners_of(mesh, e));
   all.ending.assign(mesh.shells.size(), {true, true, true, true});

@@ -157,8 +157,8 @@ MatrixXd motion_of(const SolidElement& solid, const MatrixXd& motion) {
 
 SmoothStress::SmoothStress(const Mesh& mesh, const MatrixXd& motion)
     : mesh_(mesh), modes_(motion.cols()), patches_(stress_patches(mesh)), surround_(surroundings(mesh, patches_)) {
-  const int shells = static_cast<int>(mesh.shells.size()), elements = shells + static_cast<int>(mesh.solids.size());
-  const int threads = core_count(), patches = static_cast<int>(patches_.patch.size());
+  const int shells = count_of(mesh.shells), elements = shells + count_of(mesh.solids);
+  const int threads = core_count(), patches = count_of(patches_.patch);
   axes_.resize(mesh.shells.size());
   place_.resize(static_cast<std::size_t>(elements));
   sample_.resize(place_.size());
@@ -186,7 +186,7 @@ SmoothStress::SmoothStress(const Mesh& mesh, const MatrixXd& motion)
 }
 
 SmoothStress::Polynomial SmoothStress::fit(const StressPatch& patch) const {
-  const int shells = static_cast<int>(mesh_.shells.size());
+  const int shells = count_of(mesh_.shells);
   const bool shell = patch.elements.front() < shells;
   bool quadratic = false;
   Index samples = 0, nodes = 0;
@@ -264,7 +264,7 @@ MatrixXd SmoothStress::of_shell(int shell) const {
 
 MatrixXd SmoothStress::of_solid(int solid) const {
   const SolidElement& element = mesh_.solids[solid];
-  const int e = static_cast<int>(mesh_.shells.size()) + solid, corners = corner_count(element.shape);
+  const int e = count_of(mesh_.shells) + solid, corners = corner_count(element.shape);
   const auto patch = [&](int corner) { return patches_.of_corner[patches_.first[e] + corner]; };
   MatrixXd result(6 * node_count(element.shape), modes_);
   for (int k = 0; k < node_count(element.shape); ++k) {
@@ -289,7 +289,7 @@ MatrixXd SmoothStress::samples(int element) const {
 
 MatrixXd SmoothStress::scatter(int element) const {
   MatrixXd gap = -samples(element);
-  const int shells = static_cast<int>(mesh_.shells.size()), corners = corners_of(mesh_, element);
+  const int shells = count_of(mesh_.shells), corners = corners_of(mesh_, element);
   const MatrixXd at_corners = element < shells ? of_shell(element) : MatrixXd();
   for (Index q = 0; q < place_[element].cols(); ++q)
     for (int i = 0; i < corners; ++i) {

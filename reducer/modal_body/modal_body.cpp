@@ -139,7 +139,7 @@ LumpedModes free_modes(const Mesh& mesh, const System& system, const formats::Mo
   if (!pairs)
     throw Error("modal_body: some rigid motion of the lumped masses moves no mass, which leaves the mean axis open",
                 body.where, "hold six components, or give the part inertia about every axis");
-  if (pairs->value.size() < body.modes) fail_for_modes(body.modes, static_cast<int>(pairs->value.size()), body.where);
+  if (pairs->value.size() < body.modes) fail_for_modes(body.modes, count_of(pairs->value), body.where);
   LumpedModes modes{pairs->value, pairs->vector, pairs->solver.text};
   const Partition p = held_partition(mesh, system);
   const Factor none;

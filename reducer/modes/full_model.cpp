@@ -51,8 +51,8 @@ std::optional<FreeModes> full_free_modes(const System& system, const FreeSearch&
   const SystemMatrices matrices = to_petsc(system.matrices);
   const int rigid_motions = sought.rigid_motions, most = rigid_motions + sought.count;
   const bool is_dense = choose_solver(system.size(), most, asked) == EigenSolver::lapack;
-  const int available = !is_dense && most + sought_beyond <= sought.finite ? static_cast<int>(system.size())
-                                                                           : finite_mode_count(matrices.mass);
+  const int available =
+      !is_dense && most + sought_beyond <= sought.finite ? count_of(system) : finite_mode_count(matrices.mass);
   const int wanted = std::min(available, most);
   if (wanted <= rigid_motions) return FreeModes{};
   // As far below the rigid motions as the first mode above: a solution errs by ε λ_max/(λ − shift), 7e-8 for bricks

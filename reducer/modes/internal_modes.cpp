@@ -190,7 +190,7 @@ int moments_for(const InternalProblem& problem, const BoundaryModes& boundary, c
   const double dropped = least_dropped(all, kept, c.available), lambda = eigenvalue_of(accuracy.up_to);
   const double coupled = first_coupled(boundary, c, kept, lambda);
   const RitzSpace& space = moments.space;
-  const int count = fewest(0, static_cast<int>(space.size()), [&](int p) {
+  const int count = fewest(0, count_of(space), [&](int p) {
     const LeftOut out = space.left_out(space.values(p), G, dropped);
     return attached_error({boundary.S, boundary.M, value, L}, out, coupled, lambda) <= accuracy.error;
   });

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/math/count.hpp"
 #include "formats/part/part.hpp"
 #include "formats/superelement/superelement.hpp"
 #include "reducer/modes/boundary_modes.hpp"
@@ -31,7 +32,7 @@ struct InternalModes {
   std::optional<int> counted;  ///< of the modes kept, by inertia: all of them, or not counted
   std::vector<int> pins;       ///< internal coordinates, one of each mechanism: its motions come first, λ = 0
 
-  int loose() const { return static_cast<int>(pins.size()); }
+  int loose() const { return count_of(pins); }
 };
 
 /// What the internal modes are computed from.

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "reducer/modes/spectrum.hpp"
 
 namespace tisserand::reducer {
@@ -130,7 +131,7 @@ std::pair<EigenPairs, int> lowest_factors(const Side& side, int count) {
     eps.solve(EigenSolver::krylov_schur, missing, pairs.vector);  // equal ones hide from one Krylov sequence
     merge(eps.pairs(std::numeric_limits<int>::max()), side, pairs);
     pencil.share(0.3 + 0.5 * (attempt + 1) / attempts);
-    const auto found = static_cast<int>(pairs.value.size());
+    const auto found = count_of(pairs.value);
     missing = wanted - std::min(found, wanted - 1);
     if (found < asked) continue;
     const Group last = group_of(pairs.value, asked - 1);

@@ -23,8 +23,8 @@ using Eigen::VectorXd;
 /// Rows of the internal coordinates that are no pins.
 std::vector<Index> stiff_rows(Index n_I, const std::vector<int>& pins) {
   std::vector<Index> rows;
-  for (Index i = 0; i < n_I; ++i)
-    if (!std::ranges::binary_search(pins, static_cast<int>(i))) rows.push_back(i);
+  for (int i = 0; i < n_I; ++i)
+    if (!std::ranges::binary_search(pins, i)) rows.push_back(i);
   return rows;
 }
 

@@ -2,7 +2,6 @@
 #include "reducer/modes/project.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tisserand::reducer {
 namespace {
@@ -34,9 +33,9 @@ formats::Superelement describe(const formats::Part& part, const InternalProblem&
   }
   element.dof_node = problem.partition.boundary_node;
   element.dof_component = problem.partition.boundary_component;
-  for (Eigen::Index k = 0; k < modes; ++k) {
+  for (int k = 0; k < modes; ++k) {
     element.dof_node.push_back(-1);
-    element.dof_component.push_back(static_cast<int>(k));
+    element.dof_component.push_back(k);
   }
   return element;
 }

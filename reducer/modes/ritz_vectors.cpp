@@ -186,7 +186,7 @@ InternalModes free_boundary_vectors(const InternalProblem& problem, const Bounda
   modes.Phi = space.vectors(values);
   modes.left_out = space.left_out(values, boundary.flexibility, *modes.first_dropped);
   modes.coupling = modes.left_out.coupling;
-  modes.requested = static_cast<int>(free.value.size());
+  modes.requested = count_of(free.value);
   modes.free_modes = modes.requested;
   modes.counted = free.counted;
   modes.solver = free.solver;

@@ -15,6 +15,7 @@
 #include <petscblaslapack.h>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "common/text.hpp"
 #include "reducer/modes/block_lanczos.hpp"
 #include "reducer/modes/eps_block_lanczos.hpp"
@@ -48,7 +49,7 @@ double value_in_gap(const EigenPairs& pairs, int kept, double shift) {
 Spectrum lapack_spectrum(const Pencil& pencil, int count, int available) {
   Spectrum s;
   SearchResult all = search_all(pencil);
-  const auto found = std::min(available, static_cast<int>(all.pairs.value.size()));
+  const auto found = std::min(available, count_of(all.pairs.value));
   if (found < count) fail_missing(found, count);
   s.runs = std::move(all.runs);
   s.kept = cluster_end(all.pairs.value.head(found), count, pencil.shift);
@@ -87,7 +88,7 @@ Spectrum iterated_spectrum(const Pencil& pencil, int count, int available, Eigen
   s.runs = std::move(first.runs);
   s.residual = first.residual ? *first.residual : iterate_once(op, s.pairs);
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    const auto found = static_cast<int>(s.pairs.value.size());
+    const auto found = count_of(s.pairs.value);
     if (found >= count) {
       s.kept = cluster_end(s.pairs.value, count, pencil.shift);
       if (s.kept == available) s.counted = available;
@@ -105,7 +106,7 @@ Spectrum iterated_spectrum(const Pencil& pencil, int count, int available, Eigen
     s.runs.insert(s.runs.end(), more.runs.begin(), more.runs.end());
     s.residual = iterate_once(op, s.pairs);
   }
-  fail_missing(static_cast<int>(s.pairs.value.size()), std::max(count, s.counted.value_or(0)));
+  fail_missing(count_of(s.pairs.value), std::max(count, s.counted.value_or(0)));
 }
 
 /// The kept pairs whose residual is above the usual one.
@@ -120,7 +121,7 @@ void refine_unsharp(const Pencil& pencil, Spectrum& s) {
   constexpr int most_steps = 3;
   const ShiftedOperator op = shifted_operator(pencil);
   std::vector<Eigen::Index> columns = unsharp_columns(s);
-  s.refined = static_cast<int>(columns.size());
+  s.refined = count_of(columns);
   for (int step = 0; step < most_steps && !columns.empty(); ++step) {
     const Eigen::VectorXd bound = refine(op, columns, s.pairs, s.residual);
     s.unsharp.clear();

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "common/text.hpp"
 #include "formats/sections/profiles.hpp"
 #include "formats/sections/shapes.hpp"
@@ -125,8 +126,7 @@ int pbarl_sizes(std::string_view type) {
 Section pbarl_section(std::string_view type, const Sizes& sizes, const std::string& where) {
   const int count = pbarl_sizes(type);
   if (count == 0) throw Error(fmt::format("section type '{}' is not known", type), where, list_of_types());
-  if (static_cast<int>(sizes.size()) != count)
-    refuse(type, sizes, fmt::format("{} sizes instead of {}", sizes.size(), count), where);
+  if (count_of(sizes) != count) refuse(type, sizes, fmt::format("{} sizes instead of {}", sizes.size(), count), where);
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const bool may_vanish = type == "TUBE" && i == 1;  // a full circle
     if (!std::isfinite(sizes[i]) || sizes[i] < 0.0 || (sizes[i] == 0.0 && !may_vanish))

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/math/count.hpp"
 #include "formats/vtk/vtu.hpp"
 #include "reducer/recover/measures.hpp"
 #include "reducer/recover/places.hpp"
@@ -21,7 +22,7 @@ class ExtremeOverTime {
 
   void take(int item, const Placed& found, int instant);
   Extreme kind() const { return kind_; }
-  int items() const { return static_cast<int>(height_.size()); }
+  int items() const { return count_of(height_); }
   float value(int item) const { return kind_ == Extreme::largest ? height_[item] : -height_[item]; }
   int instant(int item) const { return instant_[item]; }  ///< −1: none yet
   int place(int item) const { return place_[item]; }      ///< Placed

@@ -81,7 +81,7 @@ std::string place_text(const Recovery& r, int element, int place, double length)
   if (element < r.beams()) {
     const int end = place % 2 == 1 ? 1 : 2, corner = (place - end) / 2;
     const std::vector<Eigen::Vector2d>& outline = r.sections[r.beam_section[2 * element + end - 1]].outline;
-    if (corner < 0 || corner >= static_cast<int>(outline.size())) return fmt::format("end {}", end);
+    if (corner < 0 || corner >= count_of(outline)) return fmt::format("end {}", end);
     Eigen::Vector2d at = length * outline[corner];
     for (double& value : at)
       if (std::abs(value) < round_off * at.norm()) value = 0.0;

@@ -132,8 +132,7 @@ bool knows_strain(const std::string& version) {
 /// Number of instants that are read at once: as many as `batch_doubles` holds rows of the widest dataset.
 Index batch_of(const ResultsLayout& layout) {
   const auto last = [](const std::vector<int>& offset) { return offset.empty() ? 0 : offset.back(); };
-  const double width =
-      std::max({last(layout.modes_offset), last(layout.modal_offset), static_cast<int>(7 * layout.nodes.size()), 1});
+  const double width = std::max({last(layout.modes_offset), last(layout.modal_offset), 7 * count_of(layout.nodes), 1});
   return static_cast<Index>(std::clamp(batch_doubles / width, 1.0, static_cast<double>(largest_batch)));
 }
 

@@ -52,7 +52,7 @@ SolidPoints solid_points(const formats::Recovery& r) {
                                           [&key](int p, const auto& value) { return key(p) < value; });
       if (found != order.end() && key(*found) == wanted) points.point.push_back(*found);
     }
-    points.first.push_back(static_cast<int>(points.point.size()));
+    points.first.push_back(count_of(points.point));
   }
   return points;
 }

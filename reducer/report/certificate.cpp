@@ -61,7 +61,7 @@ int mechanisms_of(const formats::Superelement& element) {
 
 /// The elastic ones among the lowest, behind `rigid` without stiffness.
 std::vector<double> free_frequencies(const formats::Superelement& element, int massless, int rigid) {
-  const int count = std::min(static_cast<int>(element.size()) - massless, rigid + most_frequencies);
+  const int count = std::min(count_of(element) - massless, rigid + most_frequencies);
   if (count <= rigid) return {};
   const Eigen::VectorXd lambda = free_eigenvalues(element.stiffness, element.mass, count, rigid);
   std::vector<double> result;

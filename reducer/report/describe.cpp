@@ -135,13 +135,13 @@ void describe_comparison(const formats::ModeSelection& asked, const System& syst
 void describe_mesh(const Mesh& mesh, const System& system, ModelCertificate& c) {
   c.nodes = mesh.nodes();
   c.elements = mesh.elements();
-  c.beams = static_cast<int>(mesh.beams.size());
-  c.shells = static_cast<int>(mesh.shells.size());
-  c.solids = static_cast<int>(mesh.solids.size());
-  c.springs = static_cast<int>(mesh.springs.size());
-  c.masses = static_cast<int>(mesh.masses.size());
+  c.beams = count_of(mesh.beams);
+  c.shells = count_of(mesh.shells);
+  c.solids = count_of(mesh.solids);
+  c.springs = count_of(mesh.springs);
+  c.masses = count_of(mesh.masses);
   c.coordinates = system.size();
-  c.spiders = static_cast<int>(mesh.spiders.size());
+  c.spiders = count_of(mesh.spiders);
   c.eliminated = system.eliminated;
   c.redundant = system.redundant;
   for (const int x : system.inactive) c.inactive.push_back(coordinate_name(mesh, system, x));
@@ -152,7 +152,7 @@ ModelCertificate describe(const formats::Part& part, const ReducedPart& reduced,
   ModelCertificate c;
   c.part = part.file;
   c.modes_requested = internal.requested;
-  c.modes_kept = static_cast<int>(internal.lambda.size()) - internal.moments - internal.loose();
+  c.modes_kept = count_of(internal.lambda) - internal.moments - internal.loose();
   c.mechanisms = internal.loose();
   c.moment_vectors = internal.moments;
   c.free_modes = internal.free_modes;

@@ -103,7 +103,7 @@ class ElementBatches {
       int end = begin;
       for (; end < count && end - begin < most && rows_[end].sections == like.sections; ++end)
         place_[end] = {static_cast<std::size_t>(batches), end - begin};
-      if (batches == static_cast<int>(batches_.size())) batches_.emplace_back();
+      if (batches == count_of(batches_)) batches_.emplace_back();
       StrainBatch& batch = batches_[batches];
       batch.sections = like.sections;
       batch.count = end - begin;
@@ -288,7 +288,7 @@ formats::Companion make_companion(const ReducedPart& part, const Eigen::VectorXd
                                   std::optional<SecondOrderDisplacement>* displacement) {
   const Mesh& mesh = part.mesh;
   const System& system = part.system;
-  const int threads = core_count(), n = static_cast<int>(part.element.size());
+  const int threads = core_count(), n = count_of(part.element);
   formats::Companion c = companion_head(part.element, weights);
   set_integrals(part.element, c);
 

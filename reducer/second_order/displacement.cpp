@@ -48,7 +48,7 @@ std::vector<Index> translations(const Coordinates& coordinates) {
 /// Sample deformations y (n x p).
 MatrixXd sample_deformations(const ReducedPart& part, const MatrixXd& Phi) {
   const formats::Superelement& element = part.element;
-  const FreeShapes shapes = lowest_shapes(element, static_cast<int>(element.size()));
+  const FreeShapes shapes = lowest_shapes(element, count_of(element));
   const Index elastic = shapes.Z.cols();
   if (elastic == 0) return MatrixXd(element.size(), 0);
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();

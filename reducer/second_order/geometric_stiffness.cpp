@@ -103,7 +103,7 @@ SymmetricPair widened(const SymmetricRows& S, const std::vector<FreeBlock>& bloc
       if (stored) ++own;
     }
     check_entry_count(static_cast<long>(pair.column.size()));
-    pair.begin.push_back(static_cast<int>(pair.column.size()));
+    pair.begin.push_back(count_of(pair.column));
   }
   pair.M.assign(pair.S.size(), 0.0);
   return pair;

@@ -214,7 +214,7 @@ FrameInertia frame_inertia(const Mesh& mesh, const Coordinates& coordinates, con
   Sums sums(n);
   MatrixXd load = MatrixXd::Zero(Phi.rows(), inertial_loads);
   const TurningPart part{mesh, coordinates, reference};
-  const int all = mesh.elements() + static_cast<int>(mesh.masses.size());
+  const int all = mesh.elements() + count_of(mesh.masses);
   InertiaBlock block;
   block.product.resize(static_cast<std::size_t>(threads));
   for (int first = 0; first < all; first += block_elements) {

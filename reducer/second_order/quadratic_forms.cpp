@@ -72,7 +72,7 @@ QuadraticForms::QuadraticForms(int coordinates, int displacements, int threads)
 }
 
 void QuadraticForms::add(std::span<const StrainBatch> batches) {
-  const int pieces = static_cast<int>(pieces_.size());
+  const int pieces = count_of(pieces_);
   on_threads(threads_, [&](int t) {
     for (int p = t; p < pieces; p += threads_)
       for (const StrainBatch& batch : batches) add(batch, pieces_[p], forms_[t]);

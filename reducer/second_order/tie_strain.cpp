@@ -175,7 +175,7 @@ class UnitMotions {
  public:
   UnitMotions(const Coordinates& coordinates, const std::vector<int>& nodes) : coordinates_(coordinates) {
     for (const int node : nodes) {
-      if (!first_.try_emplace(node, static_cast<int>(x_.size())).second) continue;
+      if (!first_.try_emplace(node, count_of(x_)).second) continue;
       for (int c = 0; c < (coordinates.rotates(node) ? 6 : 3); ++c) x_.push_back(coordinates.of(node, c));
     }
   }

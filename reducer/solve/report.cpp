@@ -167,7 +167,7 @@ std::string shape_text(const Solution& s, const Eigen::MatrixXd& motion, Index k
 
 /// How many load factors exist, by inertia.
 std::string count_text(const CaseBuckling& b) {
-  const auto found = static_cast<int>(b.factor.size());
+  const auto found = count_of(b.factor);
   if (found == 0) return fmt::format("no load factor up to {:.3g}: this load does not buckle the part", b.limit);
   if (found < b.asked)
     return fmt::format("only {} of the {} load factors exist: no other up to {:.3g}", found, b.asked, b.limit);

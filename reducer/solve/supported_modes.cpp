@@ -32,7 +32,7 @@ SupportedModes free_modes(const Supported& s, int count, int available, const fo
   if (!pairs)
     throw Error("some rigid motion of the part moves no mass, so it has no free modes", s.where,
                 "give supports, or inertia about every axis");
-  if (pairs->value.size() < count) fail_count(count, static_cast<int>(pairs->value.size()), s.where);
+  if (pairs->value.size() < count) fail_count(count, count_of(pairs->value), s.where);
   return {6, pairs->value, pairs->vector, {}, {}, pairs->solver};
 }
 

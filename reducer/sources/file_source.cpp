@@ -22,8 +22,8 @@ int wanted_dimension(const formats::Part& part) {
 
 void append_cells(MeshBuilder& builder, const CellMesh& file) {
   CellMesh& all = builder.cells;
-  const int shift = static_cast<int>(all.position.size());
-  const int entity_shift = static_cast<int>(all.entities.size());
+  const int shift = count_of(all.position);
+  const int entity_shift = count_of(all.entities);
   builder.first_file_node = shift;
   all.position.insert(all.position.end(), file.position.begin(), file.position.end());
   all.node_id.insert(all.node_id.end(), file.node_id.begin(), file.node_id.end());
@@ -52,7 +52,7 @@ void append_cells(MeshBuilder& builder, const CellMesh& file) {
     for (int& entity : group.entities) entity += entity_shift;
     all.groups.push_back(std::move(group));
   }
-  builder.last_file_node = static_cast<int>(all.position.size());
+  builder.last_file_node = count_of(all.position);
   builder.mesh.warnings.insert(builder.mesh.warnings.end(), file.warnings.begin(), file.warnings.end());
 }
 
@@ -99,7 +99,7 @@ void append(std::vector<T>& to, std::vector<T>& from) {
 void shift_deck(Mesh& deck, int nodes, const Mesh& before) {
   for_nodes(deck, [nodes](int& node) { node += nodes; });
   const auto shift = [](auto& elements, const auto& properties) {
-    for (auto& e : elements) e.property += static_cast<int>(properties.size());
+    for (auto& e : elements) e.property += count_of(properties);
   };
   shift(deck.beams, before.beam_properties);
   shift(deck.shells, before.shell_properties);
@@ -108,11 +108,11 @@ void shift_deck(Mesh& deck, int nodes, const Mesh& before) {
 
 /// The deck's nodes, elements, sets and boundary.
 void append_deck(MeshBuilder& builder, Deck& deck) {
-  const int shift = static_cast<int>(builder.cells.position.size());
+  const int shift = count_of(builder.cells.position);
   builder.first_file_node = shift;
   for (int n = 0; n < deck.mesh.nodes(); ++n)
     builder.add_node(deck.mesh.position.col(n), std::move(deck.mesh.node_label[n]));
-  builder.last_file_node = static_cast<int>(builder.cells.position.size());
+  builder.last_file_node = count_of(builder.cells.position);
   builder.file_is_deck = true;
   for (const auto& [id, node] : deck.node_of_id) builder.node_of_id[id] = node + shift;
   for (auto& [name, nodes] : deck.node_sets)

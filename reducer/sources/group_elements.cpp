@@ -61,7 +61,7 @@ void add_shell(MeshBuilder& builder, const Cell& cell, const formats::ShellLayou
   if (form_of(cell.shape).nodes != form_of(cell.shape).corners) refuse_order(builder, cell, user);
   ShellElement shell;
   std::copy_n(cell.nodes.begin(), form_of(cell.shape).corners, shell.nodes.begin());
-  shell.property = static_cast<int>(builder.mesh.shell_properties.size()) - 1;
+  shell.property = count_of(builder.mesh.shell_properties) - 1;
   shell.offset = layout.offset;
   shell.material_x = layout.x.value_or(Eigen::Vector3d::Zero());
   shell.id = static_cast<int>(cell.id);
@@ -103,7 +103,7 @@ void add_solid_groups(MeshBuilder& builder) {
   for (const formats::SolidGroup& group : builder.part.solids) {
     const User user{fmt::format("solid '{}'", group.name), group.where};
     builder.mesh.solid_properties.push_back(solid_property(builder.part, group));
-    const int property = static_cast<int>(builder.mesh.solid_properties.size()) - 1;
+    const int property = count_of(builder.mesh.solid_properties) - 1;
     for (const int entity : entities_for(builder, group.on, 3, user))
       for_cells(builder, entity, [&](const Cell& cell) {
         builder.mesh.solids.push_back({solid_shape(cell.shape), cell.nodes, property, static_cast<int>(cell.id)});

@@ -163,7 +163,7 @@ class ElementsAtNodes {
 
  private:
   void add(std::span<const int> nodes) {
-    for (const int n : nodes) of_[n].push_back(static_cast<int>(nodes_.size()));
+    for (const int n : nodes) of_[n].push_back(count_of(nodes_));
     nodes_.emplace_back(nodes.begin(), nodes.end());
   }
 

@@ -1,6 +1,5 @@
 // Supports and load cases of part.yaml at nodes, faces, edges and beams of the mesh.
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 #include <unordered_set>

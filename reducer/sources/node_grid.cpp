@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/math/count.hpp"
+
 namespace tisserand::reducer {
 
 NodeGrid::Cube NodeGrid::cube(const Eigen::Vector3d& x) const {
@@ -34,7 +36,7 @@ int MergedNodes::find(const Eigen::Vector3d& x) const {
 
 int MergedNodes::at(const Eigen::Vector3d& x) {
   if (const int node = find(x); node >= 0) return node;
-  const int node = static_cast<int>(position_.size());
+  const int node = count_of(position_);
   position_.push_back(x);
   grid_.add(x, node);
   return node;

@@ -66,7 +66,7 @@ void add_line_elements(MeshBuilder& builder, const formats::BeamLine& line, cons
   const Eigen::Vector3d orientation =
       line.orientation ? *line.orientation : default_orientation(tangents(builder, nodes));
   const BeamElementData data = beam_data(builder.part, line);
-  const int elements = static_cast<int>(nodes.size()) - 1;
+  const int elements = count_of(nodes) - 1;
   std::vector<formats::Section> stations;
   if (!line.to_section.empty())
     stations = taper_stations(data.section, find_named(builder.part.sections, line.to_section, "section", line));
@@ -91,7 +91,7 @@ int MeshBuilder::add_node(const Eigen::Vector3d& x, std::string name) {
   cells.position.push_back(x);
   cells.node_id.push_back(-1);
   label.push_back(std::move(name));
-  return static_cast<int>(cells.position.size()) - 1;
+  return count_of(cells.position) - 1;
 }
 
 BeamElementData beam_data(const formats::Part& part, const formats::BeamLine& line) {
@@ -113,7 +113,7 @@ BeamElement beam_element(const MeshBuilder& builder, const formats::BeamLine& li
   BeamElement beam;
   beam.first = place.first_node;
   beam.second = place.second_node;
-  beam.property = static_cast<int>(builder.mesh.beam_properties.size()) - 1;
+  beam.property = count_of(builder.mesh.beam_properties) - 1;
   beam.first_offset = offset(place.from);
   beam.second_offset = offset(place.to);
   beam.id = place.number;

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -226,7 +227,7 @@ class GridWriter {
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
     const int dimension = form_of(shape).dimension;
-    if (static_cast<int>(corners.size()) < dimension + 1) return;
+    if (count_of(corners) < dimension + 1) return;
     if (dimension == 2 && corners.size() == 3) shape = CellShape::triangle3;
     auto& cells = mesh_.cells.cells[dimension];
     Cell cell;

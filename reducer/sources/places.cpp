@@ -2,7 +2,6 @@
 #include "reducer/sources/places.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>

@@ -70,12 +70,12 @@ Mesh mesh_of_pieces(const std::vector<FacePiece>& pieces, const std::vector<Vect
       for (int k = 0; k < form_of(cell.shape).corners; ++k) {
         int& node = row[cell.nodes[k]];
         if (node < 0) {
-          node = static_cast<int>(kept.size());
+          node = count_of(kept);
           kept.push_back(cell.nodes[k]);
         }
         shell.nodes[k] = node;
       }
-      shell.property = static_cast<int>(mesh.shell_properties.size());
+      shell.property = count_of(mesh.shell_properties);
       mesh.shells.push_back(shell);
     }
     ShellProperty property;

@@ -67,7 +67,7 @@ NodeGraph share_of_graph(const Mesh& mesh, const Coordinates& coordinates, const
       graph.shift.push_back(width);
       width += coordinates.rotates(m) ? 6 : 3;
     }
-    graph.begin.push_back(static_cast<int>(graph.neighbour.size()));
+    graph.begin.push_back(count_of(graph.neighbour));
   }
   return graph;
 }
@@ -178,7 +178,7 @@ std::vector<int> elements_at(const Mesh& mesh, Share nodes) {
 /// Rows of the nodes of `share`.
 void Rows::add_elements(Share share, const std::function<void(double)>& done) {
   const std::vector<int> elements = elements_at(mesh, share);
-  const int total = static_cast<int>(elements.size());
+  const int total = count_of(elements);
   std::vector<ElementMatrices> batch(static_cast<std::size_t>(std::min(batch_size, total)));
   for (int first = 0; first < total; first += batch_size) {
     const int count = std::min(batch_size, total - first);

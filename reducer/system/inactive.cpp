@@ -34,7 +34,7 @@ Block block_of(const System& system, int node, int base) {
   block.node = node;
   for (int c = base; c < base + 3; ++c)
     if (const int q = system.T.row[system.coordinates.of(node, c)]; q >= 0) block.q.push_back(q);
-  const int size = static_cast<int>(block.q.size());
+  const int size = count_of(block.q);
   for (int i = 0; i < size; ++i)
     for (int j = i; j < size; ++j) {
       block.S(i, j) = block.S(j, i) = entry(system.matrices, system.matrices.S, block.q[i], block.q[j]);
@@ -113,7 +113,7 @@ bool fix_directions(const Block& block, Eigen::MatrixXd null, Choice& choice, Sy
 Transformation without(const std::vector<bool>& fixed) {
   Transformation T;
   for (int q = 0; q < std::ssize(fixed); ++q) {
-    T.row.push_back(fixed[q] ? -1 - static_cast<int>(T.dependent.size()) : T.independent);
+    T.row.push_back(fixed[q] ? -1 - count_of(T.dependent) : T.independent);
     if (fixed[q]) {
       T.dependent.emplace_back();
     } else {
@@ -136,7 +136,7 @@ void compose(const Transformation& second, System& system) {
     const int row = second.row[T.row[x]];
     if (row < 0) system.inactive.push_back(x);
     if (row < 0) T.dependent.emplace_back();
-    T.row[x] = row < 0 ? -static_cast<int>(T.dependent.size()) : row;
+    T.row[x] = row < 0 ? -count_of(T.dependent) : row;
   }
   std::vector<int> source;
   Eigen::MatrixXd R(second.independent, 6);

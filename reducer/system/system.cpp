@@ -47,7 +47,7 @@ System assembled(const Mesh& mesh, const Kept& kept, const std::string& where,
   const auto name = [&](int x) { return coordinate_text(mesh, system.coordinates, ties, x); };
   Elimination elimination = eliminate(ties, kept.independent, name, where);
   for (int x = ties.mesh_coordinates; x < ties.coordinates; ++x) system.name.push_back(name(x));
-  system.eliminated = static_cast<int>(elimination.T.dependent.size());
+  system.eliminated = count_of(elimination.T.dependent);
   system.redundant = elimination.redundant;
   system.T = std::move(elimination.T);
   system.R.resize(system.size(), 6);

@@ -151,7 +151,7 @@ SymmetricPair condensed_rows(const Problem& problem, Share share) {
       }
     }
     check_entry_count(static_cast<long>(result.column.size()));
-    result.begin.push_back(static_cast<int>(result.column.size()));
+    result.begin.push_back(count_of(result.column));
   }
   return result;
 }

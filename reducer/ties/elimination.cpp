@@ -195,7 +195,7 @@ class Eliminator {
   }
 
   void keep(TieRow row) {
-    const int k = static_cast<int>(rows_.size());
+    const int k = count_of(rows_);
     row_of_[row.coordinate] = k;
     for (const Term& term : row.terms) users_[term.coordinate].push_back(k);
     rows_.push_back(std::move(row));

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "common/math/count.hpp"
 #include "reducer/mesh/coordinates.hpp"
 
 namespace tisserand::reducer {
@@ -38,7 +39,7 @@ struct TieSystem {
   std::vector<double> scale;
 
   /// The spider or equation that was named last.
-  int last_tie() const { return static_cast<int>(name.size()) - 1; }
+  int last_tie() const { return count_of(name) - 1; }
   /// Adds one of its equations.
   void add(LinearEquation equation) {
     equation.tie = last_tie();

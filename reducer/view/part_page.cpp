@@ -222,7 +222,7 @@ void add_modes(const ViewedPart& part, Json& json) {
         {{"name", shape.name}, {"frequency", nullptr}, {"damping", nullptr}, {"bodies", Json::array()}});
   if (!part.shapes.empty()) return;
   for (int k = 0; k < part.tables.coordinates(); ++k) {
-    const double frequency = k < static_cast<int>(part.frequency.size()) ? part.frequency[k] : 0.0;
+    const double frequency = k < count_of(part.frequency) ? part.frequency[k] : 0.0;
     json["modes"].push_back({{"name", mode_name(part.tables, k)},
                              {"frequency", frequency > 0.0 ? Json(frequency) : Json()},
                              {"damping", nullptr},

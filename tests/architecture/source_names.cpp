@@ -74,8 +74,9 @@ constexpr SharedHeader shared_headers[] = {
     {"reducer/sources/patches.hpp", "conformity"},
 };
 
-/// Casts to int. Lower it when some have gone; it does not rise.
-constexpr std::size_t most_casts = 476;
+/// Casts to int besides count_of(): reals that are rounded, numbers from files, indices of libraries, enumerators that
+/// index a table, positions of iterators. Lower it when some have gone; it does not rise.
+constexpr std::size_t most_casts = 238;
 
 /// A source of a library: no program, and not the one that replaces a function of the C library.
 bool is_part_of_library(const SourceFile& file) {
@@ -116,17 +117,19 @@ std::vector<Violation> check_source_names(const SourceTree& tree) {
 }
 
 std::vector<Violation> check_casts(const SourceTree& tree) {
-  static const std::regex loop(R"(\bfor \([^;]*;[^;]*static_cast<int>\([^;]*size\(\)\);)");
+  static const std::regex loop(R"(\bfor \([^;]*;[^;<]*<=? (static_cast<int>|count_of)\([^;+*-]*\);)");
+  static const std::regex size(R"(static_cast<int>\([^;,<? ]*size\(\)\))");
   static const std::regex cast(R"(static_cast<int>)");
   std::vector<Violation> found;
   std::size_t casts = 0;
   for (const SourceFile& file : tree.files) {
-    if (!file.is_source() || file.path.starts_with("tests/")) continue;
+    if (!file.is_source() || file.path.starts_with("tests/") || file.path == "common/math/count.hpp") continue;
     for (std::size_t i = 0; i < file.code.size(); ++i) {
       const std::string& line = file.code[i];
       casts += static_cast<std::size_t>(
           std::distance(std::sregex_iterator(line.begin(), line.end(), cast), std::sregex_iterator()));
       if (std::regex_search(line, loop)) found.push_back({file.path, i + 1, "compare an index with std::ssize()"});
+      if (std::regex_search(line, size)) found.push_back({file.path, i + 1, "write count_of() for a size as an int"});
     }
   }
   if (casts > most_casts)

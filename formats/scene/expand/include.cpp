@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "formats/yaml/reader.hpp"
 
 namespace tisserand::formats {
@@ -104,7 +105,7 @@ YamlNode TreeLoader::load_into(YamlDocument& document, const YamlNode& from) {
 }
 
 YamlNode TreeLoader::load_file(YamlDocument& document, const std::string& name, const std::string& folder) {
-  const int source = static_cast<int>(document.sources.size());
+  const int source = count_of(document.sources);
   YamlDocument file;
   try {
     file = load_yaml(name);

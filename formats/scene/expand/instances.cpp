@@ -2,7 +2,6 @@
 #include "formats/scene/expand/instances.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "common/text.hpp"
 #include "formats/yaml/geometry.hpp"

@@ -1,7 +1,6 @@
 // Names in assemblies: which level of instances a path such as `arm/tip` belongs to, and which file a path of a file.
 #pragma once
 
-#include <map>
 #include <set>
 #include <string>
 

@@ -2,7 +2,6 @@
 #include "mechanism/bodies/beam/mesh.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>

@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 namespace tisserand::mechanism {
 namespace {
 

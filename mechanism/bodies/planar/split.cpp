@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <Eigen/SVD>
 
+#include "common/math/count.hpp"
+
 namespace tisserand::mechanism {
 
 using Eigen::MatrixXd;
@@ -23,7 +25,7 @@ void require_nothing(const MatrixXd& part, double size, const std::string& what)
 }
 
 Split split_modes(const ModePulls& pulls, const VectorXd& stiffness, const std::string& kind) {
-  const auto m = static_cast<int>(stiffness.size());
+  const auto m = count_of(stiffness);
   Split split{MatrixXd::Zero(m, m), MatrixXd::Zero(m, m)};
   int in = 0, out = 0;
   for (int first = 0, end = 0; first < m; first = end) {

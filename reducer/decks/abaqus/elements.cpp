@@ -83,7 +83,7 @@ void read_node_block(Model& model, int scope_index, const Block& block, const Pl
     long id = 0;
     Eigen::Vector3d position;
     if (!read_node_line(model, line, id, position)) continue;
-    const int row = static_cast<int>(model.positions.size());
+    const int row = count_of(model.positions);
     if (!scope.nodes.try_emplace(id, row).second) {
       model.fault(fmt::format("node {} is defined twice", id), line, "renumber or delete one of them");
       continue;

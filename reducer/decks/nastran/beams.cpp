@@ -169,8 +169,7 @@ void add_rods(NastranModel& model) {
     BeamElement beam = rod.beam;
     const BeamProperty property = mesh.beam_properties[beam.property];
     if (property.data.section.torsion_constant > 0.0 && !(turns(beam.first) && turns(beam.second))) {
-      const auto [row, fresh] =
-          without_torsion.try_emplace(beam.property, static_cast<int>(mesh.beam_properties.size()));
+      const auto [row, fresh] = without_torsion.try_emplace(beam.property, count_of(mesh.beam_properties));
       if (fresh) {
         mesh.beam_properties.push_back(property);
         mesh.beam_properties.back().data.section.torsion_constant = 0.0;

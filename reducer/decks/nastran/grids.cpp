@@ -56,7 +56,7 @@ class Placement {
 
 void Placement::add_frame(FrameCard card) {
   if (!card.fields.ok()) return;
-  const int row = static_cast<int>(model_.frames.frames.size());
+  const int row = count_of(model_.frames.frames);
   if (!model_.frames.row_of_id.emplace(card.id, row).second)
     return card.fields.fault(fmt::format("coordinate system {} is given twice", card.id), "remove one of the cards");
   NastranFrame frame;

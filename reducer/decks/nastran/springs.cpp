@@ -125,7 +125,7 @@ void add_mass(NastranModel& model, CardFields& f) {
   mass.mass = f.real(3, "M", 0.0) * model.mass_scale;
   const Eigen::Vector3d x = f.vector(4, "X");
   std::array<double, 6> I{};
-  for (std::size_t i = 0; i < 6; ++i) I[i] = f.real(8 + static_cast<int>(i), "I", 0.0) * model.mass_scale;
+  for (int i = 0; i < 6; ++i) I[i] = f.real(8 + i, "I", 0.0) * model.mass_scale;
   if (!f.ok()) return;
   const Eigen::Vector3d node = model.position(mass.node);
   const Eigen::Matrix3d axes = frame_axes_at(model.frames.frames[row], node);

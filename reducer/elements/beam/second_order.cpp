@@ -59,7 +59,7 @@ void second_order(const Mesh& mesh, const BeamElement& beam, SecondOrderRows& ou
   if (is_rod(data)) return rod(mesh, beam, out);
   const bool has_ends = beam.released != 0 || !beam.first_offset.isZero(0.0) || !beam.second_offset.isZero(0.0);
   const std::vector<BeamField> fields = beam_fields(data);
-  const int points = static_cast<int>(fields.size());
+  const int points = count_of(fields);
   std::vector<StrainSection> sections{{&beam_point(), points}};
   if (has_ends) sections.push_back({&turned_point(), 2});
   out.start(sections, 12);

@@ -5,7 +5,6 @@
 // only.
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <Eigen/LU>
 

@@ -20,7 +20,7 @@ constexpr double uneven_jacobian = 0.1;    ///< smallest Jacobian / mean Jacobia
 constexpr double flat_prism = 2.5;         ///< longest side of the triangles / shortest edge between them
 
 template <SolidShape shape>
-using Positions = Eigen::Matrix<double, 3, static_cast<int>(SolidBasis<shape>::nodes.size())>;
+using Positions = Eigen::Matrix<double, 3, count_of(SolidBasis<shape>::nodes)>;
 
 std::string node_text(const Mesh& mesh, int node) {
   const std::size_t index = static_cast<std::size_t>(node);

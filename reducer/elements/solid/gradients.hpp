@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include "common/error.hpp"
+#include "common/math/count.hpp"
 #include "reducer/elements/solid/quadrature.hpp"
 #include "reducer/elements/solid/shapes.hpp"
 
@@ -98,13 +99,13 @@ struct WeightedGradients {
 };
 
 template <SolidShape shape>
-auto weighted_gradients(const NodePositions<static_cast<int>(SolidBasis<shape>::nodes.size())>& x, int id) {
+auto weighted_gradients(const NodePositions<count_of(SolidBasis<shape>::nodes)>& x, int id) {
   using Modes = IncompatibleModes<shape>;
   static constexpr auto rule = stiffness_rule<shape>();
   static constexpr auto table = tabulate<shape>(rule);
   static constexpr auto centre = nodal_gradients<shape>(Modes::centre);
-  constexpr int points = static_cast<int>(rule.point.size());
-  constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
+  constexpr int points = count_of(rule.point);
+  constexpr int nodes = count_of(SolidBasis<shape>::nodes);
   constexpr int modes = static_cast<int>(Modes::size), functions = nodes + modes;
 
   WeightedGradients<functions, points> G;
@@ -175,7 +176,7 @@ inline void gram(const Eigen::Ref<const Eigen::MatrixXd>& G, Eigen::Ref<Eigen::M
 /// Positions of the nodes from the first one, so that far from the origin nothing cancels.
 template <SolidShape shape>
 auto node_positions(const Mesh& mesh, const SolidElement& solid) {
-  constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
+  constexpr int nodes = count_of(SolidBasis<shape>::nodes);
   NodePositions<nodes> x;
   for (int a = 0; a < nodes; ++a) x.col(a) = mesh.position.col(solid.nodes[a]) - mesh.position.col(solid.nodes[0]);
   return x;

@@ -82,7 +82,7 @@ class SolidField {
  public:
   using Basis = SolidBasis<shape>;
   using Modes = IncompatibleModes<shape>;
-  static constexpr int nodes = static_cast<int>(Basis::nodes.size());
+  static constexpr int nodes = count_of(Basis::nodes);
   static constexpr int modes = static_cast<int>(Modes::size);
 
   SolidField(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u)
@@ -164,7 +164,7 @@ void sample(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& 
 template <SolidShape shape>
 Eigen::VectorXd excess_of_mass(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u) {
   static constexpr auto table = tabulate<shape>(mass_rule<shape>());
-  constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
+  constexpr int nodes = count_of(SolidBasis<shape>::nodes);
   const SolidProperty& property = mesh.solid_properties[solid.property];
   Eigen::VectorXd excess = Eigen::VectorXd::Zero(u.cols());
   if (property.mass_matrix == formats::MassMatrix::consistent) return excess;
@@ -218,7 +218,7 @@ Eigen::VectorXd imbalance_of(const Mesh& mesh, const SolidElement& solid, const 
   const auto& [u, lambda] = modes;
   static constexpr auto rule = energy_rule<shape>();
   static constexpr auto table = tabulate<shape>(rule);
-  constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
+  constexpr int nodes = count_of(SolidBasis<shape>::nodes);
   const SolidMaterial& material = mesh.solid_properties[solid.property].material;
   const auto x = node_positions<shape>(mesh, solid);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(u.cols());
@@ -244,7 +244,7 @@ double volume_of(const Mesh& mesh, const SolidElement& solid) {
   static constexpr auto table = tabulate<shape>(energy_rule<shape>());
   const auto x = node_positions<shape>(mesh, solid);
   double volume = 0.0;
-  constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
+  constexpr int nodes = count_of(SolidBasis<shape>::nodes);
   for (std::size_t q = 0; q < table.weight.size(); ++q)
     volume += table.weight[q] * jacobian<nodes>(x, table.gradient[q]).determinant();
   return volume;

@@ -25,7 +25,7 @@ Eigen::MatrixXd follow(const Eigen::Matrix<double, 3 * Functions, 3 * Functions>
 
 template <SolidShape shape>
 void green(const Mesh& mesh, const SolidElement& solid, SecondOrderRows& out) {
-  constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
+  constexpr int nodes = count_of(SolidBasis<shape>::nodes);
   constexpr int functions = nodes + static_cast<int>(IncompatibleModes<shape>::size);
   const auto x = node_positions<shape>(mesh, solid);
   const Eigen::Matrix<double, 6, 6>& C = mesh.solid_properties[solid.property].material.C;

@@ -25,9 +25,9 @@ void eliminate_modes(int kept, Eigen::Matrix<double, Size, Size>& S) {
 }
 
 template <SolidShape shape>
-void stiffness(const NodePositions<static_cast<int>(SolidBasis<shape>::nodes.size())>& x,
-               const Eigen::Matrix<double, 6, 6>& C, int id, Eigen::MatrixXd& S) {
-  constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
+void stiffness(const NodePositions<count_of(SolidBasis<shape>::nodes)>& x, const Eigen::Matrix<double, 6, 6>& C, int id,
+               Eigen::MatrixXd& S) {
+  constexpr int nodes = count_of(SolidBasis<shape>::nodes);
   constexpr int modes = static_cast<int>(IncompatibleModes<shape>::size), functions = nodes + modes;
   const auto G = weighted_gradients<shape>(x, id);
   Eigen::Matrix<double, 3 * functions, 3 * functions> H;
@@ -42,11 +42,11 @@ void stiffness(const NodePositions<static_cast<int>(SolidBasis<shape>::nodes.siz
 /// Consistent: ρ ∫ N_a N_b dV. Lumped: its diagonal scaled to the mass of the element ([HRZ76]), which is positive for
 /// every shape, where row sums are negative at the corners of quadratic ones.
 template <SolidShape shape>
-void mass(const NodePositions<static_cast<int>(SolidBasis<shape>::nodes.size())>& x, const SolidProperty& property,
+void mass(const NodePositions<count_of(SolidBasis<shape>::nodes)>& x, const SolidProperty& property,
           Eigen::MatrixXd& M) {
   static constexpr auto table = tabulate<shape>(mass_rule<shape>());
-  constexpr int points = static_cast<int>(table.weight.size());
-  constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
+  constexpr int points = count_of(table.weight);
+  constexpr int nodes = count_of(SolidBasis<shape>::nodes);
   const Eigen::Map<const Eigen::Matrix<double, nodes, points>> N(table.value[0].data());
   Eigen::Matrix<double, points, 1> dm;
   for (int q = 0; q < points; ++q) {
@@ -79,7 +79,7 @@ void matrices(const Mesh& mesh, const SolidElement& solid, ElementMatrices& out)
 }  // namespace
 
 int node_count(SolidShape shape) {
-  return with_shape(shape, []<SolidShape s>() { return static_cast<int>(SolidBasis<s>::nodes.size()); });
+  return with_shape(shape, []<SolidShape s>() { return count_of(SolidBasis<s>::nodes); });
 }
 
 void element_matrices(const Mesh& mesh, const SolidElement& solid, ElementMatrices& out) {

@@ -57,9 +57,9 @@ template <SolidShape shape>
 Eigen::MatrixXd stress_at_nodes(const Mesh& mesh, const SolidElement& solid) {
   static constexpr auto rule = stiffness_rule<shape>();
   static const Eigen::MatrixXd to_nodes = extrapolation<shape>();
-  constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
+  constexpr int nodes = count_of(SolidBasis<shape>::nodes);
   constexpr int modes = static_cast<int>(IncompatibleModes<shape>::size), functions = nodes + modes;
-  constexpr int points = static_cast<int>(rule.point.size());
+  constexpr int points = count_of(rule.point);
   const Eigen::Matrix<double, 6, 6>& C = mesh.solid_properties[solid.property].material.C;
   const auto x = node_positions<shape>(mesh, solid);
   const auto G = weighted_gradients<shape>(x, solid.id);

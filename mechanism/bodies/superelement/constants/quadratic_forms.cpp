@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/math/count.hpp"
+
 namespace tisserand::mechanism {
 namespace {
 
@@ -49,7 +51,7 @@ double largest_entry(const std::vector<Eigen::MatrixXd>& matrices, const Eigen::
 QuadraticForms quadratic_forms(const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& unit,
                                const Eigen::VectorXd& scale) {
   QuadraticForms forms;
-  forms.size = static_cast<int>(unit.size());
+  forms.size = count_of(unit);
   forms.count = whole_blocks(matrices.size());
   Eigen::VectorXd entries = Eigen::VectorXd::Zero(forms.count);
   for (int l = 0; l < forms.size; ++l)
@@ -63,7 +65,7 @@ QuadraticForms quadratic_forms(const std::vector<Eigen::MatrixXd>& matrices, con
 PairedForms paired_forms(const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& unit,
                          const Eigen::VectorXd& scale) {
   PairedForms forms;
-  forms.size = static_cast<int>(unit.size());
+  forms.size = count_of(unit);
   forms.count = whole_blocks(matrices.size());
   forms.first.push_back(0);
   Eigen::VectorXd entries = Eigen::VectorXd::Zero(forms.count);
@@ -74,7 +76,7 @@ PairedForms paired_forms(const std::vector<Eigen::MatrixXd>& matrices, const Eig
       forms.row.push_back(k);
       forms.entry.insert(forms.entry.end(), entries.begin(), entries.end());
     }
-    forms.first.push_back(static_cast<int>(forms.row.size()));
+    forms.first.push_back(count_of(forms.row));
   }
   return forms;
 }

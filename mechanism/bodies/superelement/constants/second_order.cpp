@@ -9,6 +9,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "common/math/count.hpp"
 #include "common/math/rotation.hpp"
 #include "common/stable_sort.hpp"
 #include "formats/companion/operations.hpp"
@@ -166,8 +167,7 @@ formats::Companion companion_on_body(formats::Companion companion, const formats
   for (Eigen::Index i = 0; i < dropped; ++i) rows.push_back(body.boundary_size + body.modes + static_cast<int>(i));
   formats::drop_modes(companion, whole.M, whole.R, rows, matrices.S_II.tail(dropped));
   formats::move_reference(companion, body.reference_origin);
-  if (companion.has_second_order())
-    formats::galilean_step(companion, whole_mass(body), rigid_columns(body));
+  if (companion.has_second_order()) formats::galilean_step(companion, whole_mass(body), rigid_columns(body));
   return companion;
 }
 
@@ -176,7 +176,7 @@ Stiffening make_stiffening(const SuperelementBody& body, const formats::Companio
   const VectorXd unit = coordinate_units(body);
   const auto scale = unit.head(nb).asDiagonal();
   const PivotedRows boundary = pivoted_rows(scale * body.S_BB * scale);
-  const auto strained = static_cast<int>(boundary.pivot.size());
+  const auto strained = count_of(boundary.pivot);
   MatrixXd L = MatrixXd::Zero(strained + m, nb + m);
   L.topLeftCorner(strained, nb) = boundary.L * scale.inverse();
   std::vector<MatrixXd> Gamma;
@@ -192,7 +192,7 @@ Stiffening make_stiffening(const SuperelementBody& body, const formats::Companio
     Gamma.emplace_back(companion.H[nb + i] / L(strained + i, nb + i));
   }
   Gamma.insert(Gamma.end(), companion.Lambda.begin(), companion.Lambda.end());
-  const auto trapped = static_cast<int>(companion.Lambda.size());  // rows that no coordinate stretches
+  const auto trapped = count_of(companion.Lambda);  // rows that no coordinate stretches
   L.conservativeResizeLike(MatrixXd::Zero(strained + m + trapped, nb + m));
   const MatrixXd inverse = inverse_rows(L, boundary.pivot, m);
   const double largest = largest_entry(Gamma, unit);

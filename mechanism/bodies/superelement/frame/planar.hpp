@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 
 #include "mechanism/bodies/superelement/frame/frame.hpp"
 #include "mechanism/frames/space.hpp"
