@@ -1,4 +1,4 @@
-# Flags of every target of the project (tisserand_options), and the version that programs print. The processor flags are
+# Flags of every target of the project (tisserand_options). The processor flags are
 # here too: Eigen's alignment follows from them, so they must be the same in every translation unit.
 add_library(tisserand_options INTERFACE)
 target_compile_options(tisserand_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
@@ -9,7 +9,6 @@ target_compile_options(tisserand_options INTERFACE -Wall -Wextra -Wpedantic -Wsh
 target_compile_options(
   tisserand_options
   INTERFACE "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-restrict>")
-target_compile_definitions(tisserand_options INTERFACE TISSERAND_VERSION="${PROJECT_VERSION}")
 if(NOT TISSERAND_PROCESSOR AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
   set(processor x86-64-v3)
 else()

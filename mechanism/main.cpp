@@ -15,6 +15,7 @@
 #include "common/error.hpp"
 #include "common/memory/short_memory.hpp"
 #include "common/output_path.hpp"
+#include "common/program/version.hpp"
 #include "common/progress.hpp"
 #include "common/text.hpp"
 #include "formats/results/results.hpp"
@@ -315,7 +316,7 @@ int tell_usage(const CLI::App& app, const CLI::ParseError& error, int argc, char
 int command_line(int argc, char** argv) {
   CLI::App app{about};
   app.name("mechanism");
-  app.set_version_flag("--version", std::string("tisserand mechanism ") + TISSERAND_VERSION);
+  app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   int code = 0;
 

@@ -11,6 +11,7 @@
 #include "common/console.hpp"
 #include "common/error.hpp"
 #include "common/memory/short_memory.hpp"
+#include "common/program/version.hpp"
 #include "reducer/commands.hpp"
 #include "reducer/startup.hpp"
 
@@ -274,7 +275,7 @@ int main(int argc, char** argv) {
   tisserand::report_short_memory("reducer");
   const std::string asked = argc > 1 ? argv[1] : "";
   CLI::App app(description, "reducer");
-  app.set_version_flag("--version", "reducer " TISSERAND_VERSION " (Tisserand)");
+  app.set_version_flag("--version", tisserand::version_text());
   app.require_subcommand(1);
   using tisserand::reducer::Command;
   tisserand::reducer::Arguments arguments;

@@ -58,6 +58,8 @@ class Appended {
   std::string bytes_;
 };
 
+std::string head(const std::string& producer) { return "<?xml version=\"1.0\"?>\n<!-- " + producer + " -->\n"; }
+
 std::string arrays(const std::vector<VtuArray>& list, std::size_t count, Appended& appended) {
   std::string text;
   for (const VtuArray& array : list) {
@@ -85,15 +87,17 @@ VtuCells vtu_cells(const RecoveryElements& elements) {
   return cells;
 }
 
-void write_vtu(const std::string& path, const Eigen::Matrix3Xf& points, const VtuCells& cells,
-               const std::vector<VtuArray>& point_data, const std::vector<VtuArray>& cell_data) {
+void write_vtu(const std::string& path, const std::string& producer, const Eigen::Matrix3Xf& points,
+               const VtuCells& cells, const std::vector<VtuArray>& point_data, const std::vector<VtuArray>& cell_data) {
   Appended appended;
   const std::vector<float> places(points.data(), points.data() + points.size());
   const auto count = static_cast<std::size_t>(points.cols());
-  std::string text = fmt::format(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-      count, cells.type.size());
+  std::string text =
+      head(producer) +
+      fmt::format(
+          "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+          "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+          count, cells.type.size());
   text += "<Points>\n" + appended.add("points", "Float32", 3, places) + "</Points>\n<Cells>\n";
   text += appended.add("connectivity", "Int32", 1, cells.connectivity);
   text += appended.add("offsets", "Int32", 1, cells.offset);
@@ -104,10 +108,11 @@ void write_vtu(const std::string& path, const Eigen::Matrix3Xf& points, const Vt
   write_text_file(path, text + appended.bytes() + "\n</AppendedData>\n</VTKFile>\n");
 }
 
-void write_pvd(const std::string& path, const std::vector<std::pair<double, std::string>>& files) {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\">\n<Collection>\n";
+void write_pvd(const std::string& path, const std::string& producer,
+               const std::vector<std::pair<double, std::string>>& files) {
+  std::string text = head(producer) +
+                     "<VTKFile type=\"Collection\" version=\"1.0\" "
+                     "byte_order=\"LittleEndian\">\n<Collection>\n";
   for (const auto& [time, file] : files)
     text += fmt::format("<DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", time, file);
   write_text_file(path, text + "</Collection>\n</VTKFile>\n");

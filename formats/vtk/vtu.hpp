@@ -25,11 +25,13 @@ struct VtuCells {
 };
 VtuCells vtu_cells(const RecoveryElements& elements);
 
-/// Unstructured grid, binary data appended as they are, little-endian. Whole or not at all.
-void write_vtu(const std::string& path, const Eigen::Matrix3Xf& points, const VtuCells& cells,
-               const std::vector<VtuArray>& point_data, const std::vector<VtuArray>& cell_data);
+/// Unstructured grid, binary data appended as they are, little-endian. Whole or not at all. `producer`: program and
+/// version.
+void write_vtu(const std::string& path, const std::string& producer, const Eigen::Matrix3Xf& points,
+               const VtuCells& cells, const std::vector<VtuArray>& point_data, const std::vector<VtuArray>& cell_data);
 
 /// Index of a series: {time, name of a file beside it}.
-void write_pvd(const std::string& path, const std::vector<std::pair<double, std::string>>& files);
+void write_pvd(const std::string& path, const std::string& producer,
+               const std::vector<std::pair<double, std::string>>& files);
 
 }  // namespace tisserand::formats

@@ -7,6 +7,8 @@
 
 #include "common/error.hpp"
 #include "common/gnuplot.hpp"
+#include "common/program/picture_mark.hpp"
+#include "common/program/version.hpp"
 #include "common/text.hpp"
 #include "mechanism/histories/plot_script.hpp"
 
@@ -88,7 +90,8 @@ std::string plot(const std::vector<Series>& series, const PlotOptions& options) 
   check_something_is_seen(series, options);
   (void)canvas_of(options.output, options.size, options.font, 1,
                   0);  // throws for another ending before anything is done
-  write_text_file(options.output, gnuplot_picture(gnuplot_script(series, options), options.output));
+  write_text_file(options.output, with_producer(gnuplot_picture(gnuplot_script(series, options), options.output),
+                                                producer("mechanism")));
   return told(series, options);
 }
 

@@ -11,6 +11,7 @@
 
 #include "common/error.hpp"
 #include "common/output_path.hpp"
+#include "common/program/version.hpp"
 #include "common/sha256.hpp"
 #include "common/text.hpp"
 #include "formats/scene/expand/values.hpp"
@@ -23,8 +24,6 @@ namespace tisserand::mechanism {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string producer() { return std::string("tisserand mechanism ") + TISSERAND_VERSION; }
 
 void require_before_end(const formats::Scene& scene, double time, const std::string& file) {
   if (time < scene.integrator.end) return;
@@ -127,7 +126,7 @@ void resume_checkpoint(Run& run, const std::string& file, Joining joining, Chang
   run.workspace.forget();
   run.report.notes.push_back(
       fmt::format("goes on from {} at t = {:.9g}{}", file, checkpoint.time,
-                  checkpoint.producer == producer()
+                  checkpoint.producer == producer("mechanism")
                       ? ""
                       : fmt::format(", written by {}: equal to its tolerance, not bit for bit", checkpoint.producer)));
   if (joining == Joining::appended) begin_with(run, rows_until(checkpoint, file));
@@ -205,8 +204,8 @@ void Checkpoints::write(Run& run, const Schedule& schedule, Stepper& stepper, fo
   const std::vector<std::string> off = run.automatic != nullptr ? run.automatic->off() : std::vector<std::string>{};
   results.flush();
   formats::write_checkpoint(
-      path_, {scene_, producer(), fingerprint(run.built.model, state), State::version, state.time(), results_,
-              results.run(), results.rows(), state.block(), schedule.memory(), run.values, join(off, "\n")});
+      path_, {scene_, producer("mechanism"), fingerprint(run.built.model, state), State::version, state.time(),
+              results_, results.run(), results.rows(), state.block(), schedule.memory(), run.values, join(off, "\n")});
   written_ = true;
   stepper.forget(run.workspace);
   set_next(state.time());

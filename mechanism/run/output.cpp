@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/error.hpp"
+#include "common/program/version.hpp"
 #include "formats/results/blocks.hpp"
 #include "mechanism/bodies/superelement/evaluate.hpp"
 #include "mechanism/equations/terms.hpp"
@@ -333,7 +334,7 @@ void keep_chosen_places(const formats::Scene& scene, Model& model) {
 formats::ResultsLayout results_layout(const Model& model, const formats::Scene& scene) {
   formats::ResultsLayout layout;
   layout.scene = scene.name;
-  layout.producer = std::string("tisserand mechanism ") + TISSERAND_VERSION;
+  layout.producer = producer("mechanism");
   layout.units = scene.units;
   for (const Place& place : model.places) layout.nodes.push_back(place.name);
   for (const PlaceAlias& alias : model.place_aliases) layout.node_aliases.push_back({alias.name, alias.place});

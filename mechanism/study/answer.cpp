@@ -10,6 +10,7 @@
 
 #include "common/error.hpp"
 #include "common/math/count.hpp"
+#include "common/program/version.hpp"
 #include "common/sha256.hpp"
 #include "common/text.hpp"
 #include "formats/scene/expand/tree.hpp"
@@ -40,7 +41,7 @@ std::string write_scene(const formats::Study& study, const Cell& cell, double to
     for (formats::Override& one : settings)
       if (one.value == part.superelement) one.value = fs::proximate(part.superelement, fs::absolute(folder)).string();
   const std::string path = (folder / fmt::format("{}_{:g}.scene.yaml", stem(study.file), tolerance)).string();
-  write_text_file(path, fmt::format("# {}, {}\n{}", study.name, cell.label,
+  write_text_file(path, fmt::format("# {}, {}, by {}\n{}", study.name, cell.label, producer("mechanism"),
                                     formats::scene_text(base, settings, formats::scene_key_sets())));
   return path;
 }

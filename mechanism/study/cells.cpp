@@ -6,6 +6,7 @@
 #include <map>
 
 #include "common/error.hpp"
+#include "common/program/version.hpp"
 #include "common/sha256.hpp"
 #include "common/text.hpp"
 #include "formats/part/part.hpp"
@@ -66,7 +67,7 @@ struct Planner {
     PartRequest request{spec.name, spec.file, formats::settings_at(study, spec.set, point), "", ""};
     (void)formats::read_part(request.file, request.settings);
     const formats::YamlDocument document = formats::load_yaml(request.file);
-    request.key = sha256_hex(fmt::format("part {}\n{}{}", TISSERAND_VERSION, content_key(document, spec.file, digests),
+    request.key = sha256_hex(fmt::format("part {}\n{}{}", version(), content_key(document, spec.file, digests),
                                          settings_text(request.settings)));
     request.superelement =
         fs::absolute(fs::path(folder) / "parts" / (request.key.substr(0, 16) + ".superelement.h5")).string();
@@ -80,7 +81,7 @@ struct Planner {
       cell.channels.push_back(formats::channel_at(study, series, quantity, point));
     cell.settings = formats::settings_at(study, series, point);
     for (const formats::Override& one : formats::settings_at(study, extra, point)) cell.settings.push_back(one);
-    std::string key = fmt::format("run {}\n{}\n{}", TISSERAND_VERSION, series.analysis, settings_text(cell.settings));
+    std::string key = fmt::format("run {}\n{}\n{}", version(), series.analysis, settings_text(cell.settings));
     for (const formats::StudyPart& spec : series.parts) {
       cell.parts.push_back(part(spec, point));
       key += cell.parts.back().key + "\n";

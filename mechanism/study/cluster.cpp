@@ -6,6 +6,7 @@
 
 #include "common/child.hpp"
 #include "common/error.hpp"
+#include "common/program/version.hpp"
 #include "common/text.hpp"
 
 namespace tisserand::mechanism {
@@ -24,7 +25,8 @@ std::string shell_quoted(const std::string& text) {
 
 std::string job_script(const formats::Study& study, const std::string& folder, int tasks) {
   const std::string path = fs::absolute(folder).string();
-  std::string text = "#!/bin/sh\n#SBATCH --job-name=study\n#SBATCH --cpus-per-task=1\n";
+  std::string text =
+      "#!/bin/sh\n# " + producer("mechanism") + "\n#SBATCH --job-name=study\n#SBATCH --cpus-per-task=1\n";
   text += fmt::format("#SBATCH --array=0-{}\n#SBATCH --output=\"{}/slurm/%a.log\"\n", tasks - 1, path);
   if (study.run_budget > 0.0)  // all repeats of a setting, and the start
     text +=

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/error.hpp"
+#include "common/program/version.hpp"
 #include "common/text.hpp"
 
 namespace tisserand::mechanism {
@@ -20,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* outcome_words[] = {"completed", "failed", "over_budget"};
 
-Json head(const std::string& measure) { return {{"tisserand", TISSERAND_VERSION}, {"measure", measure}}; }
+Json head(const std::string& measure) { return {{"tisserand", tisserand::version()}, {"measure", measure}}; }
 
 std::string line_of(const std::string& key, const RunRecord& record) {
   Json json{{"key", key}, {"outcome", outcome_words[static_cast<int>(record.outcome)]}, {"cpu", record.cpu_seconds}};
@@ -93,12 +94,12 @@ void Journal::read(const std::string& path, const std::string& measure) {
       if (number > 1) {
         runs_[json.at("key").get<std::string>()].push_back(record_of(json));
       } else if (json != head(measure)) {
-        const std::string version = json.at("tisserand");
+        const std::string written_by = json.at("tisserand");
         throw Error(
-            version == TISSERAND_VERSION
+            written_by == tisserand::version()
                 ? "the folder holds results of another scene, or measured otherwise: other quantities or reference"
-                : fmt::format("the folder holds results of version {}, this is {}", printable_line(version, 40),
-                              TISSERAND_VERSION),
+                : fmt::format("the folder holds results of version {}, this is {}", printable_line(written_by, 40),
+                              tisserand::version()),
             where, "choose another folder with -o, or remove this one");
       }
     } catch (const Json::exception& error) {

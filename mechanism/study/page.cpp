@@ -11,6 +11,7 @@
 
 #include "common/error.hpp"
 #include "common/math/count.hpp"
+#include "common/program/version.hpp"
 #include "common/text.hpp"
 #include "mechanism/histories/plot.hpp"
 
@@ -265,7 +266,7 @@ std::string reference_text(const formats::Study& study, const std::vector<double
 
 void write_page(const formats::Study& study, const std::vector<StudyRow>& rows, const std::vector<double>& agreement,
                 const std::string& folder) {
-  Book book{study, rows, folder, page_head};
+  Book book{study, rows, folder, page_head + generator_tag("mechanism")};
   book.html += fmt::format(
       "<title>{0}</title></head><body>\n<h1>{0}</h1>\n<p>{1} Times are CPU seconds of the whole "
       "process, medians{2}. Wide and grey: the least time for each error.</p>\n",

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "common/program/version.hpp"
 #include "common/text.hpp"
 
 namespace tisserand::mechanism {
@@ -69,7 +70,7 @@ std::string csv_text(const formats::Study& study, const std::vector<StudyRow>& r
 
 std::string json_text(const formats::Study& study, const std::vector<StudyRow>& rows,
                       const std::vector<double>& agreement) {
-  Json json{{"study", study.name}, {"tisserand", TISSERAND_VERSION}};
+  Json json{{"study", study.name}, {"tisserand", version()}};
   for (std::size_t q = 0; q < agreement.size(); ++q) json["agreement"][study.quantities[q].name] = agreement[q];
   json["rows"] = Json::array();
   for (const StudyRow& row : rows) {
@@ -98,9 +99,8 @@ std::string json_text(const formats::Study& study, const std::vector<StudyRow>& 
 }
 
 std::string benchmark_text(const formats::Study& study, const StudyRow& row, const std::vector<Series>& histories) {
-  std::string text =
-      fmt::format("# problem: {}\n# program: tisserand mechanism {}\n# setting: {}\n# accuracy: {:.4e}\n", study.name,
-                  TISSERAND_VERSION, row.cell->label, std::ranges::max(row.errors));
+  std::string text = fmt::format("# problem: {}\n# program: {}\n# setting: {}\n# accuracy: {:.4e}\n", study.name,
+                                 producer("mechanism"), row.cell->label, std::ranges::max(row.errors));
   text += fmt::format("# cpu time [s]: {:.4g}\n", row.time.median);
   text += fmt::format("{} [{}]", histories.front().x_name, histories.front().x_unit);
   for (std::size_t q = 0; q < histories.size(); ++q)

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "common/error.hpp"
+#include "common/program/version.hpp"
 #include "common/text.hpp"
 #include "formats/vtk/vtu.hpp"
 #include "mechanism/histories/series.hpp"
@@ -98,11 +99,11 @@ std::string write_run(const ViewRequest& request, const std::string& file, const
   for (Index t = 0; t < run.times.size(); ++t) {
     series.emplace_back(run.times[t], fmt::format("{0}/{0}_{1}.vtu", name, t));
     const Moved moved = moved_to(run, shapes, grid.points, t);
-    formats::write_vtu((fs::path(in) / series.back().second).string(), moved.points, grid.cells, {moved.displacement},
-                       {grid.body});
+    formats::write_vtu((fs::path(in) / series.back().second).string(), producer("mechanism"), moved.points, grid.cells,
+                       {moved.displacement}, {grid.body});
   }
   const std::string collection = (fs::path(in) / (name + ".pvd")).string();
-  formats::write_pvd(collection, series);
+  formats::write_pvd(collection, producer("mechanism"), series);
   return fmt::format("collection: {} ({} instants)\n", collection, run.times.size());
 }
 

@@ -10,6 +10,8 @@
 #include "common/base64.hpp"
 #include "common/error.hpp"
 #include "common/output_path.hpp"
+#include "common/program/picture_mark.hpp"
+#include "common/program/version.hpp"
 #include "common/text.hpp"
 #include "formats/results/results.hpp"
 #include "mechanism/view/browser.hpp"
@@ -23,8 +25,9 @@ constexpr int smallest_side = 32, largest_side = 8192;
 
 /// What users call it, and the setting of the page.
 const std::map<std::string, std::string> settings_of_things{
-    {"arrows", "arrows"},     {"axes", "worldAxes"}, {"body-axes", "bodyAxes"}, {"edges", "edges"},    {"elements", "elements"},
-    {"grid", "grid"}, {"joints", "joints"},  {"nodes", "nodes"},        {"springs", "springs"}};
+    {"arrows", "arrows"}, {"axes", "worldAxes"},    {"body-axes", "bodyAxes"},
+    {"edges", "edges"},   {"elements", "elements"}, {"grid", "grid"},
+    {"joints", "joints"}, {"nodes", "nodes"},       {"springs", "springs"}};
 
 /// "-30,20" -> azimuth and elevation [rad]; a name stays one.
 Json view_of(const std::string& text) {
@@ -114,7 +117,8 @@ Json still_of(const PictureRequest& request, const formats::ResultsReader& run) 
 /// The page beside the picture while it is drawn.
 class PageFile {
  public:
-  PageFile(const std::string& beside, const std::string& text) : path_(temporary_beside(is_stream(beside) ? "picture" : beside) + ".html") {
+  PageFile(const std::string& beside, const std::string& text)
+      : path_(temporary_beside(is_stream(beside) ? "picture" : beside) + ".html") {
     write_text_file(path_, text);
   }
   ~PageFile() {
@@ -149,12 +153,13 @@ std::string picture(const PictureRequest& request) {
   ViewRequest shown = request.page;
   shown.shapes.stress = shown.shapes.stress || request.colouring == "stress";
   const PageFile page(request.output, page_of(shown));
-  const std::string png = base64_decoded(asked_of_page(page.path(), "tisserand.still(" + still.dump() + ")", request.sandbox));
+  const std::string png =
+      base64_decoded(asked_of_page(page.path(), "tisserand.still(" + still.dump() + ")", request.sandbox));
   if (png.empty())
     throw Error("nothing is to be seen in the picture: no body is in view", request.output,
                 "see --view, --zoom, --exaggerate, --follow and --hide; `mechanism view` shows where the bodies are");
   TISSERAND_ENSURE(png.starts_with("\x89PNG"), "the page gave {} bytes that are no PNG", png.size());
-  write_text_file(request.output, png);
+  write_text_file(request.output, with_producer(png, producer("mechanism")));
   return fmt::format("picture: {} ({} x {} pixels, {:.0f} kB)\n", request.output, request.size[0], request.size[1],
                      1e-3 * static_cast<double>(png.size()));
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/error.hpp"
+#include "common/program/version.hpp"
 #include "common/text.hpp"
 #include "formats/page/page.hpp"
 
@@ -28,7 +29,7 @@ Json header_of(const ViewRequest& request, PageBlocks& blocks) {
   Json header{{"format", "tisserand-page"},
               {"version", 1},
               {"title", request.title},
-              {"program", std::string("tisserand mechanism ") + TISSERAND_VERSION},
+              {"program", producer("mechanism")},
               {"runs", Json::array()}};
   if (request.shown.files.empty()) throw Error("no results file is given", "", "name one or more *.results.h5");
   std::vector<std::string> names;

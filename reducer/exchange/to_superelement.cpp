@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/program/version.hpp"
 #include "formats/superelement/canonical.hpp"
 #include "formats/superelement/rigid_strain.hpp"
 
@@ -96,7 +97,7 @@ formats::Superelement describe(const ReducedMatrices& matrices, const ImportOpti
   formats::Superelement element;
   element.name = options.name;
   element.method = fmt::format("imported ({})", matrices.format);
-  element.producer = "Tisserand reducer " TISSERAND_VERSION;
+  element.producer = producer("reducer");
   element.units = options.units;
   element.node_position.resize(static_cast<Eigen::Index>(order.nodes.size()), 3);
   std::map<long, int> node_row;

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "common/program/version.hpp"
 #include "common/stable_sort.hpp"
 #include "common/text.hpp"
 #include "reducer/mesh/solid_faces.hpp"
@@ -153,7 +154,8 @@ void write_gmsh_file(const Mesh& mesh, const std::string& path) {
   Groups groups;
   const std::vector<MshEntity> entities = entities_of(batches, groups);
   MshText out;
-  out.line("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n{}", groups.size());
+  out.line("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Comments\n{}\n$EndComments\n$PhysicalNames\n{}", producer("reducer"),
+           groups.size());
   for (const auto& [group, number] : groups) {
     std::string name = group.second;
     std::ranges::replace(name, '"', '\'');

@@ -13,6 +13,7 @@
 #include "common/error.hpp"
 #include "common/math/rotation.hpp"
 #include "common/parallel.hpp"
+#include "common/program/version.hpp"
 #include "common/text.hpp"
 #include "reducer/elements/element_matrices.hpp"
 #include "reducer/modal_body/static_answers.hpp"
@@ -283,7 +284,7 @@ FoundBody find_body(const Mesh& mesh, const formats::Part& part, double lowest, 
   std::vector<LumpedNode> nodes = lumped_nodes(mesh, lumped, system, request);
   formats::ModalBody body;
   body.name = part.name;
-  body.producer = "Tisserand reducer " TISSERAND_VERSION;
+  body.producer = producer("reducer");
   body.units = part.units;
   body.all_nodes = request.all_nodes;
   body.frame_position = center_of_mass(mesh, nodes);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "common/program/version.hpp"
+
 namespace tisserand::reducer {
 namespace {
 
@@ -24,7 +26,7 @@ formats::Superelement describe(const formats::Part& part, const InternalProblem&
   formats::Superelement element;
   element.name = part.name;
   element.method = method;
-  element.producer = "Tisserand reducer " TISSERAND_VERSION;
+  element.producer = producer("reducer");
   element.units = part.units;
   element.node_position.resize(static_cast<Eigen::Index>(problem.mesh.boundary.size()), 3);
   for (std::size_t b = 0; b < problem.mesh.boundary.size(); ++b) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/program/version.hpp"
 #include "common/text.hpp"
 #include "reducer/recover/envelope.hpp"
 
@@ -134,7 +135,7 @@ void write_envelope_vtu(const std::string& path, const Recovery& r, const Motion
   add("largest_principal", envelope.element.largest);
   add("smallest_principal", envelope.element.smallest);
   on_cells.push_back({"group", 1, {r.elements.group.begin(), r.elements.group.end()}});
-  formats::write_vtu(path, X, cells, points, on_cells);
+  formats::write_vtu(path, producer("reducer"), X, cells, points, on_cells);
 }
 
 }  // namespace tisserand::reducer

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "common/error.hpp"
+#include "common/program/version.hpp"
 #include "common/text.hpp"
 #include "formats/vtk/vtu.hpp"
 #include "reducer/recover/envelope.hpp"
@@ -132,7 +133,7 @@ struct Series {
       const Eigen::Matrix3Xd rest = rest_positions(places, motion, frame, t);
       const Eigen::Matrix3d axes = frame_axes(motion, frame, t);
       written.emplace_back(motion.time[t], fmt::format("{}_{:05}.vtu", files.stem, first + t));
-      formats::write_vtu(files.path(written.back().second), rest.cast<float>(), cells,
+      formats::write_vtu(files.path(written.back().second), producer("reducer"), rest.cast<float>(), cells,
                          vtu_point_data(r, fields, values, axes, t), vtu_cell_data(r, fields, values, t));
     }
   }
@@ -224,7 +225,7 @@ std::string recover(const RecoverRequest& request) {
   envelope.finish(points);
   std::vector<std::string> written;
   const auto add = [&](const std::string& ending) { return written.emplace_back(files.path(files.stem + ending)); };
-  if (!request.envelope_only) formats::write_pvd(add(".pvd"), series.written);
+  if (!request.envelope_only) formats::write_pvd(add(".pvd"), producer("reducer"), series.written);
   write_envelope_vtu(add("_envelope.vtu"), r, motion, cells, envelope);
   write_envelope_csv(add("_envelope.csv"), r, motion, envelope);
   for (const std::string& path : histories.publish()) written.push_back(path);

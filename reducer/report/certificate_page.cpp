@@ -11,6 +11,7 @@
 
 #include "common/error.hpp"
 #include "common/gnuplot.hpp"
+#include "common/program/version.hpp"
 #include "common/text.hpp"
 #include "common/units.hpp"
 #include "reducer/report/verdict.hpp"
@@ -54,10 +55,12 @@ std::string safe(const std::string& text) {
 /// What gnuplot draws, or what is in the way.
 std::string picture(int width, int height, const std::string& script) {
   try {
-    const std::string text = gnuplot_picture(fmt::format(
-        "set terminal svg size {},{} font 'sans,17' linewidth 1.3\nset encoding utf8\n"
-        "set grid back lc rgb '#dddddd' lt 1 lw 0.7\nset border 3 lc rgb '#444444'\nset tics nomirror\nset format '%h'\n{}",
-        width, height, script), "certificate");
+    const std::string text =
+        gnuplot_picture(fmt::format("set terminal svg size {},{} font 'sans,17' linewidth 1.3\nset encoding utf8\n"
+                                    "set grid back lc rgb '#dddddd' lt 1 lw 0.7\nset border 3 lc rgb '#444444'\nset "
+                                    "tics nomirror\nset format '%h'\n{}",
+                                    width, height, script),
+                        "certificate");
     return text.substr(std::min(text.find("<svg"), text.size())) + "\n";
   } catch (const Error& error) {
     return fmt::format("<p class=warned>no picture: {}</p>\n", safe(error.message()));
@@ -137,8 +140,7 @@ std::string errors(const ModelCertificate& model) {
              "would change. Errors that are unknown have no point; the certificate below says why.</p>\n",
              model.mesh_error.boundary_held ? "fixed" : "free") +
          picture(620, 420,
-                 blocks +
-                     "set logscale y\nset xlabel 'mode'\nset ylabel 'error [%]'\nset key above left\n" +
+                 blocks + "set logscale y\nset xlabel 'mode'\nset ylabel 'error [%]'\nset key above left\n" +
                      gnuplot_logarithmic_axis("y", least / 1.5, 1.5 * most) + mode_axis(modes) + "plot " +
                      join(plots, ", ") + "\n");
 }
@@ -161,8 +163,7 @@ std::string effective_masses(const FileCertificate& c) {
     if (rows.empty()) rows.push_back("1 0 0");
     pictures +=
         picture(400, 300,
-                data_block("mass", rows) +
-                    mode_axis(rows.size()) +
+                data_block("mass", rows) + mode_axis(rows.size()) +
                     fmt::format("set yrange [0:105]\nset style fill solid 0.8 noborder\nunset key\nset title '{}'\n"
                                 "set xlabel 'mode'\nset ylabel '%'\nplot $mass using 1:2 with boxes lc rgb "
                                 "'#0060ad', $mass using 1:3 with steps lw 2 lc rgb '#d95319'\n",
@@ -207,7 +208,7 @@ std::string warnings_of(const FileCertificate& file, const std::optional<ModelCe
 
 std::string certificate_page(const formats::Superelement& element, const FileCertificate& file,
                              const std::optional<ModelCertificate>& model) {
-  std::string html = page_style;
+  std::string html = page_style + generator_tag("reducer");
   html += fmt::format("<title>{0}</title></head><body>\n<h1>{0}</h1>\n", safe(element.name));
   html += fmt::format("<p class=verdict>{}</p>\n", safe(verdict(file, model, element.units)));
   const Eigen::Vector3d c = shown_centre(file.rigid, file.characteristic_length);

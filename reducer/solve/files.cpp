@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/program/version.hpp"
 #include "common/text.hpp"
 #include "formats/vtk/vtu.hpp"
 #include "reducer/recover/places.hpp"
@@ -56,8 +57,8 @@ void write_cases(const Solution& s, const std::string& stem, const formats::VtuC
     std::vector<formats::VtuArray> on_points =
         vtu_point_data(s.tables, s.fields, values, Eigen::Matrix3d::Identity(), c);
     on_points.insert(on_points.begin() + 1, vectors("rotation", motion, c, 3, 1.0));
-    formats::write_vtu(case_file(stem, s.mesh.load_cases[c].name), s.mesh.position.cast<float>(), cells, on_points,
-                       vtu_cell_data(s.tables, s.fields, values, c));
+    formats::write_vtu(case_file(stem, s.mesh.load_cases[c].name), producer("reducer"), s.mesh.position.cast<float>(),
+                       cells, on_points, vtu_cell_data(s.tables, s.fields, values, c));
   }
 }
 
@@ -87,7 +88,8 @@ void write_buckling(const Solution& s, const std::string& stem, const formats::V
       arrays.push_back(vectors(name, shapes.motion, k, 0, 1.0));
       arrays.push_back(vectors(name + " rotation", shapes.motion, k, 3, 1.0));
     }
-    formats::write_vtu(buckling_file(stem, shapes.name), s.mesh.position.cast<float>(), cells, arrays, {});
+    formats::write_vtu(buckling_file(stem, shapes.name), producer("reducer"), s.mesh.position.cast<float>(), cells,
+                       arrays, {});
   }
 }
 
@@ -100,7 +102,7 @@ void write_modes(const Solution& s, const std::string& path, const formats::VtuC
     shapes.push_back(vectors(fmt::format("mode_{:03} {:.6g}", k + 1, frequency(s.modes->lambda[k])), motion, k, 0,
                              largest > 0.0 ? 1.0 / largest : 1.0));
   }
-  formats::write_vtu(path, s.mesh.position.cast<float>(), cells, shapes, {});
+  formats::write_vtu(path, producer("reducer"), s.mesh.position.cast<float>(), cells, shapes, {});
 }
 
 }  // namespace

@@ -12,6 +12,8 @@
 #include "common/error.hpp"
 #include "common/gnuplot.hpp"
 #include "common/output_path.hpp"
+#include "common/program/picture_mark.hpp"
+#include "common/program/version.hpp"
 #include "common/text.hpp"
 #include "reducer/survey/labels.hpp"
 #include "reducer/survey/page.hpp"
@@ -170,7 +172,8 @@ void draw_picture(const Survey& survey, const std::vector<FacePiece>& pieces, co
   const std::array<std::string, 4> texts{
       title, "from the front, right and above", "from behind, left and below",
       missing.empty() ? "" : "hidden in both views, or too small: " + listed(missing)};
-  write_text_file(output, gnuplot_picture(faces_script(panels, texts, output.ends_with(".svg")), output));
+  write_text_file(output, with_producer(gnuplot_picture(faces_script(panels, texts, output.ends_with(".svg")), output),
+                                        producer("reducer")));
 }
 
 }  // namespace

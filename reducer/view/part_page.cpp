@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "common/program/version.hpp"
 #include "common/text.hpp"
 #include "formats/modal_body/modal_body.hpp"
 #include "formats/page/header_parts.hpp"
@@ -288,7 +289,7 @@ std::string part_page(const ViewedPart& part) {
   const Json header{{"format", "tisserand-page"},
                     {"version", 1},
                     {"title", part.title},
-                    {"program", std::string("tisserand reducer ") + TISSERAND_VERSION},
+                    {"program", producer("reducer")},
                     {"runs", Json::array({json})}};
   return formats::page_text(formats::viewer_bundle(), header, blocks);
 }

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include "common/child.hpp"
+#include "common/program/version.hpp"
 #include "tests/cli/scenes.hpp"
 
 namespace tisserand::cli::outputs_test {
@@ -108,7 +109,8 @@ TEST_F(Outputs, ResultsOfAWrongKindAreRefused) {
   make_results();
   for (const char* command : {"channels", "export", "plot"}) {
     std::vector<std::string> rest{"-c", "energy/total"};
-    if (std::string(command) != "channels") rest.insert(rest.end(), {"-o", std::string(command) == "plot" ? "x.svg" : "x.csv"});
+    if (std::string(command) != "channels")
+      rest.insert(rest.end(), {"-o", std::string(command) == "plot" ? "x.svg" : "x.csv"});
     const auto refused = [&](const std::string& input, const std::vector<std::string>& words) {
       std::vector<std::string> all{command, input};
       all.insert(all.end(), rest.begin(), rest.end());
@@ -278,7 +280,7 @@ TEST_F(Outputs, UsageErrorsAreTwoAndHelpTeaches) {
     EXPECT_THAT(outcome.out, HasSubstr(std::string("\n  mechanism ") + command));  // an example
   }
   EXPECT_THAT(mechanism({"--help"}).out, AllOf(HasSubstr("Examples:"), HasSubstr("Exit codes:"), HasSubstr("Units")));
-  EXPECT_THAT(mechanism({"--version"}).out, HasSubstr("tisserand mechanism " TISSERAND_VERSION));
+  EXPECT_THAT(mechanism({"--version"}).out, HasSubstr("mechanism " + version() + " (Tisserand)\ncommit "));
 }
 
 TEST_F(Outputs, ExportIsAppendedWhereTheShellAppends) {
@@ -381,16 +383,15 @@ TEST_F(Outputs, PicturesSayWhatTheyCannotShow) {
   expect_error(fault({"--trace", "rod/ende"}), {"no node 'rod/ende'", "rod/end"});
   expect_error(fault({"--mode", "3"}), {"holds 0 modes", "analysis: modes"});
   expect_error(mechanism({"picture", "arm.results.h5", "-o", "arm.jpg"}), {"arm.jpg", ".png"});
-  const Outcome alone = call(
-      {"/usr/bin/env", "PATH=/nowhere", program("mechanism"), "picture", "arm.results.h5", "--no-sandbox"}, where);
+  const Outcome alone =
+      call({"/usr/bin/env", "PATH=/nowhere", program("mechanism"), "picture", "arm.results.h5", "--no-sandbox"}, where);
   expect_error(alone, {"no Chromium", "apt-get install chromium"});
   write_text(file("chromium"), "#!/bin/sh\necho no display >&2\nexit 1\n");
   std::filesystem::permissions(file("chromium"), std::filesystem::perms::owner_all);
-  expect_error(
-      call({"/usr/bin/env", "PATH=" + folder.path().string(), program("mechanism"), "picture", "arm.results.h5",
-            "--no-sandbox"},
-           where),
-      {"did not answer", "no display"});
+  expect_error(call({"/usr/bin/env", "PATH=" + folder.path().string(), program("mechanism"), "picture",
+                     "arm.results.h5", "--no-sandbox"},
+                    where),
+               {"did not answer", "no display"});
   EXPECT_FALSE(std::filesystem::exists(file("arm.png")));
   for (const auto& left : std::filesystem::directory_iterator(folder.path()))
     EXPECT_NE(left.path().extension(), ".html");
@@ -400,7 +401,8 @@ TEST_F(Outputs, PicturesAreTheSameEachTime) {
   if (!is_program("chromium")) GTEST_SKIP() << "not tested: there is no chromium here (apt-get install chromium)";
   make_results();
   for (const char* name : {"a.png", "b.png"}) {
-    std::vector<std::string> words{"picture", "arm.results.h5", "--time", "0.02", "--time", "0.1", "--size", "300", "200", "-o", name};
+    std::vector<std::string> words{
+        "picture", "arm.results.h5", "--time", "0.02", "--time", "0.1", "--size", "300", "200", "-o", name};
     if (::geteuid() == 0) words.push_back("--no-sandbox");
     const Outcome outcome = mechanism(words);
     ASSERT_EQ(outcome.code, 0) << outcome.error;

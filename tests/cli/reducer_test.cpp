@@ -1,6 +1,7 @@
 // The faults of parts and of reduced files, told by `reducer`; skipped where that program is not built.
 #include <cmath>
 
+#include "common/program/version.hpp"
 #include "tests/cli/scenes.hpp"
 
 namespace tisserand::cli::reducer_test {
@@ -61,11 +62,10 @@ TEST_F(Reducer, FaultsOfAPartAreToldAndLeaveNothing) {
 // As of `mechanism`; here gmsh has a process of its own, which is called through descriptors 3 and 4.
 // A plate that takes some ten seconds.
 TEST_F(Reducer, InterruptedLeavesNothingHalfWritten) {
-  const Outcome outcome =
-      call({"/usr/bin/timeout", "--preserve-status", "-s", "INT", "1", program("reducer"), "run",
-            std::string(TISSERAND_SOURCE_DIR) + "/tests/benchmarks/spider_plate.part.yaml", "--set",
-            "plates.sheet.elements=[200, 200]", "-o", file("plate.superelement.h5")},
-           where);
+  const Outcome outcome = call({"/usr/bin/timeout", "--preserve-status", "-s", "INT", "1", program("reducer"), "run",
+                                std::string(TISSERAND_SOURCE_DIR) + "/tests/benchmarks/spider_plate.part.yaml", "--set",
+                                "plates.sheet.elements=[200, 200]", "-o", file("plate.superelement.h5")},
+                               where);
   EXPECT_EQ(outcome.code, 130) << outcome.error;
   EXPECT_THAT(outcome.error, HasSubstr("reducer: interrupted: no file was written or changed"));
   for (const std::string& name : names()) EXPECT_THAT(name, Not(HasSubstr("plate")));
@@ -154,7 +154,7 @@ TEST_F(Reducer, UsageErrorsAreTwoAndHelpTeaches) {
   for (const char* command : {"run", "show", "mesh", "section"})
     EXPECT_THAT(reducer({command, "--help"}).out, HasSubstr(std::string("\n  reducer ") + command));
   EXPECT_THAT(reducer({"--help"}).out, AllOf(HasSubstr("Examples:"), HasSubstr("Exit codes:"), HasSubstr("Units")));
-  EXPECT_THAT(reducer({"--version"}).out, HasSubstr("reducer " TISSERAND_VERSION));
+  EXPECT_THAT(reducer({"--version"}).out, HasSubstr("reducer " + version() + " (Tisserand)\ncommit "));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/program/version.hpp"
 #include "formats/companion/companion.hpp"
 #include "formats/modal_body/modal_body.hpp"
 #include "formats/recovery/recovery.hpp"
@@ -233,7 +234,7 @@ TEST_F(Program, MeshWritesAGmshFile) {
 TEST_F(Program, HelpAndVersionAreUnderstood) {
   EXPECT_THAT(call("--help").text, AllOf(HasSubstr("Examples:"), HasSubstr("reducer run beam.part.yaml")));
   EXPECT_EQ(call("--help").code, 0);
-  EXPECT_THAT(call("--version").text, HasSubstr("reducer " TISSERAND_VERSION));
+  EXPECT_THAT(call("--version").text, HasSubstr("reducer " + version() + " (Tisserand)\ncommit "));
 }
 
 TEST_F(Program, WrongUsageIsTwoAndErrorsAreOne) {
