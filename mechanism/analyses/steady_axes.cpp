@@ -12,6 +12,7 @@
 #include <Eigen/SVD>
 
 #include "common/math/rotation.hpp"
+#include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/model/element_map.hpp"
 #include "mechanism/model/node_coordinates.hpp"

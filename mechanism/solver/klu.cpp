@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <random>
 
 #include "common/error.hpp"
 #include "mechanism/solver/back_ends.hpp"
