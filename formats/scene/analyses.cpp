@@ -98,16 +98,17 @@ Scene scene_of(const Scene& scene, const Analysis& analysis) {
 }
 
 std::vector<KeySet> analysis_key_sets() {
-  return {
-      {"analysis",
-       {choice<&Analysis::kind, analysis_kinds>("type", "kind of the analysis", "required"),
-        {"from", "text",
-         "an analysis above: its end gives positions and velocities in place of the poses of the bodies", "none"},
-        {"integrator", "integrator", "as below; single values in place of those of the scene", "those of the scene"},
-        nested<&Analysis::statics>("statics", "statics", ditto),
-        nested<&Analysis::modes>("modes", "modes", ditto),
-        {"output", "output", ditto},
-        {"checkpoint", "checkpoint", ditto}}}};
+  return {{"analysis",
+           {choice<&Analysis::kind, analysis_kinds>("type", "kind of the analysis", "required"),
+            {"from", "text",
+             "an analysis above: start from the positions and velocities at its end instead of the poses of the bodies",
+             "none"},
+            {"integrator", "integrator", "as for the scene; single values replace those of the scene",
+             "those of the scene"},
+            nested<&Analysis::statics>("statics", "statics", ditto),
+            nested<&Analysis::modes>("modes", "modes", ditto),
+            {"output", "output", ditto},
+            {"checkpoint", "checkpoint", ditto}}}};
 }
 
 void read_analyses(const MapReader& map, Scene& scene) {

@@ -146,11 +146,13 @@ SuperelementBodySpec unreadable_body(const Context& context, const YamlNode& nod
 std::vector<Field> start_fields(std::vector<Field> gravity) {
   std::vector<Field> fields{
       plain<&InitialMotion::pose>("pose", "pose",
-                                  "`{position: [x, y, z], orientation: ..}` of the part frame in the world",
+                                  "pose of the part frame in the world: `{position: [x, y, z], orientation: ..}`",
                                   "at the origin, unrotated"),
-      plain<&InitialMotion::velocity>("velocity", "vector", "of the origin of the part frame, world axes [length/time]",
+      plain<&InitialMotion::velocity>("velocity", "vector",
+                                      "velocity of the origin of the part frame, world axes [length/time]",
                                       "free: see [initial](#initial)"),
-      plain<&InitialMotion::angular_velocity>("angular_velocity", "vector", "world axes [rad/time]", "free")};
+      plain<&InitialMotion::angular_velocity>("angular_velocity", "vector", "angular velocity, world axes [rad/time]",
+                                              "free")};
   fields.insert(fields.end(), gravity.begin(), gravity.end());
   return shared_fields("body_start", fields);
 }
@@ -159,7 +161,7 @@ template <class Body>
 std::vector<Field> start_fields() {
   return start_fields({plain<&Body::gravity>(
       "gravity", "vector",
-      "acceleration of this body instead of the scene's, world axes [length/time²]; `[0, 0, 0]` for none",
+      "gravity of this body instead of that of the scene, world axes [length/time²]; `[0, 0, 0]`: no weight",
       "that of the scene")});
 }
 
@@ -167,110 +169,110 @@ KeySet superelement_fields() {
   return {
       "body_superelement",
       {{"type", "'superelement'", "", "required"},
-       plain<&SuperelementBodySpec::file>("file", "text", "superelement file, relative to the scene file", "required"),
+       plain<&SuperelementBodySpec::file>("file", "text", "superelement file", "required"),
        {"mirror", "mirror",
-        "`yz`, `xz` or `xy`: the part of the file, mirrored at this plane of its frame, before the pose; a list: "
-        "one plane after another",
+        "`yz`, `xz` or `xy`: mirror the part at this plane of its frame, before the pose is applied; a list: one plane "
+        "after another",
         "no"},
-       choice<&SuperelementBodySpec::rigid, uses>(
-           "use",
-           "`flexible`, or `rigid`: a rigid body with the mass and inertia that the file represents; the keys below "
-           "have no effect then and are errors"),
-       plain<&SuperelementBodySpec::modes>("modes", "number_of", "use only the lowest internal modes, 0 or more",
-                                           "all"),
+       choice<&SuperelementBodySpec::rigid, uses>("use",
+                                                  "`flexible`, or `rigid`: a rigid body with the mass and inertia of "
+                                                  "the file. The keys from `modes` to `damping` are then errors"),
+       plain<&SuperelementBodySpec::modes>("modes", "number_of",
+                                           "number of internal modes to use, lowest first, 0 or more", "all"),
        plain<&SuperelementBodySpec::cutoff>(
-           "cutoff", "positive", "instead: internal modes below this frequency [1/time of the scene]", "all"),
+           "cutoff", "positive",
+           "instead of `modes`: use the internal modes below this frequency [1/time of the scene]", "all"),
        choice<&SuperelementBodySpec::inertia, inertia_options>(
            "inertia",
-           "angular velocities in the kinetic energy: `A` turned to the axes of the floating frame, `B` material, "
-           "in the axes of each node ([Car00] sections 6 and 7; B is the more accurate there), `M` as B with the exact "
-           "motion of the centre of mass: for bodies that turn and translate fast (rods of slider-cranks, wheels "
-           "on the road), `F` all of the mass, by the companion file; M and F not with `frame: paper`",
-           "`B`, or by `second_order`"),
+           "inertia option `A`, `B`, `M` or `F`: see [inertia options](#inertia-options); `M` and `F` cannot be "
+           "combined with `frame: paper`",
+           "`B`; `F` with `second_order`"),
        choice<&SuperelementBodySpec::stiffening, stiffening_options>(
            "stiffening",
-           "what the companion file adds to the linear strain: nothing; `stress` the geometric stiffness of the body's "
-           "own stress (inertia M or F); `full` also that of its inertia (inertia F)",
-           "`off`, or by `second_order`"),
+           "geometric stiffness from the companion file: `off`; `stress`: that of the stress in the body (needs "
+           "inertia `M` or `F`); `full`: also that of its inertia (needs inertia `F`)",
+           "`off`; `full` with `second_order`"),
        choice<&SuperelementBodySpec::second_order, on_or_off>(
            "second_order",
-           "`on`: inertia F and stiffening full; `off`: inertia B and stiffening off, as without a companion file",
-           "`on` where a companion file lies beside the superelement file and neither `inertia` nor `stiffening` is "
+           "`on`: `inertia: F` and `stiffening: full`; `off`: `inertia: B` and `stiffening: off`, as without a "
+           "companion file",
+           "`on` if a companion file lies beside the superelement file and neither `inertia` nor `stiffening` is "
            "given"),
        choice<&SuperelementBodySpec::double_curvature, on_or_off>(
            "double_curvature",
-           "with stiffening, the membrane stress that bending of plates into double curvature traps, by the rows that "
-           "`double_curvature` of the part file writes into the companion file",
-           "`on` where there is stiffening and the companion file has such rows"),
+           "with stiffening: membrane stress of plates bent into double curvature, which `double_curvature` of the "
+           "part file writes into the companion file",
+           "`on` if the companion file has it"),
        {"frame", "/^(karcher|paper|node: ?[^ ]+)$/ | frame",
-        "floating frame: `karcher` (mean rotation), `paper` (incremental mean, [Car00] (16)), `{node: base}` "
-        "(attached to a node; also as text `\"node: base\"`)",
+        "floating frame: `karcher`: mean rotation of the nodes; `paper`: mean of increments ([Car00] equation 16); "
+        "`{node: base}` or the text `\"node: base\"`: attached to a node",
         "`karcher`"},
        {"weights", "weights",
-        "`{positions: {base: 0.5, tip: 0.5}, rotations: {..}}` of the nodes in the mean; the sum of each is 1; an "
-        "error beside `frame: {node: ..}`",
-        "from the centre of mass"},
-       nested<&SuperelementBodySpec::damping>(
-           "damping", "damping",
-           "`{mass: a, stiffness: b, ratio: z, ratios: [z1, z2]}`: Rayleigh a M + b S [1/time, time], ratio of "
-           "critical damping of every elastic mode of the free body, of the lowest ones; `ratio_internal`, "
-           "`ratios_internal`: of the internal modes, whose boundary is held (see below). All add up",
-           "0"),
+        "weights of the nodes in the mean: `{positions: {base: 0.5, tip: 0.5}, rotations: {..}}`; the sum of each map "
+        "is 1; an error with `frame: {node: ..}`",
+        "chosen for the centre of mass"},
+       nested<&SuperelementBodySpec::damping>("damping", "damping",
+                                              "map of `mass`, `stiffness`, `ratio`, `ratios`, `ratio_internal`, "
+                                              "`ratios_internal`: see [damping](#damping)",
+                                              "0"),
        shape_field()},
       start_fields<SuperelementBodySpec>()};
 }
 
 KeySet modal_fields() {
-  return {"body_modal",
-          {{"type", "'modal'", "", "required"},
-           plain<&ModalBodySpec::file>("file", "text", "modal body file, relative to the scene file", "required"),
-           {"mirror", "mirror", "mirrors the body; same values as for a superelement", "no"},
-           plain<&ModalBodySpec::modes>("modes", "number_of", "use only the lowest modes, 0 or more", "all"),
-           plain<&ModalBodySpec::cutoff>("cutoff", "positive",
-                                         "instead: modes below this frequency [1/time of the scene]", "all"),
-           nested<&ModalBodySpec::damping>("damping", "damping",
-                                           "`{mass, stiffness, ratio, ratios}` of the modes of the file, added to its "
-                                           "ratios: rigid motion is not damped",
-                                           "0"),
-           shape_field()},
-          start_fields<ModalBodySpec>()};
+  return {
+      "body_modal",
+      {{"type", "'modal'", "", "required"},
+       plain<&ModalBodySpec::file>("file", "text", "modal body file", "required"),
+       {"mirror", "mirror", "mirror the body; values as for a superelement", "no"},
+       plain<&ModalBodySpec::modes>("modes", "number_of", "number of modes to use, lowest first, 0 or more", "all"),
+       plain<&ModalBodySpec::cutoff>(
+           "cutoff", "positive", "instead of `modes`: use the modes below this frequency [1/time of the scene]", "all"),
+       nested<&ModalBodySpec::damping>(
+           "damping", "damping",
+           "map of `mass`, `stiffness`, `ratio`, `ratios` for its modes, added to the ratios of the file", "0"),
+       shape_field()},
+      start_fields<ModalBodySpec>()};
 }
 
 KeySet beam_fields() {
-  return {"body_beam",
-          {{"type", "'beam'", "", "required"},
-           plain<&BeamBodySpec::from>("from", "vector", "its ends in the part frame [length]", "required"),
-           plain<&BeamBodySpec::to>("to", "vector", ditto, "required"),
-           plain<&BeamBodySpec::through>("through", "vector", "a third point of a circular arc", "straight"),
-           plain<&BeamBodySpec::orientation>(
-               "orientation", "vector", "vector of the part frame whose part across the axis is the section's y axis",
-               "the axis of the part frame most nearly normal to the beam (among equals y before z before x)"),
-           plain<&BeamBodySpec::elements>("elements", "integer>=1<=100000", "1 to 100 000", "required"),
-           plain<&BeamBodySpec::nodes_per_element>("nodes_per_element", "2 | 3", "2 or 3"),
-           {"section", "name | section",
-            "a name from `sections`, `materials`, or the map itself. Of the section: shear areas are needed; y and z "
-            "are principal axes; centroid and shear centre lie on the axis (angles, channels and the like are for "
-            "superelements). A section by `stiffness` has no material",
-            "required"},
-           {"material", "name | material", ditto, "required without `stiffness`"}},
-          start_fields<BeamBodySpec>()};
+  return {
+      "body_beam",
+      {{"type", "'beam'", "", "required"},
+       plain<&BeamBodySpec::from>("from", "vector", "ends of the beam in the part frame [length]", "required"),
+       plain<&BeamBodySpec::to>("to", "vector", ditto, "required"),
+       plain<&BeamBodySpec::through>("through", "vector",
+                                     "a third point on the axis of the beam, which is then a circular arc [length]",
+                                     "straight"),
+       plain<&BeamBodySpec::orientation>(
+           "orientation", "vector",
+           "vector of the part frame whose component normal to the beam axis is the y axis of the section",
+           "the axis of the part frame most nearly normal to the beam (among equals y before z before x)"),
+       plain<&BeamBodySpec::elements>("elements", "integer>=1<=100000", "number of elements, 1 to 100 000", "required"),
+       plain<&BeamBodySpec::nodes_per_element>("nodes_per_element", "2 | 3", "nodes of each element, 2 or 3"),
+       {"section", "name | section", "a name from `sections` and `materials`, or the map itself; limits are below",
+        "required"},
+       {"material", "name | material", ditto, "required without `stiffness`"}},
+      start_fields<BeamBodySpec>()};
 }
 
 }  // namespace
 
 std::vector<KeySet> body_key_sets() {
-  const Field nodes{"nodes", "{name: pose}", "name -> `{position, orientation}` in the part frame", "none"};
+  const Field nodes{"nodes", "{name: pose}", "name -> pose of the node in the part frame, `{position, orientation}`",
+                    "none"};
   return {
       superelement_fields(),
       modal_fields(),
       beam_fields(),
       {"body_rigid",
        {{"type", "'rigid'", "", "required"},
-        plain<&RigidBodySpec::mass>("mass", "positive", "positive [mass]", "required"),
-        plain<&RigidBodySpec::center_of_mass>("center_of_mass", "vector", "in the part frame [length]"),
+        plain<&RigidBodySpec::mass>("mass", "positive", "mass of the body, positive [mass]", "required"),
+        plain<&RigidBodySpec::center_of_mass>("center_of_mass", "vector", "centre of mass in the part frame [length]"),
         plain<&RigidBodySpec::inertia>(
             "inertia", "inertia_tensor",
-            "about the centre of mass, part axes [mass length²]; forms and limits as in PART.md", "required"),
+            "inertia about the centre of mass, part axes [mass length²]; forms and limits as in [PART.md](PART.md)",
+            "required"),
         nodes,
         shape_field()},
        start_fields<RigidBodySpec>()},

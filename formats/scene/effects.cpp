@@ -100,27 +100,25 @@ void read_effects(const MapReader& map, Scene& scene) {
 
 std::vector<KeySet> effect_key_sets() {
   const auto field = [](std::string_view key, std::string_view meaning) {
-    return Field{key, "'on' | 'off'", meaning, "as of the scene: `on`"};
+    return Field{key, "'on' | 'off'", meaning, "value of the scene: `on`"};
   };
   const auto automatic = [](std::string_view key, std::string_view meaning) {
-    return Field{key, "'on' | 'off' | 'auto'", meaning, "as of the scene: `on`"};
+    return Field{key, "'on' | 'off' | 'auto'", meaning, "value of the scene: `on`"};
   };
-  return {
-      {"body_effects",
-       {automatic("flexibility",
-                  "deformation of superelements and modal bodies. Off: a superelement is a rigid body as with `use: "
-                  "rigid`, and its other keys, and `stiffening` and `damping` here, stay without effect; a modal body "
-                  "keeps no mode"),
-        field("rotary_inertia", "of the sections of beams, against turning about their own axes"),
-        field("gyroscopic", "Ω × J Ω in the equation of moments of rigid bodies"),
-        automatic("stiffening",
-                  "what a companion file adds to the linear strain of a superelement, by `stiffening` or "
-                  "`second_order`; its inertia stays as it is"),
-        field("damping",
-              "of superelements and modal bodies, with that of the file; dampers of springs and bushings stay"),
-        field("gravity", "weight of bodies with mass; load cases of parts stay"),
-        field("friction", "Coulomb friction of joints: of the scene, or under the name of a joint"),
-        field("stops", "`lower` and `upper` of springs: of the scene, or under the name of a spring")}}};
+  return {{"body_effects",
+           {automatic("flexibility",
+                      "deformation of superelements and modal bodies; without it a superelement is rigid, as with "
+                      "`use: rigid`, and a modal body has no modes; also `auto`"),
+            field("rotary_inertia", "rotary inertia of the sections of beams about their own axes"),
+            field("gyroscopic", "gyroscopic moment Ω × J Ω of rigid bodies"),
+            automatic("stiffening",
+                      "geometric stiffness of superelements from the companion file; the inertia option does not "
+                      "change; also `auto`"),
+            field("damping",
+                  "damping of superelements and modal bodies, with that of the file; not of springs and bushings"),
+            field("gravity", "weight of bodies; not of load cases of parts"),
+            field("friction", "Coulomb friction, of all joints or of one joint by its name"),
+            field("stops", "stops `lower` and `upper`, of all springs or of one spring by its name")}}};
 }
 
 }  // namespace tisserand::formats

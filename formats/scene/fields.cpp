@@ -13,9 +13,9 @@ namespace {
 
 /// What an assembly has in common with a scene: maps from names.
 std::vector<Field> assembly_fields() {
-  std::vector<Field> fields{{"assembly", "text", "title, in a file of its own"},
-                            {"parameters", "{parameter_name: any}", "with their defaults"},
-                            {"assemblies", "{name: text | assembly}", "as those of a scene"},
+  std::vector<Field> fields{{"assembly", "text", "title, if the assembly is a file of its own"},
+                            {"parameters", "{parameter_name: any}", "parameters with their default values"},
+                            {"assemblies", "{name: text | assembly}", "as in a scene"},
                             {"instances", "{name: instance}", ditto}};
   for (const std::string_view key : collection_keys({{"scene", scene_fields()}}))
     if (key != "analyses" && key != "roads" && std::ranges::find(fields, key, &Field::key) == fields.end())
@@ -24,16 +24,17 @@ std::vector<Field> assembly_fields() {
 }
 
 KeySet instance_fields() {
-  return {"instance",
-          {{"use", "text", "name of an assembly", "required"},
-           {"pose", "pose", "where its axes stand in those around it", "at the origin, unrotated"},
-           {"mirror", "plane", "`yz`, `xz` or `xy`: mirrored at this plane of its axes, before the pose", "no"},
-           {"parameters", "{text: any}+", "values for those of the assembly; a name that it does not have is an error",
-            "its defaults"},
-           {"count", "integer>=0<=200000", "so many copies, called `link[0]`, `link[1]`, ... (at most 200 000)",
-            "one, called `link`"},
-           {"step", "pose", "pose of each copy in the axes of the one before", "none"},
-           {"first", "{text: any}+", "parameters of the first copy that differ from the others'", "none"}}};
+  return {
+      "instance",
+      {{"use", "text", "name of an assembly", "required"},
+       {"pose", "pose", "pose of its axes in the axes around it", "at the origin, unrotated"},
+       {"mirror", "plane", "`yz`, `xz` or `xy`: mirror it at this plane of its axes, before the pose is applied", "no"},
+       {"parameters", "{text: any}+", "values for the parameters of the assembly; an unknown name is an error",
+        "its defaults"},
+       {"count", "integer>=0<=200000", "number of copies, named `link[0]`, `link[1]`, ... (at most 200 000)",
+        "one, named `link`"},
+       {"step", "pose", "pose of each copy in the axes of the previous one", "none"},
+       {"first", "{text: any}+", "parameters of the first copy that differ from those of the others", "none"}}};
 }
 
 }  // namespace

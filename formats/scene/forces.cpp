@@ -155,82 +155,90 @@ void read_loads(const MapReader& map, Scene& scene) {
 std::vector<KeySet> force_key_sets() {
   return {
       {"motion",
-       {plain<&MotionSpec::coordinate>("coordinate", "text", "joint coordinate; a position [length] or an angle [rad]",
-                                       "required"),
+       {plain<&MotionSpec::coordinate>(
+            "coordinate", "text", "joint coordinate that is driven, a position [length] or an angle [rad]", "required"),
         plain<&MotionSpec::value>("value", "motion_value",
-                                  "number, expression in t and inputs, or table as for loads, with `interpolation: "
-                                  "smooth` (as if not given), "
-                                  "`natural` or `linear` beside it (see below)",
+                                  "[function of time](#functions-of-time) in `t` and inputs; tables take "
+                                  "`interpolation`: `smooth` (default), `natural` or `linear`",
                                   "required")}},
       {"initial",
-       {plain<&InitialSpec::value>("value", "number", "where the coordinate stands [length or rad]", "as written"),
-        plain<&InitialSpec::rate>("rate", "number", "how fast it moves [length/time or rad/time]", "free"),
+       {plain<&InitialSpec::value>("value", "number", "value of the coordinate at the start [length or rad]",
+                                   "that of the poses"),
+        plain<&InitialSpec::rate>("rate", "number", "rate of the coordinate at the start [length/time or rad/time]",
+                                  "free"),
         plain<&InitialSpec::velocity>(
             "velocity", "vector",
-            "of a body, named instead of a coordinate: of the origin of its part frame, world "
-            "axes [length/time]",
-            "free"),
-        plain<&InitialSpec::angular_velocity>("angular_velocity", "vector", "of a body, world axes [rad/time]",
+            "if the entry names a body: velocity of the origin of its part frame, world axes [length/time]", "free"),
+        plain<&InitialSpec::angular_velocity>("angular_velocity", "vector",
+                                              "if the entry names a body: its angular velocity, world axes [rad/time]",
                                               "free")}},
       {"spring",
-       {plain<&SpringSpec::coordinate>("coordinate", "text", "joint coordinate", "one of both"),
-        {"a", "place", "markers"},
+       {plain<&SpringSpec::coordinate>("coordinate", "text", "joint coordinate along which the spring acts",
+                                       "this, or `a` and `b`"),
+        {"a", "place", "two markers between which the spring acts"},
         {"b", "place", ditto},
         choice<&SpringSpec::kind, spring_kinds>(
             "type",
-            "between two markers: `line`, along the line between them, its coordinate q is their distance; `torsion`, "
-            "about their z axes, q is the angle of b against a [rad], right-handed and unwrapped: "
-            "atan2(y_A·x_B − x_A·y_B, x_A·x_B + y_A·y_B)"),
+            "between markers: `line`: q is their distance; `torsion`: q is the angle of b relative to a about their z "
+            "axes [rad], right-handed, whole turns counted: atan2(y_A·x_B − x_A·y_B, x_A·x_B + y_A·y_B)"),
         plain<&MarkerPairSpec::axis>("axis", "vector",
-                                     "`torsion`: z and x axes of the markers at the start as for joints", "-"),
+                                     "`torsion`: z and x axes of the markers at the start, as for joints", "-"),
         plain<&MarkerPairSpec::x_axis>("x_axis", "vector", ditto),
-        plain<&SpringSpec::stiffness>(
-            "stiffness", "number | curve",
-            "k [force/length or moment/rad], or a curve of the force f over the deflection q − free", "0"),
-        plain<&SpringSpec::damping>(
-            "damping", "not_negative | curve",
-            "c, not negative, or a curve of the force d over the rate q̇, with the sign of the rate", "0"),
-        plain<&SpringSpec::free>("free", "number", "value of the coordinate without force", "that at the start"),
-        plain<&SpringSpec::lower>("lower", "number", "stops", "none"),
+        plain<&SpringSpec::stiffness>("stiffness", "number | curve",
+                                      "stiffness k [force/length or moment/rad], or a [curve](#curves) of the force f "
+                                      "over the deflection q − `free`",
+                                      "0"),
+        plain<&SpringSpec::damping>("damping", "not_negative | curve",
+                                    "damping c, not negative [force time/length or moment time/rad], or a "
+                                    "[curve](#curves) of the force d over the rate q̇, with its sign",
+                                    "0"),
+        plain<&SpringSpec::free>("free", "number", "value of q at which the spring exerts no force",
+                                 "value at the start"),
+        plain<&SpringSpec::lower>("lower", "number", "values of q at which stops begin to act", "none"),
         plain<&SpringSpec::upper>("upper", "number", ditto),
-        {"stop_stiffness", "not_negative", "a stop passed by g pushes back with k_s g (1 + d ġ), never pulling",
-         "required with a stop; 0"},
+        {"stop_stiffness", "not_negative",
+         "k_s and d: a stop passed by g pushes back with k_s g (1 + d ġ), and never pulls", "required with a stop; 0"},
         plain<&SpringSpec::stop_damping>("stop_damping", "not_negative", ditto),
         plain<&SpringSpec::force>(
             "force", "function",
-            "number, expression in t or table as for loads, positive along the positive coordinate", "0")}},
+            "additional force, a [function of time](#functions-of-time); positive in the direction in which q grows",
+            "0")}},
       {"bushing",
-       {plain<&MarkerPairSpec::a>("a", "place", "markers on two different nodes", "required"),
+       {plain<&MarkerPairSpec::a>("a", "place", "two markers on different nodes", "required"),
         plain<&MarkerPairSpec::b>("b", "place", ditto),
         plain<&MarkerPairSpec::position>(
-            "position", "vector", "places them as those of joints; axes of the world without `axis` and orientations",
-            "as in joints"),
+            "position", "vector", "place and axes of the markers; without `axis` and orientations axes of the world",
+            "as for joints"),
         plain<&MarkerPairSpec::axis>("axis", "vector", ditto),
         plain<&MarkerPairSpec::x_axis>("x_axis", "vector", ditto),
         plain<&BushingSpec::stiffness>(
             "stiffness", "six_by_six",
-            "K: six numbers of its diagonal `[x, y, z, rx, ry, rz]`, or a field: six rows of six [force/length, "
-            "force/rad; moment/length, moment/rad]",
+            "stiffness matrix K: the six numbers of its diagonal `[x, y, z, rx, ry, rz]`, or six rows of six numbers "
+            "[force/length, force/rad; moment/length, moment/rad]",
             "0"),
-        plain<&BushingSpec::damping>("damping", "six_by_six",
-                                     "D in the same forms; its symmetric part must not be negative", "0"),
-        plain<&BushingSpec::free>("free", "six", "deflection without force, six numbers", "that at the start"),
+        plain<&BushingSpec::damping>(
+            "damping", "six_by_six",
+            "damping matrix D in the same forms; its symmetric part must have no negative eigenvalue", "0"),
+        plain<&BushingSpec::free>("free", "six", "deflection at which there is no force, six numbers [length, rad]",
+                                  "value at the start"),
         plain<&BushingSpec::preload>(
-            "preload", "six", "what acts on b at the deflection `free` besides, six numbers [force, moment]", "0"),
-        choice<&BushingSpec::turns, marker_axes>(
-            "turns", "axis of the markers about which it turns far: whole turns are counted",
-            "the only one about which it acts, or the only one about which it does not; else none")}},
+            "preload", "six", "force and moment that act on b at the deflection `free`, six numbers [force, moment]",
+            "0"),
+        choice<&BushingSpec::turns, marker_axes>("turns", "axis of the markers about which whole turns are counted",
+                                                 "the only one about which it acts or does not act; else none")}},
       {"load",
        {choice<&LoadSpec::kind, load_kinds>("type", "`force` [mass length/time²] or `moment` [mass length²/time²]",
                                             "required"),
-        plain<&LoadSpec::at>("at", "place", "node or marker, not `ground`", "required"),
-        choice<&LoadSpec::axes, load_axes>("axes", "`world`, or `body`: follows the node"),
-        {"value", "[function]3", "three components, each a function of time", "required"}}},
+        plain<&LoadSpec::at>("at", "place", "node or marker on which it acts, not `ground`", "required"),
+        choice<&LoadSpec::axes, load_axes>("axes",
+                                           "axes of the components: `world`, or `body`: the load follows the node"),
+        {"value", "[function]3", "three components, each a [function of time](#functions-of-time)", "required"}}},
       {"part_load",
        {{"type", "'part_load'", "", "required"},
-        plain<&PartLoadSpec::body>("body", "text", "a superelement, also one with `use: rigid`", "required"),
+        plain<&PartLoadSpec::body>("body", "text", "name of a superelement; `use: rigid` is allowed", "required"),
         plain<&PartLoadSpec::load_case>("case", "text", "name of a load case of its companion file", "required"),
-        plain<&PartLoadSpec::value>("value", "function", "factor of the load case, a function of time", "required")}}};
+        plain<&PartLoadSpec::value>("value", "function",
+                                    "factor of the load case, a [function of time](#functions-of-time)", "required")}}};
 }
 
 }  // namespace tisserand::formats

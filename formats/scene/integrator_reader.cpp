@@ -106,58 +106,70 @@ IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
 
 std::vector<KeySet> integrator_key_sets() {
   const std::vector<Field> of_bdf = shared_fields(
-      "integrator_bdf", {plain<&BdfSpec::relative_tolerance>("relative_tolerance", "positive",
-                                                             "of each coordinate and velocity per step"),
-                         plain<&BdfSpec::absolute_tolerance>(
-                             "absolute_tolerance", "positive",
-                             "of positions relative to the extent of the scene, of Euler parameters; of "
-                             "velocities the same per second (of scenes without named units: per unit of time)")});
+      "integrator_bdf",
+      {plain<&BdfSpec::relative_tolerance>("relative_tolerance", "positive",
+                                           "error of each coordinate and velocity per step, relative to its size"),
+       plain<&BdfSpec::absolute_tolerance>(
+           "absolute_tolerance", "positive",
+           "error per step of positions relative to the size of the scene, and of Euler parameters; of velocities the "
+           "same per second (without named units: per unit of time)")});
   return {
       {"integrator",
        {choice<&IntegratorSpec::method, methods>(
-            "method", "`generalised_alpha`, `hht`, `bdf` or `radau` (below); `auto`, with `accuracy`",
-            "`generalised_alpha`; with `accuracy` `auto`, unless `rho` or `formulation` is given"),
-        plain<&IntegratorSpec::rho>("rho", "number>=0<=1",
-                                    "spectral radius at infinity of generalised_alpha, 0 to 1; an error with hht"),
-        plain<&IntegratorSpec::alpha>("alpha", "number>=0<=0.3333333333333333",
-                                      "of hht, 0 to 1/3; an error with generalised_alpha"),
-        choice<&IntegratorSpec::formulation, formulations>("formulation", "`stabilised_index2` or `index3`",
-                                                           "`stabilised_index2`"),
-        {"step", "positive | 'auto'", "[time]; with `error_control` the first one, or `auto` (1e-4 of the whole time)",
+            "method",
+            "`generalised_alpha`, `hht`, `radau` or `bdf`, see [methods](#methods); `auto` only with `accuracy`",
+            "`generalised_alpha`; with `accuracy`: `auto`, unless `rho` or `formulation` is given"),
+        plain<&IntegratorSpec::rho>(
+            "rho", "number>=0<=1",
+            "`generalised_alpha`: spectral radius at infinite frequency, 0 to 1 (no numerical damping)"),
+        plain<&IntegratorSpec::alpha>("alpha", "number>=0<=0.3333333333333333", "`hht`: its parameter α, 0 to 1/3"),
+        choice<&IntegratorSpec::formulation, formulations>(
+            "formulation", "formulation of the constraints: `stabilised_index2` or `index3`", "`stabilised_index2`"),
+        {"step", "positive | 'auto'",
+         "size of a step [time]; with `error_control` the first step, or `auto` (1e-4 of the whole time)",
          "required in dynamics"},
-        plain<&IntegratorSpec::start>("start", "number", "[time]"),
-        plain<&IntegratorSpec::end>("end", "number", "[time], later than `start`", "required in dynamics"),
+        plain<&IntegratorSpec::start>("start", "number", "time at which the analysis starts [time]"),
+        plain<&IntegratorSpec::end>("end", "number", "time at which it ends, later than `start` [time]",
+                                    "required in dynamics"),
         plain<&IntegratorSpec::tolerance>("tolerance", "positive",
-                                          "of Newton, relative to the running maximum of the forces"),
+                                          "tolerance of Newton's iteration, relative to the largest force so far"),
         plain<&IntegratorSpec::constraint_tolerance>(
             "constraint_tolerance", "positive",
-            "largest violation of a constraint, relative to the characteristic length (of its rate: that over the "
-            "step). Where a step moves little, less is allowed: 10 `tolerance` × step² × the largest acceleration, "
-            "down to round-off"),
-        plain<&IntegratorSpec::max_iterations>("max_iterations", "count", "per step"),
-        plain<&IntegratorSpec::max_halvings>("max_halvings", "number_of", "of the step when it does not converge"),
+            "largest violation of a constraint, relative to the characteristic length (its rate: to that length over "
+            "the step). Lower where a step moves little: 10 `tolerance` × step² × largest acceleration, down to "
+            "round-off"),
+        plain<&IntegratorSpec::max_iterations>("max_iterations", "count",
+                                               "largest number of Newton iterations per step"),
+        plain<&IntegratorSpec::max_halvings>("max_halvings", "number_of",
+                                             "how many times a step is halved if it does not converge"),
         choice<&IntegratorSpec::linear_solver, linear_solvers>(
             "linear_solver",
-            "`klu` (sparse LU for little fill), `umfpack` (sparse LU for much), `dense` (LU of our own or LAPACK's), "
-            "`qr` (sparse QR, slow and always stable), or `auto`: the least counted work of the first three; the "
-            "report says which"),
-        {"error_control", "error_control", "lets the local error choose the steps (below)", "steps as given"},
-        {"accuracy", "accuracy", "in place of `step` and `error_control`: what a result has to reach (below)", "none"}},
+            "`klu` (sparse LU, little fill), `umfpack` (sparse LU, much fill), `dense`, `qr` (sparse QR, slow, always "
+            "stable), or `auto`: the least counted work of the first three"),
+        {"error_control", "error_control", "the local error chooses the steps: see [error_control](#error_control)",
+         "off: steps as given"},
+        {"accuracy", "accuracy",
+         "instead of `step` and `error_control`: an error that a result must not exceed, see [accuracy](#accuracy)",
+         "none"}},
        of_bdf},
       {"error_control",
-       {plain<&ErrorControl::tolerance>("tolerance", "positive",
-                                        "error of positions at the end of the run, relative to the extent of the "
-                                        "scene, of rotations in rad: each step may add its share of the time. Errors "
-                                        "fall with it: a tenth costs about 3.2 times the steps"),
-        plain<&ErrorControl::min_step>("min_step", "not_negative", "[time] the run ends where the error asks for less",
+       {plain<&ErrorControl::tolerance>(
+            "tolerance", "positive",
+            "error at the end of the run: of positions relative to the size of the scene, of rotations [rad]; a step "
+            "may add its share of the time. A tenth takes about 3.2 times the steps"),
+        plain<&ErrorControl::min_step>("min_step", "not_negative",
+                                       "smallest step [time]; the run ends if the error demands a smaller one",
                                        "1e-12 of the whole time"),
-        plain<&ErrorControl::max_step>("max_step", "not_negative", "[time]", "a tenth of the whole time")}},
+        plain<&ErrorControl::max_step>("max_step", "not_negative", "largest step [time]",
+                                       "a tenth of the whole time")}},
       {"accuracy",
-       {plain<&AccuracySpec::error>("error", "positive", "largest error, over the size of the channel in the same norm",
-                                    "required"),
-        plain<&AccuracySpec::of>("of", "text", "channel of the results, `nodes/position/arm/tip/x`", "required"),
-        choice<&AccuracySpec::norm, error_norms>("norm", "as in [STUDY.md](STUDY.md)"),
-        plain<&AccuracySpec::scale>("scale", "positive", "the error is divided by it",
+       {plain<&AccuracySpec::error>("error", "positive",
+                                    "largest error, relative to the size of the channel in the same norm", "required"),
+        plain<&AccuracySpec::of>("of", "text", "channel of the results, for example `nodes/position/arm/tip/x`",
+                                 "required"),
+        choice<&AccuracySpec::norm, error_norms>(
+            "norm", "`max`, `rms`, `final`, `peak` or `peak_time`, as in [STUDY.md](STUDY.md)"),
+        plain<&AccuracySpec::scale>("scale", "positive", "number by which errors are divided",
                                     "the size of the channel; 1 for `peak_time`")}}};
 }
 

@@ -118,35 +118,36 @@ std::vector<KeySet> joint_key_sets() {
   }();
   return {
       {"joint",
-       {{"type", "", "one of the table below", "required", words},
-        plain<&MarkerPairSpec::a>(
-            "a", "place",
-            "markers on two different nodes: `ground`, `block`, `beam/base`, or `{node: beam/base, position: [..], "
-            "orientation: ..}` with an offset in the node's axes",
-            "required"),
+       {{"type", "", "kind of joint, see [kinds of joints](#kinds-of-joints)", "required", words},
+        plain<&MarkerPairSpec::a>("a", "place",
+                                  "markers on two nodes: `ground`, `block`, `beam/base`, or `{node: beam/base, "
+                                  "position: [..], orientation: ..}` with an offset in the axes of the node",
+                                  "required"),
         plain<&MarkerPairSpec::b>("b", "place", ditto),
-        plain<&MarkerPairSpec::position>("position", "vector",
-                                         "where the markers without a position of their own are at the start, world "
-                                         "frame; an error if both have one",
-                                         "at marker b; at marker a if b is `ground`, or if only a has a position"),
+        plain<&MarkerPairSpec::position>(
+            "position", "vector",
+            "place at the start, world frame, of markers without a position of their own; an error if both have one",
+            "place of marker b; of marker a if b is `ground`, or if only a has a position"),
         plain<&MarkerPairSpec::axis>("axis", "vector",
-                                     "z axis at the start, world axes, of the markers without an orientation of their "
-                                     "own; an error if both have "
-                                     "one",
+                                     "z axis at the start, world axes, of markers without an orientation of their own; "
+                                     "an error if both have one",
                                      "-"),
         plain<&MarkerPairSpec::x_axis>(
-            "x_axis", "vector", "with `axis`: direction whose part across it is the x axis of these markers", "any"),
+            "x_axis", "vector", "with `axis`: a direction whose component normal to `axis` is the x axis", "any"),
         {"hold", "['x' | 'y' | 'z' | 'rx' | 'ry' | 'rz']1..",
-         "`generic`: list of directions of a's axes that are held, of `x y z rx ry rz`", "required there"},
-        {"pitch", "number", "`screw`: advance along z per turn [length]; negative: left-handed", "required there"},
-        {"length", "positive", "`distance`: the distance that is kept", "that at the start"},
-        {"friction", "friction", "Coulomb friction of kinds with a contact surface, see below", "none"}}},
+         "`generic`: list of the directions of a's axes that are held, from `x y z rx ry rz`", "required for it"},
+        {"pitch", "number", "`screw`: advance along z per turn [length]; negative: left-handed", "required for it"},
+        {"length", "positive", "`distance`: the distance that is kept [length]", "value at the start"},
+        {"friction", "friction", "Coulomb friction, for kinds with a contact surface: see [friction](#friction)",
+         "none"}}},
       {"friction",
-       {plain<&FrictionSpec::coefficient>("coefficient", "not_negative", "μ while sliding", "required"),
+       {plain<&FrictionSpec::coefficient>("coefficient", "not_negative", "coefficient of friction μ while sliding",
+                                          "required"),
         plain<&FrictionSpec::static_coefficient>("static_coefficient", "not_negative",
-                                                 "μ_s to break loose, not below μ", "μ"),
+                                                 "coefficient of friction μ_s at which sliding begins, not below μ",
+                                                 "μ"),
         plain<&FrictionSpec::velocity>("velocity", "positive",
-                                       "v: sliding velocity at which μ_s is reached [length/time]", "required"),
+                                       "sliding velocity v at which μ_s is reached [length/time]", "required"),
         {"radius", "positive",
          "r of the contact surface [length]; not for `prismatic`, `point_on_line`, `point_on_plane`",
          "required by the others"},

@@ -147,7 +147,7 @@ std::vector<KeySet> shape_of_body_key_sets() {
         radius,
         position}},
       {"shape_cone",
-       {{"type", "'cone'", "as a cylinder, with `radius` at `from` and `end_radius` (default 0) at `to`", "required"},
+       {{"type", "'cone'", "as a cylinder, with `radius` at `from` and `end_radius` at `to` (default 0)", "required"},
         from,
         to,
         plain<&ShapeSpec::radius>("radius", "not_negative", "", "required"),
@@ -160,10 +160,9 @@ std::vector<KeySet> shape_of_body_key_sets() {
         radius}},
       {"shape_mesh",
        {{"type", "'mesh'",
-         "`file` of triangles, STL or OBJ, or the surface of a part from its recovery file (`bracket.recovery.h5`, in "
-         "its own "
-         "units), relative to the scene file; `scale` (default 1, or one per axis; negative ones mirror), `position` "
-         "of its origin, `orientation`: `{type: mesh, file: wheel.stl, scale: 0.001}`",
+         "`file` of triangles (STL, OBJ), or the surface of a part from its recovery file (`bracket.recovery.h5`, in "
+         "its own units); `scale` (default 1, or one per axis; negative ones mirror), `position` of its origin, "
+         "`orientation`: `{type: mesh, file: wheel.stl, scale: 0.001}`",
          "required"},
         plain<&ShapeSpec::file>("file", "text+", "", "required"),
         {"scale", "number | [number]3", ""},
@@ -181,8 +180,8 @@ NamedType shape_of_body_type() {
 }
 
 Field shape_field() {
-  return {"shape", "shape_of_body | [shape_of_body]", "what pictures show, in the part frame: see [shapes](#shapes)",
-          "none"};
+  return {"shape", "shape_of_body | [shape_of_body]",
+          "solid that pictures show, in the part frame: see [shapes](#shapes)", "none"};
 }
 
 }  // namespace tisserand::formats
