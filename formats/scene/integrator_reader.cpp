@@ -121,7 +121,7 @@ std::vector<KeySet> integrator_key_sets() {
             "`generalised_alpha`; with `accuracy`: `auto`, unless `rho` or `formulation` is given"),
         plain<&IntegratorSpec::rho>(
             "rho", "number>=0<=1",
-            "`generalised_alpha`: spectral radius at infinite frequency, 0 to 1 (no numerical damping)"),
+            "`generalised_alpha`: spectral radius at infinite frequency, from 0 to 1, which has no numerical damping"),
         plain<&IntegratorSpec::alpha>("alpha", "number>=0<=0.3333333333333333", "`hht`: its parameter α, 0 to 1/3"),
         choice<&IntegratorSpec::formulation, formulations>(
             "formulation", "formulation of the constraints: `stabilised_index2` or `index3`", "`stabilised_index2`"),

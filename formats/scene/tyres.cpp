@@ -322,8 +322,8 @@ std::vector<KeySet> tyre_key_sets() {
                                       "required for `cosine` and `trapezoid`"),
         plain<&RoadPieceSpec::ramp>("ramp", "positive", "`trapezoid`: length of each ramp [length]", "required for it"),
         {"curve", "curve",
-         "`curve`: `{table: [[x, z], ..], interpolation: linear}` or `{file: road.csv}`, a [curve](#curves) with which "
-         "the road ends",
+         "`curve`: `{table: [[x, z], ..], interpolation: linear}` or `{file: road.csv}`, a [curve](#curves); the road "
+         "ends where it ends",
          "either `curve` or `iso_8608`"},
         {"iso_8608", "iso_8608",
          "`curve`: instead of `curve`, a stochastic road: `{class: C, seed: 1, start: 0, length: 200}`",
