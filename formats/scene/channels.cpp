@@ -104,35 +104,36 @@ void read_channels(const MapReader& map, Scene& scene) {
 }
 
 std::vector<KeySet> channel_key_sets() {
-  return {{"input",
-           {{"file", "text", "text table or HDF5 file, recognised by its first bytes; at most ten million points",
-             "required"},
-            {"time", "text | integer",
-             "columns, by name in the first line or number from 1; cells are separated by the first of comma, "
-             "semicolon, tab and blank that the first line has; `#` begins a comment line. HDF5: paths of "
-             "one-dimensional datasets of 64-bit floats",
-             "1, 2"},
-            {"value", "text | integer", ditto},
-            choice<&InputSpec::interpolation, interpolations>(
-                "interpolation",
-                "`linear`: steps of the integrator end at the points; `cubic`: monotone, as for [curves](#curves), "
-                "steps do not end at the points")}},
-          {"channel",
-           {choice<&ChannelSpec::kind, channel_kinds>(
-                "type",
-                "`coordinate` or `rate` of a joint coordinate; `position` or `velocity` of a marker; `distance` "
-                "between two markers; `tyre`: a quantity of a tyre",
-                "required"),
-            {"of", "place",
-             "joint coordinate, or marker; for `tyre` one of `load`, `force_x`, `force_y`, `moment_x`, `moment_y`, "
-             "`moment_z`, `slip`, `slip_angle`, `camber`, `penetration`, `rolling_radius`",
-             "required, except for `distance`"},
-            {"tyre", "text", "`tyre`: name from `tyres`", "required for `tyre`"},
-            {"axis", "'x' | 'y' | 'z' | vector",
-             "`position`, `velocity`: `x`, `y` or `z` of the world, or a direction `[x, y, z]`", "required for it"},
-            plain<&ChannelSpec::origin>("origin", "vector", "`position`: point from which it is measured, world frame"),
-            {"a", "place", "`distance`: two markers on different nodes", "required for it"},
-            {"b", "place", ditto}}}};
+  return {
+      {"input",
+       {{"file", "text", "text table or HDF5 file, recognised by its first bytes; at most ten million points",
+         "required"},
+        {"time", "text | integer",
+         "columns, by name in the first line or number from 1; cells are separated by the first of comma, semicolon, "
+         "tab and blank that the first line has; `#` begins a comment line. HDF5: paths of one-dimensional datasets of "
+         "64-bit floats",
+         "1, 2"},
+        {"value", "text | integer", ditto},
+        choice<&InputSpec::interpolation, interpolations>(
+            "interpolation",
+            "`linear`: steps of the integrator end at the points; `cubic`: monotone, as for [curves](#curves), steps "
+            "do not end at the points")}},
+      {"channel",
+       {choice<&ChannelSpec::kind, channel_kinds>(
+            "type",
+            "`coordinate` or `rate` of a joint coordinate; `position` or `velocity` of a marker; `distance` between "
+            "two markers; `tyre`: a quantity of a tyre",
+            "required"),
+        {"of", "place",
+         "joint coordinate, or marker; for `tyre` one of `load`, `force_x`, `force_y`, `moment_x`, `moment_y`, "
+         "`moment_z`, `slip`, `slip_angle`, `camber`, `penetration`, `rolling_radius`",
+         "required, except for `distance`"},
+        {"tyre", "text", "`tyre`: name from `tyres`", "required for `tyre`"},
+        {"axis", "'x' | 'y' | 'z' | vector",
+         "`position`, `velocity`: `x`, `y` or `z` of the world, or a direction `[x, y, z]`", "required for this kind"},
+        plain<&ChannelSpec::origin>("origin", "vector", "`position`: point from which it is measured, world frame"),
+        {"a", "place", "`distance`: two markers on different nodes", "required for this kind"},
+        {"b", "place", ditto}}}};
 }
 
 void check_channels(const SceneIndex& index, Faults& faults) {

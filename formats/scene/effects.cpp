@@ -100,10 +100,10 @@ void read_effects(const MapReader& map, Scene& scene) {
 
 std::vector<KeySet> effect_key_sets() {
   const auto field = [](std::string_view key, std::string_view meaning) {
-    return Field{key, "'on' | 'off'", meaning, "value of the scene: `on`"};
+    return Field{key, "'on' | 'off'", meaning, "`on`"};
   };
   const auto automatic = [](std::string_view key, std::string_view meaning) {
-    return Field{key, "'on' | 'off' | 'auto'", meaning, "value of the scene: `on`"};
+    return Field{key, "'on' | 'off' | 'auto'", meaning, "`on`"};
   };
   return {{"body_effects",
            {automatic("flexibility",

@@ -135,8 +135,10 @@ std::vector<KeySet> joint_key_sets() {
         plain<&MarkerPairSpec::x_axis>(
             "x_axis", "vector", "with `axis`: a direction whose component normal to `axis` is the x axis", "any"),
         {"hold", "['x' | 'y' | 'z' | 'rx' | 'ry' | 'rz']1..",
-         "`generic`: list of the directions of a's axes that are held, from `x y z rx ry rz`", "required for it"},
-        {"pitch", "number", "`screw`: advance along z per turn [length]; negative: left-handed", "required for it"},
+         "`generic`: list of the directions of a's axes that are held, from `x y z rx ry rz`",
+         "required for this kind"},
+        {"pitch", "number", "`screw`: advance along z per turn [length]; negative: left-handed",
+         "required for this kind"},
         {"length", "positive", "`distance`: the distance that is kept [length]", "value at the start"},
         {"friction", "friction", "Coulomb friction, for kinds with a contact surface: see [friction](#friction)",
          "none"}}},

@@ -180,8 +180,7 @@ NamedType shape_of_body_type() {
 }
 
 Field shape_field() {
-  return {"shape", "shape_of_body | [shape_of_body]",
-          "solid that pictures show, in the part frame: see [shapes](#shapes)", "none"};
+  return {"shape", "shape_of_body | [shape_of_body]", "what pictures show: see [shapes](#shapes)", "none"};
 }
 
 }  // namespace tisserand::formats

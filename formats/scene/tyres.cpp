@@ -320,7 +320,8 @@ std::vector<KeySet> tyre_key_sets() {
                                       "required for `cosine` and `trapezoid`"),
         plain<&RoadPieceSpec::height>("height", "number", "height of the top [length]",
                                       "required for `cosine` and `trapezoid`"),
-        plain<&RoadPieceSpec::ramp>("ramp", "positive", "`trapezoid`: length of each ramp [length]", "required for it"),
+        plain<&RoadPieceSpec::ramp>("ramp", "positive", "`trapezoid`: length of each ramp [length]",
+                                    "required for this kind"),
         {"curve", "curve",
          "`curve`: `{table: [[x, z], ..], interpolation: linear}` or `{file: road.csv}`, a [curve](#curves); the road "
          "ends where it ends",
@@ -363,7 +364,7 @@ std::vector<KeySet> tyre_key_sets() {
         plain<&TyreSpec::relaxation_length>(
             "relaxation_length", "positive",
             "relaxation length σ in both directions, over which slips build up [length]", "none"),
-        {"file", "text", "`magic_formula`: tyre property file (.tir)", "required for it"},
+        {"file", "text", "`magic_formula`: tyre property file (.tir)", "required for this kind"},
         choice<&TyreSpec::relaxation, yes_or_no>(
             "relaxation", "`magic_formula`: slips build up over the relaxation lengths of the file",
             "by USE_MODE of the file"),
