@@ -166,70 +166,71 @@ void read_modal_body(const MapReader& map, Part& part) {
 std::vector<KeySet> attachment_key_sets() {
   return {
       {"beam",
-       {{"from", "at", "places of its ends; its local x axis goes from `from` to `to`", "required without `on`"},
+       {{"from", "at", "places of the two ends; the local x axis points from `from` to `to`", "required without `on`"},
         {"to", "at", ditto},
-        {"on", "text_list", "instead: groups of edges, whose lines become the elements", "-"},
+        {"on", "text_list", "instead: groups of edges, whose line elements become beam elements", "-"},
         {"through", "position",
          "a third point of a circular arc, by name or as `[x, y, z]`, not on the line through the ends", "straight"},
-        plain<&BeamLine::section>("section", "name", "name", "required"),
-        plain<&BeamLine::material>("material", "name", "name; none with a section by `stiffness`",
+        plain<&BeamLine::section>("section", "name", "name of the section", "required"),
+        plain<&BeamLine::material>("material", "name", "name of the material; none with a section by `stiffness`",
                                    "required otherwise"),
-        plain<&BeamLine::to_section>(
-            "to_section", "name",
-            "section at `to`: tapered. Of the same shape the sizes vary linearly, else the constants", "`section`"),
+        plain<&BeamLine::to_section>("to_section", "name",
+                                     "section at `to` of a tapered beam. If both have the same shape its sizes vary "
+                                     "linearly, else the section constants do",
+                                     "`section`"),
         {"elements", "count", "number of equal elements, 1 or more", "one of both"},
         plain<&BeamLine::size>("size", "positive", "instead: largest length of an element [length]", "one of both"),
         plain<&BeamLine::orientation>(
             "orientation", "vector",
-            "direction whose part across the axis is the local y axis; not parallel to the axis",
+            "direction whose component normal to the beam axis is the local y axis; not parallel to the axis",
             "the global axis most nearly normal to the axis (the first of y, z, x among equals)"),
-        {"angle_deg", "number", "turns the section about x, right-handed, from that", "0"},
-        {"offset", "vector", "from the nodes to the axis, in part axes [length]", "[0, 0, 0]"},
-        {"from_offset", "vector", "at one end; linear between", "`offset`"},
+        {"angle_deg", "number", "turns the section from there about x, right-handed [degrees]", "0"},
+        {"offset", "vector", "vector from the nodes to the axis of the beam, in part axes [length]", "[0, 0, 0]"},
+        {"from_offset", "vector", "offset at one end; linear between the ends", "`offset`"},
         {"to_offset", "vector", ditto},
         {"releases", "releases",
-         "`{start: [ry, rz], end: [rx]}`: end forces x, y, z and moments rx, ry, rz in the axes of the beam that are "
-         "zero; `on` groups: of every element",
+         "`{start: [ry, rz], end: [rx]}`: forces x, y, z and moments rx, ry, rz at an end, in beam axes, that are "
+         "zero. With `on`: at the ends of every element",
          "none"},
         choice<&BeamLine::theory, theories>("theory", "`timoshenko` or `euler_bernoulli` (no shear deformation)"),
         choice<&BeamLine::mass_matrix, mass_matrices>("mass_matrix", "`consistent` or `lumped`"),
         {"rotary_inertia", "'on' | 'off' | true | false",
-         "`on` or `off`; off drops the bending terms, the torsional one stays", "`on`"}}},
+         "`on` or `off`. `off` omits the rotary inertia of bending; that of torsion stays", "`on`"}}},
       {"releases", {{"start", "components", ""}, {"end", "components", ""}}},
       {"point_mass",
-       {{"at", "at", "place", "required"},
-        plain<&PointMass::offset>("offset", "vector", "from the place to the centre of mass, in part axes [length]"),
-        plain<&PointMass::mass>("mass", "not_negative", "not negative [mass]", "required"),
-        plain<&PointMass::inertia>("inertia", "inertia_tensor",
-                                   "about the centre of mass, in part axes [mass length²]: `[Ixx, Iyy, Izz]`, `[Ixx, "
-                                   "Iyy, Izz, Ixy, Ixz, Iyz]`, "
-                                   "or three rows. Off-diagonal numbers are entries of the tensor: Ixy = -∫ x y dm. "
-                                   "Positive semidefinite, and "
-                                   "no principal moment larger than the sum of the other two by more than 1e-3 (up to "
-                                   "that a note: typed digits)",
-                                   "0")}},
+       {{"at", "at", "place of the mass", "required"},
+        plain<&PointMass::offset>("offset", "vector",
+                                  "vector from the place to the centre of mass, in part axes [length]"),
+        plain<&PointMass::mass>("mass", "not_negative", "mass, not negative [mass]", "required"),
+        plain<&PointMass::inertia>(
+            "inertia", "inertia_tensor",
+            "about the centre of mass, in part axes [mass length²]: `[Ixx, Iyy, Izz]`, `[Ixx, Iyy, Izz, Ixy, Ixz, "
+            "Iyz]`, or three rows. Off-diagonal numbers are entries of the tensor: Ixy = -∫ x y dm. Positive "
+            "semidefinite. No principal moment may exceed the sum of the other two by more than 1e-3; a smaller excess "
+            "(rounded input) gives a note",
+            "0")}},
       {"spring",
-       {{"from", "at", "two places", "required"},
+       {{"from", "at", "the two places that it connects", "required"},
         {"to", "at", ditto},
         {"stiffness", "six_by_six",
-         "six numbers, or six rows (symmetric, positive semidefinite): [force; moment] of [relative displacement; "
-         "relative rotation] in the middle between the nodes, where both are seen as rigid [force/length, force, force "
-         "length]",
+         "six numbers (the diagonal) or six rows (symmetric, positive semidefinite). The matrix gives [force; moment] "
+         "from [relative displacement; relative rotation] at the point midway between the nodes, to which rigid arms "
+         "lead [force/length, force, force length]",
          "required"},
         {"axes", "rotation",
-         "of the stiffness, as orientations in SCENE.md: `{x: [..], y: [..]}`, `{axis: [..], angle_deg: 30}`, a "
-         "quaternion or rows",
+         "axes of the stiffness, written as orientations in SCENE.md: `{x: [..], y: [..]}`, `{axis: [..], angle_deg: "
+         "30}`, a quaternion or three rows",
          "part axes"}}},
       {"spider",
        {choice<&SpiderLine::type, spider_types>(
             "kind",
-            "`rigid`: the group's nodes follow the spider's node (RBE2). `averaging`: the spider's node follows the "
-            "weighted mean motion of the group, which stays free to deform (RBE3)",
+            "`rigid`: the nodes of the group follow the spider's node (RBE2). `averaging`: the spider's node follows "
+            "the weighted mean motion of the group, which can still deform (RBE3)",
             "required"),
-        {"at", "at", "place of its own node, or `centroid` of what it is on", "`centroid`"},
-        {"on", "text | integer | [text | integer]", "groups, or numbers of nodes", "required"},
+        {"at", "at", "place of the spider's own node, or `centroid` of the group", "`centroid`"},
+        {"on", "text | integer | [text | integer]", "groups, or node numbers", "required"},
         choice<&SpiderLine::weights, spider_weights>(
-            "weights", "averaging: `area` (length, volume) that belongs to each node, or `equal`")}},
+            "weights", "of averaging spiders: the `area` (or length, volume) that belongs to each node, or `equal`")}},
       {"boundary_entry",
        {{"at", "at", ""},
         {"node", "integer", ""},
@@ -239,14 +240,14 @@ std::vector<KeySet> attachment_key_sets() {
         {"keep", "'all' | 'translations' | 'rotations'", ""}}},
       {"modal_body",
        {{"reference", "'mean_axis' | name | {name: 'all' | components}+",
-         "what ties the body frame to the body: a boundary node, point or spider that is held; "
-         "`{left: [x, y, z, rx], right: [y, z]}`, six components that no rigid motion leaves unmoved; or `mean_axis`",
+         "what ties the body frame to the body: the boundary node, point or spider that is held; six held components "
+         "that exclude every rigid motion, `{left: [x, y, z, rx], right: [y, z]}`; or `mean_axis`",
          "required"},
         plain<&ModalBodyRequest::modes>("modes", "count", "number of modes, lowest first", "required"),
-        plain<&ModalBodyRequest::damping>("damping", "not_negative", "ratio of critical damping of every mode"),
+        plain<&ModalBodyRequest::damping>("damping", "not_negative", "damping ratio of every mode"),
         {"nodes", "'boundary' | 'all'",
-         "nodes in the file: `boundary` nodes and those that are held, or `all` of the mesh (the others named `n1`, "
-         "`n2`, ... by their order)",
+         "nodes in the file: `boundary` (boundary nodes and held ones), or `all` nodes of the mesh (the others are "
+         "named `n1`, `n2`, ... in their order)",
          "`boundary`"}}}};
 }
 

@@ -136,24 +136,24 @@ std::vector<KeySet> load_key_sets() {
          "`all`, `translations`, `rotations`, or one or a list of `x`, `y`, `z`, `rx`, `ry`, `rz`, in part axes",
          "one of both"},
         {"symmetry", "'x' | 'y' | 'z'",
-         "the nodes lie in a plane of symmetry with this normal: held are the translation along it and the "
+         "normal of the plane of symmetry in which the nodes lie. Holds the translation along the normal and the "
          "rotations about the other two axes",
          "one of both"}}},
       {"load_case",
        {{"forces", "{text: vector | place_load}",
          "place -> force `[x, y, z]` in part axes, or a map with `force` and `moment`", "none"},
         {"pressures", "{text: number}",
-         "group of faces -> pressure [force/length²]: against the normal of shells, on solids against the outward "
-         "normal",
+         "group of faces -> pressure [force/length²]. It acts against the normal of shells, and against the outward "
+         "normal of solids",
          "none"},
         {"line_loads", "{text: vector}",
          "beam, or group of edges of beams, shells or solids -> force per length in part axes [force/length]", "none"},
         plain<&PartLoadCase::gravity>("gravity", "vector",
-                                      "acceleration [length/time²] that pulls at every mass: the force is mass times "
-                                      "it, `[0, 0, -9.81]` where z points up")}},
+                                      "acceleration of gravity, `[0, 0, -9.81]` where z points up; the force on each "
+                                      "mass is the mass times it [length/time²]")}},
       {"place_load",
-       {plain<&PlaceLoad::force>("force", "vector", "in part axes [force]"),
-        plain<&PlaceLoad::moment>("moment", "vector", "in part axes [force length]"),
+       {plain<&PlaceLoad::force>("force", "vector", "force in part axes [force]"),
+        plain<&PlaceLoad::moment>("moment", "vector", "moment in part axes [force length]"),
         {"at", "at", "a point, spider or boundary node", "the name of the load"},
         {"node", "integer", "instead: a node of the mesh file, as a [place](#place)", "-"},
         {"near", "position", ditto},

@@ -98,13 +98,12 @@ Part read_tree(YamlReader& reader, const std::string& path) {
 
 std::vector<Field> part_fields() {
   return {
-      plain<&Part::name>("part", "text+", "name of the part, goes into the superelement file", "required"),
+      plain<&Part::name>("part", "text+", "name of the part; the superelement file stores it", "required"),
       {"units", "'consistent' | units",
-       "`{length, mass, time}` by label, or `consistent` for numbers without named units (such files mix only with "
-       "scenes that are `consistent` too). Length `m mm cm km in ft`, mass `kg g t lb slug` (t = 1000 kg), time `s "
-       "ms`",
+       "labels `{length, mass, time}`, or `consistent` for numbers without named units. Such files fit only scenes "
+       "that are `consistent` too. Length `m mm cm km in ft`, mass `kg g t lb slug` (t = 1000 kg), time `s ms`",
        "SI"},
-      {"mesh", "mesh", "a geometry, mesh or deck of another program", "none"},
+      {"mesh", "mesh", "geometry, mesh or deck of another program, see [mesh](#mesh)", "none"},
       {"materials", "{name: material | material_orthotropic}", "name -> material", "none"},
       {"sections", "{name: section}", "name -> section", "none"},
       {"points", "{name: vector | place}",
@@ -112,73 +111,73 @@ std::vector<Field> part_fields() {
        "`{centroid: ..}`)",
        "none"},
       {"groups", "{name: group}", "name -> group of faces, edges, volumes or nodes", "none"},
-      {"plates", "{name: plate}", "name -> walls that this file draws", "none"},
+      {"plates", "{name: plate}", "name -> surface that this file draws", "none"},
       {"discs", "{name: disc}", ditto},
       {"cylinders", "{name: cylinder}", ditto},
       {"extrusions", "{name: extrusion}", ditto},
-      {"shells", "{name: shell}", "name -> what groups consist of", "none"},
+      {"shells", "{name: shell}", "name -> layout and material of groups of faces or volumes", "none"},
       {"solids", "{name: solid}", ditto},
       {"beams", "{name: beam}", "name -> beam", "none"},
       {"point_masses", "{name: point_mass}", "name -> point mass", "none"},
       {"springs", "{name: spring}", "name -> spring", "none"},
       {"spiders", "{name: spider}", "name -> spider", "none"},
       {"boundary", "[name]1.. | {name: 'all' | 'translations' | 'rotations' | boundary_entry}+",
-       "places kept as nodes of the superelement: a list of points and spiders (all six directions), or a map from "
-       "names to `all`, `translations`, `rotations`, or to a place with `keep`",
-       "required by `reducer run`; with a deck: its ASET, BSET"},
+       "nodes of the superelement: a list of points and spiders (all six directions), or a map from names to `all`, "
+       "`translations`, `rotations`, or to a [place](#place) with `keep`",
+       "required by `reducer run`; with a deck: the boundary of the deck"},
       plain<&ModeSelection::count>("modes", "number_of",
                                    "number of internal modes, lowest first; 0 is Guyan reduction"),
       plain<&ModeSelection::cutoff>(
-          "cutoff", "positive", "instead of `modes`: all internal modes below this frequency [1/time, not rad/time]",
-          "-"),
-      {"accuracy", "accuracy", "instead: as many internal modes as an accuracy takes, see [accuracy](#accuracy)", "-"},
+          "cutoff", "positive",
+          "instead of `modes`: keep all internal modes below this frequency [1/time, not rad/time]", "-"),
+      {"accuracy", "accuracy", "instead of `modes`: keep as many as this accuracy needs, see [accuracy](#accuracy)",
+       "-"},
       plain<&ModeSelection::moments>(
           "moments", "number_of",
-          "moment vectors beside the internal modes: how the inside answers to accelerations "
-          "of the boundary; they improve low frequencies far more than as many modes",
-          "0; with `accuracy`: as many as it takes"),
-      choice<&ModeSelection::method, method_words>("method",
-                                                   "`craig_bampton`: modes with the boundary held; `rubin` "
-                                                   "(Craig-Chang), `macneal`: modes of the free part with "
-                                                   "residual flexibility, see [method](#method)"),
+          "number of moment vectors, in addition to the internal modes: answers of the interior to accelerations of "
+          "the boundary. They improve low frequencies far more than the same number of modes",
+          "0; with `accuracy`: as many as it needs"),
+      choice<&ModeSelection::method, method_words>(
+          "method",
+          "`craig_bampton`: modes with the boundary held. `rubin` (Craig-Chang), `macneal`: modes of the free part "
+          "with residual flexibility. See [method](#method)"),
       choice<&ModeSelection::eigensolver, eigensolver_words>(
           "eigensolver",
-          "the type of SLEPc's eigenvalue solver that finds modes: `block_lanczos`, our own, in blocks of columns; "
-          "`krylov_schur`, one column at a time; `lapack`, all modes of dense matrices, up to 6000 coordinates; see "
-          "[what each costs](../docs/REDUCTION.md#eigenvalue-solvers)"),
+          "eigenvalue solver: `block_lanczos` (our own, blocks of columns), `krylov_schur` (of SLEPc, one column at a "
+          "time), `lapack` (all modes of dense matrices, at most 6000 coordinates). [Their "
+          "cost](../docs/PERFORMANCE.md)"),
       choice<&ModeSelection::mechanism, mechanism_words>(
           "mechanism",
-          "`refuse`: an error if something inside moves without stiffness while the boundary is held; `allow`: such "
-          "motions stay, see [mechanism](#mechanism)"),
+          "`refuse`: error if something inside can move without stiffness while the boundary is held. `allow`: keep "
+          "such motions, see [mechanism](#mechanism)"),
       {"recovery", "'yes' | 'no' | true | false",
-       "`yes`: also a [recovery file](RECOVERY.md) beside the superelement, by which displacements and stresses of "
-       "the whole part come back from results",
+       "`yes`: also write a [recovery file](RECOVERY.md), from which `reducer recover` computes displacements and "
+       "stresses inside the part",
        "no"},
       choice<&Part::second_order, second_order_words>("second_order",
-                                                      "`yes` or `no`: a companion file ([COMPANION.md](COMPANION.md)) "
-                                                      "beside the superelement, from which a mechanism "
-                                                      "takes stiffening, buckling and exact inertia",
+                                                      "`yes`: also write a [companion file](COMPANION.md), from which "
+                                                      "a mechanism takes stiffening, buckling and exact inertia",
                                                       "`yes` while the file stays below 20 MB"),
       plain<&Part::double_curvature>(
           "double_curvature", "integer>=0<=100",
-          "in the companion file also the membrane stress that bending into double curvature traps (plates that bend "
-          "by "
-          "their thickness and more), of all pairs of so many lowest elastic modes of the free reduced part; 0: none",
+          "for plates that bend by their thickness or more: number of elastic modes (lowest ones of the free reduced "
+          "part) for whose pairs the companion file stores the membrane stress of double curvature; 0: none",
           "0"),
-      {"modal_body", "modal_body",
-       "also a [modal body file](MODAL_BODY.md) beside the superelement, see [modal_body](#modal_body)", "none"},
+      {"modal_body", "modal_body", "also write a [modal body file](MODAL_BODY.md), see [modal_body](#modal_body)",
+       "none"},
       {"supports", "{text: held | support}",
-       "`reducer solve`: place or group -> directions that are held, see [supports](#supports)", "none"},
+       "for `reducer solve`: place or group -> directions that are held, see [supports](#supports)", "none"},
       {"load_cases", "{name: load_case}",
-       "name -> loads, for `reducer solve`, and for scenes through the [companion file](COMPANION.md), see "
+       "name -> loads, for `reducer solve` and, through the [companion file](COMPANION.md), for scenes; see "
        "[load_cases](#load_cases)",
        "none"}};
 }
 
 std::vector<Field> accuracy_fields() {
   return {plain<&Accuracy::error>("error", "positive",
-                                  "largest relative error of a frequency that leaving out modes may cause", "required"),
-          plain<&Accuracy::up_to>("up_to", "positive", "up to this frequency [1/time, not rad/time]", "required")};
+                                  "largest relative error of a frequency that omitted modes may cause", "required"),
+          plain<&Accuracy::up_to>("up_to", "positive",
+                                  "highest frequency for which `error` holds [1/time, not rad/time]", "required")};
 }
 
 Part read_part(const std::string& path, const std::vector<Override>& overrides) {

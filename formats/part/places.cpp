@@ -124,57 +124,57 @@ double read_angle(const MapReader& map, double fallback) {
 }
 
 std::vector<KeySet> place_key_sets() {
-  return {
-      {"mesh",
-       {plain<&MeshFile::file>(
-            "file", "text+",
-            "relative names start from the folder of this file. Geometry: `.geo` of gmsh, `.step .stp .iges .igs "
-            ".brep`; meshes: `.msh` 2.2 and 4.1, text or binary; decks: Nastran `.bdf .nas .dat`, Abaqus and CalculiX "
-            "`.inp`",
-            "required"),
-        plain<&MeshFile::size>("size", "positive", "geometry: largest edge of an element", "by gmsh"),
-        plain<&MeshFile::smallest>("smallest", "positive", "geometry: lower bound of the size"),
-        plain<&MeshFile::curvature>("curvature", "number_of", "geometry: elements per full turn of curved faces",
-                                    "off"),
-        {"sizes", "{text: positive}+", "geometry: group -> size on it", "none"},
-        plain<&MeshFile::order>("order", "1 | 2", "geometry: 1, or 2 for solids of 10, 15 and 20 nodes",
-                                "1, or that of the `.geo` file"),
-        words<cell_words>("cells", "geometry: `triangles` or `quadrilaterals` (gmsh recombines) on faces",
-                          "triangles, or those of the `.geo` file"),
-        plain<&MeshFile::scale>("scale", "positive", "multiplies all coordinates (not of decks)"),
-        choice<&MeshFile::unknown, unknown_ways>(
-            "unknown", "decks: `refuse` or `ignore` cards that are not understood; ignored ones are listed"),
-        choice<&MeshFile::coincident, coincident_ways>(
-            "coincident", "nodes at one place that nothing connects: `report`, or `merge` into one"),
-        plain<&MeshFile::ignore>("ignore", "text_list", "groups that need no property", "none")}},
-      {"group",
-       {{"faces", "numbers", "numbers of a geometry, one of these keys", "-"},
-        {"edges", "numbers", ditto},
-        {"volumes", "numbers", ditto},
-        {"nodes", "numbers", "numbers of the mesh file", "-"},
-        plain<&GroupDefinition::groups>("groups", "text_list", "names of other groups", "-"),
-        choice<&GroupDefinition::of, dimensions>(
-            "of", "what `box`, `cylinder`, `near` select: `nodes`, `edges`, `faces`, `volumes`"),
-        {"box", "[vector]2", "two corners: what lies whole inside", "-"},
-        {"cylinder", "group_cylinder", "`{from, to, radius}`: what lies whole on this wall, such as a bore", "-"},
-        {"near", "position", "position: the nearest one; two equally near ones are an error", "-"},
-        plain<&GroupDefinition::tolerance>(
-            "tolerance", "not_negative", "of these [length]",
-            "box: 1e-6 of the extent; cylinder: 1e-3 of the radius; near: a tenth of the extent")},
-       {},
-       {1, 0}},
-      {"group_cylinder",
-       {{"from", "position", "", "required"},
-        {"to", "position", "", "required"},
-        plain<&CylinderSelection::radius>("radius", "positive", "", "required")}},
-      {"place",
-       {{"node", "integer", "by its number in the mesh file", "one of these three"},
-        {"near", "position",
-         "`[x, y, z]` or a point: the nearest node of the mesh file that belongs to an element. Two equally near: an "
-         "error",
-         "-"},
-        {"centroid", "text+", "a new node at the centroid of a group's area (length, volume)", "-"},
-        {"tolerance", "not_negative", "of `near`: farther is an error [length]", "1e-3 of the extent of the mesh"}}}};
+  return {{"mesh",
+           {plain<&MeshFile::file>("file", "text+",
+                                   "a relative name starts at the folder of this file. Geometry: `.geo` of gmsh, "
+                                   "`.step .stp .iges .igs .brep`. Meshes: `.msh` 2.2 and 4.1, text or binary. Decks: "
+                                   "Nastran `.bdf .nas .dat`, Abaqus and CalculiX `.inp`",
+                                   "required"),
+            plain<&MeshFile::size>("size", "positive", "geometry: largest edge of an element", "by gmsh"),
+            plain<&MeshFile::smallest>("smallest", "positive", "geometry: lower bound of the size"),
+            plain<&MeshFile::curvature>("curvature", "number_of", "geometry: elements per full turn of curved faces",
+                                        "off"),
+            {"sizes", "{text: positive}+", "geometry: group -> largest edge of an element on it", "none"},
+            plain<&MeshFile::order>("order", "1 | 2", "geometry: 1, or 2 for solids of 10, 15 and 20 nodes",
+                                    "1, or that of the `.geo` file"),
+            words<cell_words>("cells", "geometry: `triangles` or `quadrilaterals` (gmsh recombines) on faces",
+                              "triangles, or those of the `.geo` file"),
+            plain<&MeshFile::scale>("scale", "positive", "factor on all coordinates (not of decks)"),
+            choice<&MeshFile::unknown, unknown_ways>(
+                "unknown", "decks: `refuse` cards that are not understood, or `ignore` and list them"),
+            choice<&MeshFile::coincident, coincident_ways>(
+                "coincident", "unconnected nodes at the same place: `report` them, or `merge` them into one"),
+            plain<&MeshFile::ignore>("ignore", "text_list", "groups that need no property", "none")}},
+          {"group",
+           {{"faces", "numbers", "numbers of entities of a geometry; only one of these keys", "-"},
+            {"edges", "numbers", ditto},
+            {"volumes", "numbers", ditto},
+            {"nodes", "numbers", "numbers of the mesh file", "-"},
+            plain<&GroupDefinition::groups>("groups", "text_list", "names of other groups", "-"),
+            choice<&GroupDefinition::of, dimensions>(
+                "of", "what `box`, `cylinder` and `near` select: `nodes`, `edges`, `faces` or `volumes`"),
+            {"box", "[vector]2", "two opposite corners; selects what lies completely inside", "-"},
+            {"cylinder", "group_cylinder",
+             "`{from, to, radius}`; selects what lies completely on this cylindrical wall, such as a bore", "-"},
+            {"near", "position", "a position; selects the nearest entity. Two equally near ones are an error", "-"},
+            plain<&GroupDefinition::tolerance>(
+                "tolerance", "not_negative", "tolerance of `box`, `cylinder` and `near` [length]",
+                "box: 1e-6 of the extent; cylinder: 1e-3 of the radius; near: a tenth of the extent")},
+           {},
+           {1, 0}},
+          {"group_cylinder",
+           {{"from", "position", "", "required"},
+            {"to", "position", "", "required"},
+            plain<&CylinderSelection::radius>("radius", "positive", "", "required")}},
+          {"place",
+           {{"node", "integer", "number of the node in the mesh file", "one of these three"},
+            {"near", "position",
+             "`[x, y, z]` or a point: the nearest node of the mesh file that belongs to an element. Two equally near "
+             "nodes are an error",
+             "-"},
+            {"centroid", "text+", "a new node at the centroid of a group's area (length, volume)", "-"},
+            {"tolerance", "not_negative", "largest distance of the node from `near`; beyond it is an error [length]",
+             "1e-3 of the extent of the mesh"}}}};
 }
 
 void read_part_points(const MapReader& map, Part& part) {
