@@ -145,7 +145,7 @@ std::vector<Field> part_fields() {
           "eigensolver",
           "eigenvalue solver: `block_lanczos` (our own, blocks of columns), `krylov_schur` (of SLEPc, one column at a "
           "time), `lapack` (all modes of dense matrices, at most 6000 coordinates). [Their "
-          "cost](../docs/PERFORMANCE.md)"),
+          "cost](../docs/PERFORMANCE.md#eigenvalue-solvers)"),
       choice<&ModeSelection::mechanism, mechanism_words>(
           "mechanism",
           "`refuse`: error if something inside can move without stiffness while the boundary is held. `allow`: keep "
