@@ -6,7 +6,8 @@ set(data_folder ${CMAKE_INSTALL_DATADIR}/tisserand)
 set(packaging ${PROJECT_BINARY_DIR}/packaging)
 
 # Pages, and the pictures in them. A program's package has those on what it reads and writes.
-file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} README.md MAP.md CHANGELOG.md CONVENTIONS.md DECISIONS.md
+file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} README.md MAP.md CHANGELOG.md CONTRIBUTING.md CONVENTIONS.md DECISIONS.md
+     SECURITY.md
      docs/*.md docs/pictures/*.png)
 foreach(folder IN ITEMS formats reducer mechanism)
   file(GLOB_RECURSE more CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${folder}/*.md)
