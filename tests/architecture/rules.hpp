@@ -79,6 +79,10 @@ std::vector<Violation> check_casts(const SourceTree& tree);
 /// The table "Ways through the code" of a map: five rooms at most on each way, none twice.
 std::vector<Violation> check_ways(const SourceTree& tree);
 
+/// The formulas of docs/THEORY.md are numbered one after the other; every "THEORY (n)" of a source is one of them;
+/// those of motion are named in the tests that evaluate them (tests/mechanism/*/theory_*test.cpp).
+std::vector<Violation> check_formulas(const SourceTree& tree);
+
 /// One line per violation; empty for none.
 std::string to_text(const std::vector<Violation>& violations);
 

@@ -49,6 +49,7 @@ TEST_F(PlantedTree, IsCleanAtFirst) {
   EXPECT_EQ(to_text(check_source_names(tree())), "");
   EXPECT_EQ(to_text(check_casts(tree())), "");
   EXPECT_EQ(to_text(check_ways(tree())), "");
+  EXPECT_EQ(to_text(check_formulas(tree())), "");
   EXPECT_EQ(to_text(check_rooms(tree())), "");
   EXPECT_EQ(to_text(check_stories(tree())), "");
   EXPECT_EQ(to_text(check_wording(tree())), "");
@@ -201,6 +202,21 @@ TEST_F(PlantedTree, LongWaysAndWaysBackAreFound) {
   EXPECT_EQ(to_text(check_ways(tree())), "mechanism/MAP.md:3: a way through 6 rooms, at most 5\n");
   plant("mechanism/MAP.md", row({"run", "step", "run"}));
   EXPECT_EQ(to_text(check_ways(tree())), "mechanism/MAP.md:3: a way that comes back to mechanism/run\n");
+}
+
+TEST_F(PlantedTree, FormulasThatAreNotThereAreFound) {
+  plant("docs/THEORY.md", "$$ a \\tag{1} $$\n\n$$ b\n   c \\tag{2} $$\n\n## 12. Reduction\n\n$$ d \\tag{3} $$\n");
+  plant("tests/mechanism/step/theory_step_test.cpp", "// (1) to (2)\nint f(2);\n");
+  plant("mechanism/solver/a.hpp", "#pragma once\n// a of THEORY (1), (3): [HW96] (8.5) and (7)\n");
+  EXPECT_EQ(to_text(check_formulas(tree())), "");
+  plant("mechanism/solver/a.hpp", "#pragma once\n/// THEORY (2) to (4).\n");
+  EXPECT_EQ(to_text(check_formulas(tree())),
+            "mechanism/solver/a.hpp:2: cites THEORY (4), but docs/THEORY.md has 3 formulas\n");
+  plant("mechanism/solver/a.hpp", "#pragma once\n");
+  plant("tests/mechanism/step/theory_step_test.cpp", "// (1)\n");
+  EXPECT_EQ(to_text(check_formulas(tree())), "docs/THEORY.md: formula 2 is in no tests/mechanism/*/theory_*test.cpp\n");
+  plant("docs/THEORY.md", "$$ a \\tag{1} $$\n$$ b \\tag{3} $$\n## 12. Reduction\n");
+  EXPECT_THAT(to_text(check_formulas(tree())), HasSubstr("docs/THEORY.md:2: formula 3 follows formula 1"));
 }
 
 TEST_F(PlantedTree, SourcesOfAnotherNameAreFound) {

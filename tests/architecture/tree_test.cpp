@@ -33,6 +33,8 @@ TEST(Tree, CastsAreFew) { EXPECT_EQ(to_text(check_casts(this_tree())), ""); }
 
 TEST(Tree, WaysAreShort) { EXPECT_EQ(to_text(check_ways(this_tree())), ""); }
 
+TEST(Tree, FormulasAreThere) { EXPECT_EQ(to_text(check_formulas(this_tree())), ""); }
+
 TEST(Tree, RoomsAreSmall) { EXPECT_EQ(to_text(check_rooms(this_tree())), ""); }
 
 TEST(Tree, StoriesFitOnAPage) { EXPECT_EQ(to_text(check_stories(this_tree())), ""); }
