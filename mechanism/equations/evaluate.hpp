@@ -14,8 +14,8 @@ void evaluate_motion(const Model& model, const State& state, Evaluation& evaluat
 /// That, and Φ, B, B v + Φ_t of all joints, couplings and motions: all that assembly and kinematics need.
 void evaluate_constraints(const Model& model, const State& state, Evaluation& evaluation);
 
-/// That, and r = G_iner + G_int + G_damp + Bᵀλ − F (boundary coordinates; internal ones stay in the superelements'
-/// scratch), the force scales and the powers of loads and dampers; at a state that stands for itself.
+/// That, and r of THEORY (58), G_iner + G_int + G_damp + Bᵀλ − F (boundary coordinates; internal ones stay in the
+/// superelements' scratch), the force scales and the powers of loads and dampers; at a state that stands for itself.
 void evaluate(const Model& model, const State& state, Evaluation& evaluation);
 
 /// The same for a state that evaluation.displacement leads to from where the step began.
@@ -36,7 +36,7 @@ void evaluate_ties(const Model& model, const State& state, const double* lambda,
 /// Reaction of tie i, as of a joint, after evaluate_ties().
 JointReaction tie_reaction(const Model& model, std::size_t i, const Evaluation& evaluation);
 
-/// Fills Ḃ v + Φ_tt (Φ̈ = B v̇ + Ḃ v + Φ_tt) for the state of the last evaluate().
+/// Fills Ḃ v + Φ_tt of THEORY (59) (Φ̈ = B v̇ + Ḃ v + Φ_tt) for the state of the last evaluate().
 void evaluate_bias(const Model& model, Evaluation& evaluation);
 
 /// r of all velocity coordinates: those of nodes and modal bodies, then the internal ones of superelements. At the

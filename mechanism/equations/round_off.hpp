@@ -44,8 +44,8 @@ bool is_round_off(const Model& model, const State& state, const Evaluation& eval
 
 /// Internal forces of one superelement that no iteration removes: positions are rounded to ε length and turns to ε,
 /// which changes the generalised strains of stiffening by up to Σ_k |l_ak| δ_k, and their forces on internal
-/// coordinates by as much times |h_a| ([SO] 3). After evaluate(). Zero for linear bodies, whose internal coordinates
-/// feel no boundary.
+/// coordinates by as much times |h_a| of THEORY (44). After evaluate(). Zero for linear bodies, whose internal
+/// coordinates feel no boundary.
 double internal_round_off(const Model& model, std::size_t superelement, const Evaluation& evaluation);
 
 /// The largest of all superelements.

@@ -7,7 +7,7 @@
 
 namespace tisserand::mechanism {
 
-/// What the constraint rows of a tangent are derivatives of.
+/// The rows B̂ of THEORY (70): what the constraint rows of a tangent are derivatives of.
 struct ConstraintRows {
   enum class Kind {
     plain,     ///< B: Φ for material increments
@@ -20,7 +20,7 @@ struct ConstraintRows {
   bool operator==(const ConstraintRows&) const = default;
 };
 
-/// A = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q by hand-written or exact derivatives, and the rows beside it.
+/// A of THEORY (69), c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q, by hand-written or exact derivatives, and the rows beside it.
 struct TangentRequest {
   TangentCoefficients coefficients;
   TangentKind kind = TangentKind::step;

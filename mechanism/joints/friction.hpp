@@ -7,10 +7,10 @@
 
 namespace tisserand::mechanism {
 
-/// The friction −N μ(|s|) s/|s| acts along the sliding velocity s of the contact (SlipKind). The normal force is N =
-/// |f| + 2|m|/arm of the components of the reaction that press the surfaces together (Pressing). μ rises to the static
-/// coefficient at |s| = velocity (quadratic), falls to the kinetic one at 3 velocity (cubic) and stays: a joint that
-/// should stick creeps at (1 − √(1 − F/(μ_s N))) velocity.
+/// THEORY (60): the friction −N μ(|s|) s/|s| acts along the sliding velocity s of the contact (SlipKind). The normal
+/// force is N = |f| + 2|m|/arm of the components of the reaction that press the surfaces together (Pressing). THEORY
+/// (61): μ rises to the static coefficient at |s| = velocity (quadratic), falls to the kinetic one at 3 velocity
+/// (cubic) and stays there. A joint that should stick creeps at (1 − √(1 − F/(μ_s N))) velocity.
 struct Friction {
   int joint = 0;             ///< index in Model::joints
   double kinetic = 0.0;      ///< coefficient μ
@@ -22,7 +22,7 @@ struct Friction {
   double lead = 0.0;         ///< of threaded joints: advance per radian [length]
 };
 
-/// μ(s)/s and its derivative.
+/// μ(s)/s of THEORY (61) and its derivative.
 struct FrictionLaw {
   double ratio = 0.0;
   double slope = 0.0;

@@ -68,7 +68,7 @@ std::string joint_equation_name(const Joint& joint, int equation);
 struct JointTerms {
   Eigen::Matrix<double, 6, 1> phi = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::Matrix<double, 6, 12> B = Eigen::Matrix<double, 6, 12>::Zero();
-  Eigen::Matrix<double, 6, 1> bias = Eigen::Matrix<double, 6, 1>::Zero();  ///< Ḃ v: Φ̈ = B v̇ + bias
+  Eigen::Matrix<double, 6, 1> bias = Eigen::Matrix<double, 6, 1>::Zero();  ///< Ḃ v of THEORY (59): Φ̈ = B v̇ + bias
 };
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
@@ -106,7 +106,7 @@ void joint_constraints(const Joint& joint, const NodeMotion& a, const NodeMotion
 /// Ḃ v.
 void joint_bias(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms);
 
-/// ∂(B v)/∂(x_A Θ_A x_B Θ_B) at fixed ẋ and Ω; the first size() rows count.
+/// ∂(B v)/∂(x_A Θ_A x_B Θ_B) at fixed ẋ and Ω, which THEORY (59) and (70) use; the first size() rows count.
 void joint_rate_gradient(const Joint& joint, const NodeMotion& a, const NodeMotion& b, Eigen::Matrix<double, 6, 12>& N);
 
 /// ∂(Bᵀλ)/∂(x_A Θ_A x_B Θ_B), not symmetric with material increments.

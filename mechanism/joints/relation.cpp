@@ -65,7 +65,7 @@ struct Axes {
         b(Space<D>::part(Space<D>::rotated(p.node_b.R, p.b.R.col(term.j)))) {}
 };
 
-/// δ value = by·(δΘ_A − δΘ_B) in world axes: by = a × b of a product.
+/// THEORY (56): δ value = by·(δΘ_A − δΘ_B) in world axes; by = a × b of a product.
 template <int D>
 struct TurnTerms {
   double value = 0.0;
@@ -105,7 +105,7 @@ void add_stiffness(const NormalSum& sum, const MarkerPair& p, double weight, Squ
   }
 }
 
-/// atan2 and its derivatives to second order.
+/// The angle of THEORY (56), atan2 and its derivatives to second order.
 template <int D>
 struct ArcTangent {
   TurnTerms<D> s, c;
@@ -144,8 +144,8 @@ void add_stiffness(const AngleTerms& terms, const MarkerPair& p, double weight, 
 
 // ---- displacements from a place of A to one of B -----------------------------------------------------------------
 
-/// Row of a value that changes by x·δd, where d leads from a place of A to one of B with these arms from the origins of
-/// the carriers (world axes).
+/// Row of a value that changes by x·δd, THEORY (57), where d leads from a place of A to one of B with these arms from
+/// the origins of the carriers (world axes).
 template <int D>
 Row12 pulled_back(const VectorOf<D>& x, const Vector3d& arm_A, const Vector3d& arm_B, const MarkerPair& p) {
   Row12 row = Row12::Zero();

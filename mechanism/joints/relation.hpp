@@ -10,7 +10,8 @@
 
 namespace tisserand::mechanism {
 
-/// d = x_B − x_A between the origins of the markers; a_i, b_j: axes of A and B (0 x, 1 y, 2 z).
+/// The kinds of THEORY (55). d = x_B − x_A between the origins of the markers; a_i, b_j: axes of A and B (0 x, 1 y, 2
+/// z).
 enum class RelationKind : std::uint8_t {
   along,     ///< a_i · d: displacement of B along axis i of A
   normal,    ///< a_i · b_j: 0 while the axes are normal to each other
@@ -71,7 +72,7 @@ struct MarkerPair {
 using Row12 = Eigen::Matrix<double, 1, 12>;
 using Square12 = Eigen::Matrix<double, 12, 12>;
 
-/// Value and gradient G: δ value = G δq, and rate = G v.
+/// Value and gradient G, THEORY (56), (57): δ value = G δq, and rate = G v.
 struct RelationTerms {
   double value = 0.0;
   Row12 G = Row12::Zero();
@@ -80,7 +81,7 @@ RelationTerms evaluate(const Relation& relation, const MarkerPair& pair);
 
 /// Whether the axes that the relation uses lie in the plane z = 0 of both carriers.
 bool has_planar_axes(const Relation& relation, const Marker& a, const Marker& b);
-/// Ġ v: the second derivative of the value is G v̇ + Ġ v.
+/// Ġ v of THEORY (59): the second derivative of the value is G v̇ + Ġ v.
 double bias(const Relation& relation, const MarkerPair& pair);
 
 /// ∂(G v)/∂q at fixed ẋ and Ω.

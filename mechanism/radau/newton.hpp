@@ -47,7 +47,7 @@ class Newton {
   /// The smallest change, weighted with the real matrix, that takes `violation` from the constraints, at the state of
   /// the last evaluate(): into `correction`.
   void project(const Eigen::VectorXd& violation, const Evaluation& evaluation);
-  /// Into `correction`: the error of positions, (5) of radau.hpp, in axes of the state of the parts.
+  /// Into `correction`: the error of positions, THEORY (76), in axes of the state of the parts.
   void estimate(const Stages& stages, const State& begin);
   void forget();
 

@@ -1,4 +1,4 @@
-// The step on a page: predict, iterate, estimate, close, accept. Numbers: equations of radau.hpp.
+// The step on a page: predict, iterate, estimate, close, accept. Numbers: docs/THEORY.md.
 #include "mechanism/radau/radau.hpp"
 
 #include <algorithm>
@@ -69,12 +69,12 @@ bool Radau::solve_stages(const StepEnd& end, State& state, Workspace& workspace,
   const State& begin = workspace.memory.previous;
   if (!newton_.ready(end.time - begin.time(), report)) return false;
   radau::predict(model_, begin, end, last_, stages_);
-  return newton_.iterate(accuracy(), stages_, state, workspace, report);  // (1) to (3), (6)
+  return newton_.iterate(accuracy(), stages_, state, workspace, report);  // THEORY (73), (74), (77)
 }
 
 bool Radau::accurate(const State& begin, StepReport& report) {
   if (!options_.error_control.active) return true;
-  newton_.estimate(stages_, begin);  // (5)
+  newton_.estimate(stages_, begin);  // THEORY (76)
   const LocalError worst =
       measure_error(model_, radau::estimate_tolerance(options_.error_control), 1.0, newton_.correction);
   const double turn = farthest_turn() / longest_turn;
@@ -164,7 +164,7 @@ StepReport Radau::take_step(const StepEnd& end, State& state, Workspace& workspa
   if (!solved && options_.error_control.active) report.proposed = newton_.shorter() * (end.time - begin.time());
   if (solved && accurate(begin, report)) {
     radau::set_stage(model_, begin, 2, stages_, state);
-    if (close(state, workspace.now, report)) {  // (4)
+    if (close(state, workspace.now, report)) {  // THEORY (75)
       accept(state, workspace, report);
       return report;
     }

@@ -1,21 +1,22 @@
 // Radau IIA of three stages on the equations of motion with velocities on the constraints: order 5.
 //
-// Stages c_1, c_2, c_3 = 1; w_ij: A⁻¹; d_i: displacements from the start of the step, rotations as rotation vectors
-// θ_i.
-//   (1)  r(q_i, v_i, v̇_i, λ_i, t_i) = 0,  B v_i + Φ_t = 0,  q_i = q_0 ∘ exp(d_i)                [HW96] VII.1 (1.20)
+// Numbers are those of docs/THEORY.md, section 11. Stages c_1, c_2, c_3 = 1; w_ij: A⁻¹; d_i: displacements from the
+// start of the step, rotations as rotation vectors θ_i.
+//   (73) r(q_i, v_i, v̇_i, λ_i, t_i) = 0,  B v_i + Φ_t = 0,  q_i = q_0 ∘ exp(d_i)                [HW96] VII.1 (1.20)
 //
-//   (2)  v_i = T(θ_i) Σ_j w_ij d_j/h; T = 1 but for rotations: the rates of d at the stages are the velocities
+//   (74) v_i = T(θ_i) Σ_j w_ij d_j/h; T = 1 but for rotations: the rates of d at the stages are the velocities
 //
-//   (3)  v̇_i = Σ_j w_ij (v_j − v_0)/h
+//        v̇_i = Σ_j w_ij (v_j − v_0)/h
 //
-//   (4)  q_1 = q_3 ∘ exp(δ), A δ + Bᵀμ = 0, Φ(q_1) = 0; then B v + Φ_t = 0 likewise: δ is of order h⁶, and μ stands
+//   (75) q_1 = q_3 ∘ exp(δ), A δ + Bᵀμ = 0, Φ(q_1) = 0; then B v + Φ_t = 0 likewise: δ is of order h⁶, and μ stands
 //        between the steps instead of in the stages                                            [GGL85], [HW96] VII.2
 //
-//   (5)  error of q: A e + Bᵀμ = ω² M e_q + ω (M e_v + C e_q), B e = B e_q, with ω = γ/h,
+//   (76) error of q: A e + Bᵀμ = ω² M e_q + ω (M e_v + C e_q), B_ω e = B e_q, with ω = γ/h,
 //        e_q = v_0/ω + Σ e_i d_i, e_v = v̇_0/ω + Σ e_i (v_i − v_0)                               [HW96] IV.8 (8.19)
 //
-//   (6)  Newton: unknowns d and λ. With A⁻¹ = T Λ T⁻¹ one real and one complex system
-//        [ω² M + ω C + K  Bᵀ; B + ∂(B v)/∂q/ω  0], ω = γ/h and (α + iβ)/h                        [HW96] IV.8 (8.5)
+//   (77) Newton: unknowns d and λ. With A⁻¹ = T Λ T⁻¹ one real and one complex system
+//        [A Bᵀ; B_ω 0] = [ω² M + ω C + K  Bᵀ; B + ∂(B v)/∂q/ω  0], ω = γ/h and (α + iβ)/h                        [HW96]
+//        IV.8 (8.5)
 //
 // Multipliers are in no error test; they are of order 3, positions and velocities of order 5 where nothing is stiff.
 #pragma once

@@ -13,8 +13,8 @@
 
 namespace tisserand::mechanism::radau {
 
-/// [ω² M + ω C + K  Bᵀ; B + ∂(B v)/∂q/ω  0], internal coordinates of superelements condensed (exactly, also where ω is
-/// complex), scaled as the saddle systems are.
+/// The matrix of THEORY (77), [ω² M + ω C + K  Bᵀ; B + ∂(B v)/∂q/ω  0], internal coordinates of superelements condensed
+/// (exactly, also where ω is complex), scaled as the saddle systems are.
 template <class Scalar>
 class StageMatrix {
  public:

@@ -23,7 +23,7 @@ struct Stages {
   Eigen::Vector3d load_power = Eigen::Vector3d::Zero(), damping_power = Eigen::Vector3d::Zero();
 };
 
-/// v and a from d: (2), (3) of radau.hpp.
+/// v and a from d: THEORY (74).
 void update_rates(const Model& model, Stages& stages);
 
 /// v and λ of a step to `end` that follows on `last`, from its polynomials; of the first step from v̇ and λ of the

@@ -43,7 +43,7 @@ bool converged(Iteration& it);
 bool ready_factors(Iteration& it);
 
 /// increment, multipliers and correction of the matrix for the residual and the violations of the last evaluation:
-/// equation (7) of step.hpp, then (5).
+/// THEORY (69), then (67).
 void solve(Iteration& it);
 
 }  // namespace tisserand::mechanism

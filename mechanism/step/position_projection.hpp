@@ -1,5 +1,5 @@
 // Projection of positions in stabilised index 2: the smallest change, weighted with mass and stiffness of the bodies,
-// that meets the constraints; equation (5) of step.hpp, after [GGL85]. B of Bᵀμ is that of the middle of the step: a
+// that meets the constraints; THEORY (67), after [GGL85]. B of Bᵀμ is that of the middle of the step: a
 // direction of another instant leans to one side of the motion and feeds energy into it.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The time step on a page: predict, evaluate, check, factor, solve, correct, accept. Numbers: equations of step.hpp.
+// The time step on a page: predict, evaluate, check, factor, solve, correct, accept. Numbers: docs/THEORY.md.
 #include "mechanism/step/step.hpp"
 
 #include "mechanism/equations/increments.hpp"
@@ -19,16 +19,16 @@ bool iterate(Iteration& it, const StepEnd& end) {
   it.state.load_time() = end.load_time;
   it.workspace.matrix.correction.setZero();
   start_projection(it.workspace.memory.projection);
-  predict(it.scheme, it.state, now);  // (2) to (4)
+  predict(it.scheme, it.state, now);  // THEORY (62) to (64)
   foresee(memory.predictor, it.scheme, memory.previous, it.state, now);
   for (;; ++it.count) {
     retract(it.model, memory.previous, now.displacement, it.state);
-    evaluate_in_step(it.model, it.state, now);  // (1)
+    evaluate_in_step(it.model, it.state, now);  // THEORY (58)
     if (converged(it)) return true;
     if (it.report.outcome != StepOutcome::accepted) return false;
     if (!ready_factors(it)) return false;
-    solve(it);                                               // (7), (5)
-    correct(it.scheme, it.workspace.matrix, it.state, now);  // (6)
+    solve(it);                                               // THEORY (69), (67)
+    correct(it.scheme, it.workspace.matrix, it.state, now);  // THEORY (68)
     ++it.report.iterations;
   }
 }

@@ -1,18 +1,19 @@
 // Time step of the constrained equations on SO(3): generalised alpha and HHT, index 3 and stabilised index 2.
 //
-// Numbers of these equations stand beside the verbs of step.cpp. ∘ exp: retract(), on SO(3) the exponential of a
-// material rotation vector. a: the algorithmic acceleration.
-//   (1)  r(q, v, v̇, λ, t) = G_iner + G_int + Bᵀλ − F = 0,  Φ(q, t) = 0                                    [BCA12] (1)
-//   (2)  (1−α_m) a_{n+1} + α_m a_n = (1−α_f) v̇_{n+1} + α_f v̇_n                                           [BCA12] (8)
-//   (3)  v_{n+1} = v_n + h ((1−γ) a_n + γ a_{n+1})
-//   (4)  q_{n+1} = q_n ∘ exp(h v_n + h² ((1/2−β) a_n + β a_{n+1}) + δ)
-//   (5)  index 3: δ = 0. Stabilised index 2: B v_{n+1} + Φ_t = 0 in place of Φ = 0 in (1), and δ with W δ + Bᵀμ = 0
+// The numbers are those of docs/THEORY.md, section 10; they stand beside the verbs of step.cpp. ∘ exp: retract(), on
+// SO(3) the exponential of a material rotation vector. a: the algorithmic acceleration.
+//   (58) r(q, v, v̇, λ, t) = G_iner + G_int + Bᵀλ − F = 0,  Φ(q, t) = 0                                    [BCA12] (1)
+//   (62) (1−α_m) a_{n+1} + α_m a_n = (1−α_f) v̇_{n+1} + α_f v̇_n                                           [BCA12] (8)
+//   (63) v_{n+1} = v_n + h ((1−γ) a_n + γ a_{n+1})
+//   (64) q_{n+1} = q_n ∘ exp(h v_n + h² ((1/2−β) a_n + β a_{n+1}) + δ)
+//   (67) index 3: δ = 0. Stabilised index 2: B v_{n+1} + Φ_t = 0 in place of Φ = 0 in (58), and δ with W δ + Bᵀμ = 0
 //        brings Φ(q_{n+1}) to zero; W = c_m M + c_k K of the bodies                                         [GGL85],
 //        [ABC15]
-//   (6)  Unknowns: d = h² β Δa and Δλ. Δv̇ = c_m d, Δv = c_c d, Δq = c_k d (+ δ) with
+//   (68) Unknowns: d = h² β Δa and Δλ. Δv̇ = c_m d, Δv = c_c d, Δq = c_k d (+ δ) with
 //        c_m = (1−α_m)/((1−α_f) β h²), c_c = γ/(β h), c_k = 1
-//   (7)  [A Bᵀ; C 0][d; Δλ] = −[r; φ], A = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q. Index 3: φ = Φ, C = B T(θ), since d is an
-//        increment of the rotation vector θ of the step. Stabilised: φ = (β h/γ)(B v + Φ_t), C = B + (β h/γ) ∂(B v)/∂q
+//   (69) [A Bᵀ; B̂ 0][d; Δλ] = −[r; φ], A = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q
+//   (70) Index 3: φ = Φ, B̂ = B T(θ), since d is an increment of the rotation vector θ of the step. Stabilised:
+//        φ = (β h/γ)(B v + Φ_t), B̂ = B + (β h/γ) ∂(B v)/∂q
 #pragma once
 
 #include "formats/scene/scene.hpp"

@@ -14,7 +14,7 @@ struct LocalError {
   int worst_coordinate = -1;
 };
 
-/// Leading term of the local error of the positions, C h³ v̈ with C = 1/6 − β − (α_m − α_f)/2 [ABC15], from
+/// Leading term of the local error of the positions, THEORY (71): C h³ v̈ with C = 1/6 − β − (α_m − α_f)/2 [ABC15], from
 /// h v̈ ≈ a_{n+1} − a_n, the rebuilt algorithmic accelerations at both ends of the step ([NRO07] for HHT; exact up to
 /// order h² whatever the steps before). `last`: the state before the step; `error`: boundary and internal coordinates.
 void estimate_error(const formats::IntegratorSpec& options, double step, const State& state, const State& last,
@@ -27,14 +27,14 @@ void estimate_error(const formats::IntegratorSpec& options, double step, const S
 LocalError measure_error(const Model& model, const formats::ErrorControl& control, double share,
                          const Eigen::Ref<const Eigen::VectorXd>& error);
 
-/// Step after one of size `step`: 0.9 ratio^(−1/2) times it, between 0.2 and 2 times; not changed where it would grow
-/// by less than a fifth, so that factors are kept.
+/// Step after one of size `step`, THEORY (72): 0.9 ratio^(−1/2) times it, between 0.2 and 2 times; not changed where it
+/// would grow by less than a fifth, so that factors are kept.
 double next_step(const formats::IntegratorSpec& options, double step, double ratio);
 /// Step to take instead of one that was too inaccurate, or did not converge (ratio 0).
 double shorter_step(double step, double ratio);
 
-/// Instants closer than this are the same: a small part of the step, but no less than rounding of the time itself, and than
-/// what a grid of steps and one of rows differ by where the scene gives their spacings to twelve digits.
+/// Instants closer than this are the same: a small part of the step, but no less than rounding of the time itself, and
+/// than what a grid of steps and one of rows differ by where the scene gives their spacings to twelve digits.
 double instant_tolerance(double step, double time);
 
 /// Limits of `error_control`, or their defaults.

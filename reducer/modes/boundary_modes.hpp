@@ -11,7 +11,8 @@
 
 namespace tisserand::reducer {
 
-/// Ψ (n_I x n_B) = −S_II⁻¹ S_IB, and what the boundary sees of the inside that follows it (n_B x n_B each).
+/// Boundary modes THEORY (78), Ψ (n_I x n_B) = −S_II⁻¹ S_IB, and the boundary blocks THEORY (80) of the inside that
+/// follows (n_B x n_B each).
 struct BoundaryModes {
   Eigen::MatrixXd Psi;
   Eigen::MatrixXd S;            ///< S_BB + S_BI Ψ + Ψᵀ (S_IB + S_II Ψ)
@@ -29,7 +30,7 @@ BoundaryModes boundary_modes(const Factor& S_II, const Blocks& blocks, const Sys
 /// Without the round-off that makes products A of symmetric factors unsymmetric.
 inline Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& A) { return 0.5 * (A + A.transpose()); }
 
-/// Xᵀ Φ (n_B x m).
+/// M̄_BI of THEORY (80), Xᵀ Φ (n_B x m).
 Eigen::MatrixXd mass_coupling(const Blocks& blocks, const BoundaryModes& boundary, const Eigen::MatrixXd& Phi);
 
 }  // namespace tisserand::reducer

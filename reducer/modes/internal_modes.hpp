@@ -15,8 +15,8 @@
 
 namespace tisserand::reducer {
 
-/// Fixed-boundary modes, lowest first, and behind them moment vectors; or, of methods with modes of the free part, what
-/// those leave inside (ritz_vectors.hpp).
+/// Fixed-boundary modes of THEORY (78), lowest first, and behind them moment vectors; or, of methods with modes of the
+/// free part, what those leave inside (ritz_vectors.hpp).
 struct InternalModes {
   Eigen::VectorXd lambda;         ///< m; ω², ascending; equal within a cluster
   Eigen::MatrixXd Phi;            ///< n_I x m, Φᵀ M_II Φ = 1 (not of MacNeal's method), Φᵀ S_II Φ = Λ

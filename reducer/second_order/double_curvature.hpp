@@ -3,9 +3,9 @@
 //
 // The second-order strains of a deformation d load the elements with the nodal forces f_e = ∂V3/∂w. A part whose
 // elements could follow on their own would lose all of the energy ½ f_eᵀ K_e⁺ f_e by that; the displacements that its
-// elements share take up ½ fᵀ K⁺ f of it, f = Σ f_e. The difference is never negative and is a form of degree four in
-// d: that of a plate of zero Gaussian curvature vanishes, that of a turned part too. Over pairs of shapes it is a Gram
-// matrix, whose eigenvectors are rows ½ dᵀ Λ_b d of the sum of squares V = ½ Σ e².
+// elements share take up ½ fᵀ K⁺ f of it, f = Σ f_e. The difference, THEORY (83), is never negative and is a form of
+// degree four in d: that of a plate of zero Gaussian curvature vanishes, that of a turned part too. Over pairs of
+// shapes it is a Gram matrix, whose eigenvectors are rows ½ dᵀ Λ_b d of the sum of squares V = ½ Σ e².
 #pragma once
 
 #include <vector>

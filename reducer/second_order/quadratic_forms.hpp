@@ -35,9 +35,9 @@ void for_each_product(const std::vector<StrainSection>& sections, const Use& use
     }
 }
 
-/// Accumulates Φᵀ K_G[w_j] Φ for all w_j: per batch one matrix product (stresses of w)ᵀ (E2 of pairs Φ_k, Φ_l), about
-/// 2 · stresses · (number of w) · n²/2 operations. Columns are cut into fixed pieces, so that sums are the same for any
-/// number of threads.
+/// Accumulates Φᵀ K_G[w_j] Φ of THEORY (82) for all w_j: per batch one matrix product (stresses of w)ᵀ (E2 of pairs
+/// Φ_k, Φ_l), about 2 · stresses · (number of w) · n²/2 operations. Columns are cut into fixed pieces, so that sums are
+/// the same for any number of threads.
 class QuadraticForms {
  public:
   QuadraticForms(int coordinates, int displacements, int threads);

@@ -32,8 +32,8 @@ struct SuperelementOptions {
   std::string where;     ///< place of the body in the scene, for messages
 };
 
-/// How R₀ follows from the nodes. The first four are [Car00] (14)-(16) with the Karcher mean in place of the
-/// incremental one where possible; `polar` serves nodes that have translations only.
+/// How R₀ follows from the nodes: THEORY (12) to (16). The first four are [Car00] (14)-(16), with the Karcher mean in
+/// place of the incremental one where possible. `polar` serves nodes that have translations only.
 enum class FrameAlgorithm {
   single_node,  ///< one node has all the rotation weight: R₀ = R_k
   pair,         ///< two rotation nodes: Karcher mean in closed form, R₀ = R₁ exp(α₂ log(R₁ᵀR₂))
@@ -57,8 +57,9 @@ struct SuperelementNode {
   bool has_rotation() const { return rotation_row >= 0; }
 };
 
-/// Damping on the deformation rates: D = b S̄ + diag(2 ζ ω) on the internal coordinates + a full matrix, a M̄ + M̄ΦΔΦᵀM̄
-/// with the elastic modes Φ of the free body and Δ = diag(2 ζ ω) (damping.cpp). Rigid rates have no damping.
+/// Damping on the deformation rates, THEORY (41): D = b S̄ + diag(2 ζ ω) on the internal coordinates + a full matrix.
+/// The full matrix is a M̄ on what is no rigid motion, + M̄ΦΔΦᵀM̄ with the elastic modes Φ of the free body and Δ = diag(2
+/// ζ ω) (damping.cpp).
 struct SuperelementDamping {
   double stiffness = 0.0;      ///< b [time]
   Eigen::VectorXd internal;    ///< m: b ω² + 2 ζ ω of the internal modes

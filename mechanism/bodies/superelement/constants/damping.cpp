@@ -37,9 +37,9 @@ double ratio_of(const std::vector<double>& ratios, double others, Eigen::Index k
   return k < static_cast<Eigen::Index>(ratios.size()) ? ratios[k] : others;
 }
 
-/// a (M̄ − M̄R (RᵀM̄R)⁻¹ RᵀM̄), R the rigid motions: a M̄ on what is M̄-orthogonal to them. Rates of deformation count from a
-/// frame, whose choice adds a rigid motion to them; this makes no difference here, and every elastic mode of the free
-/// body has the ratio a/2ω.
+/// The bracket of THEORY (41), a (M̄ − M̄R (RᵀM̄R)⁻¹ RᵀM̄) with the rigid motions R: a M̄ on what is M̄-orthogonal to them.
+/// Rates of deformation count from a frame, whose choice adds a rigid motion to them; this makes no difference here,
+/// and every elastic mode of the free body has the ratio a/2ω.
 Eigen::MatrixXd mass_damping(const SuperelementBody& body, double factor) {
   const Eigen::MatrixXd M = whole_matrices(body).M, R = rigid_columns(body), MR = M * R;
   return factor * (M - MR * (R.transpose() * MR).completeOrthogonalDecomposition().pseudoInverse() * MR.transpose());

@@ -17,9 +17,9 @@ namespace tisserand::mechanism {
 
 struct SuperelementBody;
 
-/// Strain energy as a sum of squares, V = ½ Σ e_a², e_a = l_a·y + ½ yᵀ Γ_a y: the rows L of S̄ = LᵀL, with Γ. S̄ y stays
-/// what it is without stiffening; these are the terms beyond it. Rows Λ of the companion have l = 0. The last rows may
-/// be zero, as those of QuadraticForms.
+/// Strain energy as a sum of squares, THEORY (43): V = ½ Σ e_a², e_a = l_a·y + ½ yᵀ Γ_a y: the rows L of S̄ = LᵀL, with
+/// Γ. S̄ y stays what it is without stiffening; these are the terms beyond it. Rows Λ of the companion have l = 0. The
+/// last rows may be zero, as those of QuadraticForms.
 struct Stiffening {
   Eigen::MatrixXd L;                               ///< rows x N
   BlockColumns L_blocks;                           ///< the same
@@ -28,7 +28,7 @@ struct Stiffening {
   Eigen::MatrixXd inverse;  ///< N x rows: L · inverse = 1 on the rows in which L is not zero; the other columns are 0
 };
 
-/// T = ½ ‖Φ ξ + Ω × Φ y‖²_M with ξ = R (ν + J₀⁻¹ n₂) + ẏ, ν = (v₀, Ω).
+/// Arrays of the kinetic energy THEORY (48): T = ½ ‖Φ ξ + Ω × Φ y‖²_M with ξ = R (ν + J₀⁻¹ n₂) + ẏ, ν = (v₀, Ω).
 struct FullInertia {
   int boundary_size = 0;
   Eigen::MatrixXd M;                            ///< N x N, 1 on the internal coordinates
@@ -53,13 +53,13 @@ struct SecondOrder {
 
 /// A companion on the coordinates of a body that has all but its second-order terms: rows in the order of the body,
 /// units of the scene, canonical form of `matrices` (all of its modes, of which the body keeps the first), the
-/// reference point at x₀; C and E made exact under translation ([SO] 2.2, 2.3).
+/// reference point at x₀; C and E made exact under translation (formats/COMPANION.md, "Operations").
 formats::Companion companion_on_body(formats::Companion companion, const formats::Superelement& element,
                                      const formats::CanonicalMatrices& matrices, const UnitConversion& units,
                                      const SuperelementBody& body);
 
 /// Rows of S̄ = LᵀL: of the scaled S̄_BB by Cholesky with pivots above 1e-9 of the first, and ωᵢ of the internal
-/// coordinates; Lᵀ Γ = H ([SO] 2.3). Any rows have the same energy; these keep apart what S̄ keeps apart (stretch,
+/// coordinates; Lᵀ Γ = H, THEORY (43). Any rows have the same energy; these keep apart what S̄ keeps apart (stretch,
 /// torsion, bending in either plane of a straight beam), and Γ with them; and the companion's Λ with l = 0. Rows of
 /// like Γ follow one another. The companion is that of companion_on_body().
 Stiffening make_stiffening(const SuperelementBody& body, const formats::Companion& companion);

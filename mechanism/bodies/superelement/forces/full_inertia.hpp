@@ -1,5 +1,5 @@
-// Inertia option F of a superelement body, for every scalar: the kinetic energy of all its mass, with the second-order
-// displacement of the interior.
+// Inertia option F of a superelement body, for every scalar: the kinetic energy THEORY (48) of all its mass, with the
+// second-order displacement of the interior. Letters are those of docs/THEORY.md, section 8; R in the code is Φ₀ there.
 #pragma once
 
 #include <type_traits>
@@ -26,7 +26,7 @@ Eigen::Matrix<S, 6, 1> pair_factors(const Vec3<S>& a, const Vec3<S>& b) {
   return out;
 }
 
-/// At one motion; letters of [SO] 4, axes of the frame; N coordinates y.
+/// Terms of THEORY (46) to (52) at one motion; axes of the frame; N coordinates y.
 template <class S>
 struct InertiaTerms {
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
@@ -123,8 +123,8 @@ void true_motion(const FullInertia& inertia, const Eigen::Matrix<S, 6, 1>& a,
   }
 }
 
-/// Second-order displacement and its rates: σ, ν, TT and the same of ẏ, ÿ; zero without N and T. `turn`: [ẏᵀ W_j y],
-/// the momentum of relative angular velocities of second order, and its rate [ÿᵀ W_j y].
+/// Second-order displacement THEORY (46) and its rates: σ, ν, TT with first and second derivatives; zero without N and
+/// T. `turn`: [ẏᵀ W_j y], the momentum of relative angular velocities of second order, and its rate [ÿᵀ W_j y].
 template <class S>
 struct Foreshortened {
   Vec3<S> turn = Vec3<S>::Zero(), turn_d = Vec3<S>::Zero();
@@ -133,7 +133,7 @@ struct Foreshortened {
   Mat3<S> T = Mat3<S>::Zero(), Td = Mat3<S>::Zero();
 };
 
-/// E y, and N y, T y where they are on, with JJ and its rate.
+/// JJ of THEORY (46) and its rate from E y; N y and T y if they are on.
 template <int Count, class S>
 Foreshortened<S> set_form_products(const FullInertia& inertia, InertiaTerms<S>& t) {
   using Rows = Eigen::Matrix<S, Count, 1>;
@@ -162,7 +162,7 @@ Foreshortened<S> set_form_products(const FullInertia& inertia, InertiaTerms<S>& 
 /// Whether W is on.
 inline bool turns_nodes(const FullInertia& inertia) { return !inertia.W.runs.empty(); }
 
-/// y, ẏ, ÿ and the products that need them alone: E y, C y, C ẏ, N y, T y, W y, W ẏ.
+/// y, ẏ, ÿ and the products of the arrays with them: E y, C y, C ẏ, N y, T y, W y, W ẏ.
 template <class S>
 Foreshortened<S> set_products(const FullInertia& inertia, const LocalMotion<S>& motion, InertiaTerms<S>& t) {
   t.y << motion.y_B, motion.y_I;
@@ -186,8 +186,8 @@ Foreshortened<S> set_products(const FullInertia& inertia, const LocalMotion<S>& 
   return w;
 }
 
-/// ξ, p and their rates, ½ ξᵀM̄ξ: with n₂ = D_Rᵀ M (ẇ₂ + Ω × w₂) and what W adds, ξ = R (ν + J₀⁻¹ n₂) + ẏ, p = M̄ ξ + Ω_k
-/// C_k y.
+/// n₂ of THEORY (47), ξ = R (ν + J₀⁻¹ n₂) + ẏ of THEORY (48), p = M̄ ξ + Ω_k C_k y of THEORY (49), their rates, and
+/// ½ ξᵀM̄ξ.
 template <class S>
 void set_momenta(const FullInertia& inertia, const LocalMotion<S>& motion, const Foreshortened<S>& w,
                  InertiaTerms<S>& t) {
@@ -207,13 +207,13 @@ void set_momenta(const FullInertia& inertia, const LocalMotion<S>& motion, const
   add_turned<S>(Om, t.Cyd, t.pd);
 }
 
-/// r = J₀⁻¹Rᵀp, the rigid part of the true velocity, and its rate.
+/// r = J₀⁻¹Rᵀp of THEORY (49), the rigid part of the true velocity, and its rate.
 template <class S>
 struct RigidVelocity {
   Vec3<S> v, O, vd, Od;
 };
 
-/// t.G_y of inertia and weight.
+/// t.G_y of inertia and weight: THEORY (52) without f.
 template <class S>
 void set_shape_forces(const SuperelementBody& body, const RigidVelocity<S>& r, const Vec3<S>& Om, const Vec3<S>& g,
                       InertiaTerms<S>& t) {
@@ -243,14 +243,14 @@ void set_shape_forces(const SuperelementBody& body, const RigidVelocity<S>& r, c
     for (int i = 0; i < 3; ++i) t.G_y[body.boundary_size + k] -= body.Gamma_I(i, k) * g[i];
 }
 
-/// What the inertia and the weight exert on x₀ (axes of the frame) and on the rotation of the frame.
+/// Forces of inertia and weight on x₀ (axes of the frame) and on the rotation of the frame: THEORY (51).
 template <class S>
 struct FrameForces {
   Vec3<S> G_x, G_theta;
 };
 
-/// d/dt ∂T/∂q̇ − ∂T/∂q and the weight in the coordinates (x₀, Θ₀, y): G_y into t.G_y ([SO] 4). g: acceleration of
-/// gravity, axes of the frame. After deformation_accelerations().
+/// Inertia and weight in the coordinates (x₀, Θ₀, y): momenta THEORY (50), forces THEORY (51), and G_y of THEORY (52)
+/// in t.G_y. g: acceleration of gravity, axes of the frame. After deformation_accelerations().
 template <class S>
 FrameForces<S> inertia_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Vec3<S>& g,
                               InertiaTerms<S>& t) {

@@ -39,7 +39,7 @@ SuperelementForces<S> make_forces(const SuperelementBody& body) {
   return forces;
 }
 
-/// D ẏ, without its matrix in proportion to S̄ where stiffening changes that.
+/// D ẏ of THEORY (40). Where the body has stiffening, the part b S̄ is corrected by add_stiffening().
 template <class S>
 void add_damping_forces(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   if (!body.damping.active) return;
@@ -57,7 +57,7 @@ void add_damping_forces(const SuperelementBody& body, const LocalMotion<S>& moti
   multiply_add(body.damping.II, motion.rate_I, out.r_I);
 }
 
-/// What stiffening adds to S̄ y and, where the damping is b S̄, to b S̄ ẏ: b [(L + h)ᵀ(L + h) − LᵀL] ẏ.
+/// The terms that stiffening adds to S̄ y, THEORY (44), and to b S̄ ẏ, THEORY (45): b [(L + h)ᵀ(L + h) − LᵀL] ẏ.
 template <class S>
 void add_stiffening(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   if (!body.second_order.stiffening) return;
@@ -89,14 +89,15 @@ void local_forces(const SuperelementBody& body, const LocalMotion<S>& motion, Su
   add_stiffening(body, motion, out);
 }
 
-/// Centre of mass relative to x₀, axes of the frame: X_cm + Φ_TᵀM̄ y / m.
+/// c of THEORY (32), the centre of mass relative to x₀ in axes of the frame: X_cm + Φ_TᵀM̄ y / m.
 template <class S>
 Vec3<S> deformed_center_of_mass(const SuperelementBody& body, const LocalMotion<S>& motion) {
   if (body.inertia == formats::InertiaOption::M) return motion.center;
   return body.center_of_mass.template cast<S>() + mean_of<S>(body, motion.y_B, motion.y_I);
 }
 
-/// Option M: M̄ − M̄ Φ_T Φ_TᵀM̄/m in place of M̄, so that the interpolated motion of the centre of mass has no inertia.
+/// Option M, THEORY (34): M̄ − M̄ Φ_T Φ_TᵀM̄/m in place of M̄, so that the interpolated motion of the centre of mass has no
+/// inertia.
 template <class S>
 void release_center_of_mass(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   const Vec3<S> velocity = mean_of<S>(body, motion.rate_B, motion.rate_I);
@@ -106,7 +107,8 @@ void release_center_of_mass(const SuperelementBody& body, const LocalMotion<S>& 
   subtract_share<S>(body, body.Gamma_I, acceleration, out.r_I);
 }
 
-/// The part of the exact variation of V_g = −m g·x_cm that acts through y: s −= Γᵀ R₀ᵀg; returns the moment m c × R₀ᵀg.
+/// Weight, THEORY (39), the exact variation of V_g = −m g·x_cm. Its part that acts through y is s −= Γᵀ R₀ᵀg. Returns
+/// the moment m c × R₀ᵀg.
 template <class S>
 Vec3<S> apply_gravity(const SuperelementBody& body, const LocalMotion<S>& motion, const Vec3<S>& g,
                       SuperelementForces<S>& out) {
@@ -115,7 +117,7 @@ Vec3<S> apply_gravity(const SuperelementBody& body, const LocalMotion<S>& motion
   return body.mass * cross<S>(deformed_center_of_mass(body, motion), g);
 }
 
-/// The part of the load cases that acts through y: s −= Σ s (f + K y).
+/// The part of the load cases of THEORY (42) that acts through y: s −= Σ s (f + K y).
 template <class S>
 void apply_load_cases(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   load_terms(body, motion, out.loads);
@@ -123,7 +125,8 @@ void apply_load_cases(const SuperelementBody& body, const LocalMotion<S>& motion
   out.r_I -= out.loads.g.tail(body.modes);
 }
 
-/// A₀ᵀ G_x + Uᵀ G_θ + Υᵀ G_y of the boundary, G_y = r_B at entry: forces on (x₀, Θ₀, y) as forces on the nodes.
+/// Forces on (x₀, Θ₀, y) as forces on the nodes, THEORY (53): A₀ᵀ G_x + Uᵀ G_θ + Υᵀ G_y of the boundary; G_y = r_B at
+/// entry.
 template <int D, class S>
 void pull_back_in(const SuperelementBody& body, const LocalMotion<S>& motion, const FrameForces<S>& frame,
                   Eigen::Matrix<S, Eigen::Dynamic, 1>& r_B) {
@@ -162,7 +165,7 @@ void pull_back(const SuperelementBody& body, const LocalMotion<S>& motion, const
   in_space(body.planar, [&]<int D>() { pull_back_in<D>(body, motion, frame, r_B); });
 }
 
-/// Inertia option F: Lagrange's equations of [SO] 4 with the elastic forces of [SO] 3.
+/// Inertia option F: Lagrange's equations THEORY (51) to (53) with the elastic forces THEORY (44).
 template <class S>
 void full_inertia_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Eigen::Vector3d& gravity,
                          SuperelementForces<S>& out) {
@@ -234,10 +237,9 @@ void forces_on_nodes(const SuperelementBody& body, const LocalMotion<S>& motion,
   }
 }
 
-/// r = Pᵀ M̄ ÿ + [Pᵀ(O₀ ∓ O_B) − UᵀVᵀ] p + Υᵀ(S̄ y + D ẏ) − gravity; − O_B in option A ([Car00] (45)), + in B ((60)),
-/// with the sign of UᵀVᵀ corrected (the print has +, which contradicts its own derivation and Lagrange's equations).
-/// Option M is B with T = ½ ẏᵀ(M̄ − M̄ Φ_T Φ_TᵀM̄/m) ẏ + ½ m |ẋ_cm|²: the force m J_cmᵀ ẍ_cm of the last term is that of
-/// a gravity −ẍ_cm.
+/// r = Pᵀ M̄ ÿ + [Pᵀ(O₀ ∓ O_B) − UᵀVᵀ] p + Υᵀ(S̄ y + D ẏ) − gravity: THEORY (30), (20), (40), (39). The sign of O_B is −
+/// in option A ([Car00] (45)) and + in B ((60)). The sign of UᵀVᵀ is corrected: the print has +, which contradicts its
+/// own derivation and Lagrange's equations. Option M is THEORY (35); its force m Jᵀ ẍ_cm is that of a gravity −ẍ_cm.
 template <class S>
 void superelement_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Eigen::Vector3d& gravity,
                          SuperelementForces<S>& out) {

@@ -7,7 +7,7 @@
 
 namespace tisserand::mechanism {
 
-/// At one y: h_a = Γ_a y, e_a = l_a·y + g_a, g_a = ½ y·h_a.
+/// Terms of THEORY (43), (44) at one y: h_a = Γ_a y, e_a = l_a·y + g_a, g_a = ½ y·h_a.
 template <class S>
 struct StrainTerms {
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
@@ -30,7 +30,7 @@ StrainTerms<S> make_strain_terms(const Stiffening& stiffening) {
   return t;
 }
 
-/// Sets `t` at the y of `motion` ([SO] 3).
+/// Sets `t` at the y of `motion`: THEORY (43), (44).
 template <class S>
 void strain_terms(const Stiffening& stiffening, const LocalMotion<S>& motion, StrainTerms<S>& t) {
   t.y << motion.y_B, motion.y_I;
@@ -45,7 +45,7 @@ void strain_terms(const Stiffening& stiffening, const LocalMotion<S>& motion, St
   add_transposed<Eigen::Dynamic, S>(t.h, t.e, t.force);
 }
 
-/// t.force += b [(L + h)ᵀ(L + h) − LᵀL] ẏ, after strain_terms() and deformation_rates().
+/// THEORY (45) less b S̄ ẏ: t.force += b [(L + h)ᵀ(L + h) − LᵀL] ẏ, after strain_terms() and deformation_rates().
 template <class S>
 void add_strain_damping(const Stiffening& stiffening, double b, const LocalMotion<S>& motion, StrainTerms<S>& t) {
   const auto rate = [&motion](Eigen::Index k) {
@@ -65,7 +65,7 @@ void add_strain_damping(const Stiffening& stiffening, double b, const LocalMotio
   }
 }
 
-/// V − ½ yᵀ S̄ y.
+/// V of THEORY (43) less ½ yᵀ S̄ y.
 template <class S>
 S strain_energy(const StrainTerms<S>& t) {
   S sum(0.0);

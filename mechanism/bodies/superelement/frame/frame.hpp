@@ -132,7 +132,7 @@ void single_node(const SuperelementBody& body, const NodeView<Node>& nodes, Loca
   motion.node[body.frame_node].U.setIdentity();
 }
 
-/// Uⱼ = A⁻¹ αⱼ T⁻¹(ψⱼ), A = Σ αⱼ T⁻¹(−ψⱼ): exact variation of the Karcher mean.
+/// Exact variation of the Karcher mean, THEORY (14): Uⱼ = A⁻¹ αⱼ T⁻¹(ψⱼ), A = Σ αⱼ T⁻¹(−ψⱼ).
 template <class S>
 void karcher_variation(const SuperelementBody& body, LocalMotion<S>& motion) {
   Mat3<S> A = Mat3<S>::Zero();
@@ -147,7 +147,7 @@ void karcher_variation(const SuperelementBody& body, LocalMotion<S>& motion) {
   }
 }
 
-/// Two rotation nodes: with φ = log(R₁ᵀR₂), R₀ = R₁ exp(α₂ φ), ψ₁ = −α₂ φ, ψ₂ = α₁ φ.
+/// THEORY (12) for two rotation nodes: with φ = log(R₁ᵀR₂), R₀ = R₁ exp(α₂ φ), ψ₁ = −α₂ φ, ψ₂ = α₁ φ.
 template <class S, class Node>
 void pair(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   const auto i1 = static_cast<std::size_t>(body.rotation_nodes[0]),
@@ -165,7 +165,8 @@ void pair(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion
   karcher_variation(body, motion);
 }
 
-/// Newton on Σ αⱼ log(R₀ᵀRⱼ) = 0 from the R₀ in `motion`: R₀ ← R₀ exp(A⁻¹ Σ αⱼ ψⱼ).
+/// Newton's iteration on THEORY (12), Σ αⱼ log(R₀ᵀRⱼ) = 0, from the R₀ in `motion`. THEORY (13): R₀ ← R₀ exp(A⁻¹ Σ αⱼ
+/// ψⱼ).
 template <class S, class Node>
 void karcher(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   for (int iteration = 0;; ++iteration) {
@@ -186,8 +187,8 @@ void karcher(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMot
   karcher_variation(body, motion);
 }
 
-/// [Car00] (16), (19): R₀ = R_ref exp(b₀), b₀ = Σ αⱼ bⱼ, bⱼ = log(R_refᵀRⱼ); Uⱼ = T(b₀) αⱼ T⁻¹(bⱼ). R_ref is the R₀ in
-/// `motion`.
+/// THEORY (15), [Car00] (16), (19): R₀ = R_ref exp(b₀), b₀ = Σ αⱼ bⱼ, bⱼ = log(R_refᵀRⱼ); Uⱼ = T(b₀) αⱼ T⁻¹(bⱼ). R_ref
+/// is the R₀ in `motion`.
 template <class S, class Node>
 void incremental(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   const Mat3<S> R_ref = motion.R0;
@@ -207,8 +208,9 @@ void incremental(const SuperelementBody& body, const NodeView<Node>& nodes, Loca
   local_rotations(body, nodes, motion);
 }
 
-/// Nodes without rotations: Σ wᵢ Xᵢ × R₀ᵀ(xᵢ − x̄) = 0 by Newton from the R₀ in `motion`, and its exact variation
-/// δΘ₀ = D⁻¹ Σ wᵢ Xᵢ~ R₀ᵀ δxᵢ, D = Σ wᵢ ((Xᵢ·x̂ᵢ) 1 − x̂ᵢ Xᵢᵀ), X and x̂ relative to their means with the weights w.
+/// Nodes without rotations, THEORY (16): Σ wᵢ Xᵢ × R₀ᵀ(xᵢ − x̄) = 0 by Newton from the R₀ in `motion`, and its exact
+/// variation δΘ₀ = D⁻¹ Σ wᵢ Xᵢ~ R₀ᵀ δxᵢ, D = Σ wᵢ ((Xᵢ·x̂ᵢ) 1 − x̂ᵢ Xᵢᵀ), X and x̂ relative to their means with the
+/// weights w.
 template <class S, class Node>
 void polar(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   Vec3<S> mean = Vec3<S>::Zero();

@@ -9,7 +9,8 @@
 
 namespace tisserand::mechanism {
 
-/// e' of inverse_tangent_so3() by s = |ψ|²: (1/8 − 3e/2)/s + e²/2, by its series (|B₂ₖ|/(2k)!) where that cancels.
+/// e' of THEORY (5), the derivative of e of inverse_tangent_so3() by s = |ψ|²: (1/8 − 3e/2)/s + e²/2, by its series
+/// (|B₂ₖ|/(2k)!) where that cancels.
 template <class S>
 S inverse_tangent_slope(const S& s, const S& e) {
   return real_part(s) < 0.1
@@ -19,8 +20,8 @@ S inverse_tangent_slope(const S& s, const S& e) {
              : S((0.125 - 1.5 * e) / s + 0.5 * e * e);
 }
 
-/// d/dt T⁻¹(ψ) for given ψ̇: ψ̇~/2 + e (ψ̇~ψ~ + ψ~ψ̇~) + 2 e' (ψ·ψ̇) ψ~², with e of inverse_tangent_so3() as a function of
-/// s = |ψ|².
+/// d/dt T⁻¹(ψ) for given ψ̇, THEORY (5): ψ̇~/2 + e (ψ̇~ψ~ + ψ~ψ̇~) + 2 e' (ψ·ψ̇) ψ~², with e of inverse_tangent_so3() as a
+/// function of s = |ψ|².
 template <class S>
 Mat3<S> inverse_tangent_rate(const Vec3<S>& psi, const Vec3<S>& psid) {
   const S s = dot3<S>(psi, psi);
@@ -30,7 +31,7 @@ Mat3<S> inverse_tangent_rate(const Vec3<S>& psi, const Vec3<S>& psid) {
   return 0.5 * Pd + f.e * (Pd * P + P * Pd) + (2.0 * slope * dot3<S>(psi, psid)) * (P * P);
 }
 
-/// What ψ̈ = T⁻¹(ψ) Ω̇ − T⁻ᵀ(ψ) Ω̇₀ + Ṫ⁻¹ Ω − Ṫ⁻ᵀ Ω₀ has beyond angular accelerations: only the first term of Ṫ⁻¹ is skew.
+/// b = Ṫ⁻¹ Ω − Ṫ⁻ᵀ Ω₀ of THEORY (24), the part of ψ̈ without angular accelerations. Only the first term of Ṫ⁻¹ is skew.
 template <class S>
 Vec3<S> turning_bias(const Vec3<S>& psi, const Vec3<S>& psid, const Vec3<S>& Omega, const Vec3<S>& Omega0) {
   const S s = dot3<S>(psi, psi);
@@ -56,7 +57,7 @@ void turning_biases(const SuperelementBody& body, const NodeView<Node>& nodes, L
   }
 }
 
-/// Ω̇₀ = U q̈ + U̇ q̇, after turning_biases(). From the second derivative of what defines the frame: Σ αⱼ ψⱼ = 0 gives
+/// Ω̇₀ = U q̈ + U̇ q̇ of THEORY (25), after turning_biases(). The second derivative of Σ αⱼ ψⱼ = 0 gives
 /// U̇ q̇ = Σ Uⱼ T(ψⱼ) (Ṫ⁻¹(ψⱼ) Ωⱼ − Ṫ⁻ᵀ(ψⱼ) Ω₀); the polar frame Σ U_xⱼ R₀ (−2 Ω₀ × x̂ⱼ' − Ω₀ × (Ω₀ × x̂ⱼ)).
 template <int D, class S, class Node>
 auto frame_acceleration(const SuperelementBody& body, const NodeView<Node>& nodes, const LocalMotion<S>& motion) {
@@ -123,9 +124,9 @@ Vec3<S> mean_of(const SuperelementBody& body, const Eigen::Matrix<S, Eigen::Dyna
   return sum / body.mass;
 }
 
-/// motion.center, center_rate, center_velocity and center_acceleration of x_cm = x₀ + R₀ c, c = X_cm + Φ_TᵀM̄ y/m, in
-/// axes of the frame: ẋ₀ + Ω₀ × c + ċ and ẍ₀ + Ω̇₀ × c + Ω₀ × (Ω₀ × c) + 2 Ω₀ × ċ + c̈. After
-/// deformation_accelerations().
+/// motion.center, center_rate, center_velocity and center_acceleration: THEORY (32), x_cm = x₀ + R₀ c with c = X_cm +
+/// Φ_TᵀM̄ y/m, and THEORY (36) in axes of the frame: ẋ₀ + Ω₀ × c + ċ and ẍ₀ + Ω̇₀ × c + Ω₀ × (Ω₀ × c) + 2 Ω₀ × ċ + c̈.
+/// After deformation_accelerations().
 template <class S>
 void center_of_mass_motion(const SuperelementBody& body, LocalMotion<S>& motion) {
   const Vec3<S> w = motion.Omega0, wd = motion.Omega0d;

@@ -30,7 +30,8 @@ Vector3d frame_rotation(const SuperelementBody& body, const SuperelementTangent&
   return rotation;
 }
 
-/// c_m Pᵀ t + c_c (Pᵀ (O₀ ∓ turn O_B) t − frame UᵀVᵀ t): W t with 1, 1; Zᵀ t with 0, −1.
+/// c_m Pᵀ t + c_c (Pᵀ (O₀ ∓ turn O_B) t − frame UᵀVᵀ t), with W and Z of THEORY (37), (38): W t with 1, 1; Zᵀ t with 0,
+/// −1.
 struct Side {
   double turn, frame;
 };

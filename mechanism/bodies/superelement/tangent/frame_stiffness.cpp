@@ -1,4 +1,4 @@
-// Derivatives of the transposed projector at fixed forces.
+// Derivatives of the transposed projector at fixed forces: THEORY (21), (22).
 #include "mechanism/bodies/superelement/tangent/second_order_tangent.hpp"
 
 #include <Eigen/LU>
@@ -10,7 +10,8 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-/// ∂(T⁻¹(ψ) b)/∂ψ = −b~/2 + 2 e' (ψ × (ψ × b)) ψᵀ − e ((ψ × b)~ + ψ~ b~): column k is Ṫ⁻¹ for ψ̇ = e_k, times b.
+/// Z(ψ, b) = ∂(T⁻¹(ψ) b)/∂ψ of THEORY (21): −b~/2 + 2 e' (ψ × (ψ × b)) ψᵀ − e ((ψ × b)~ + ψ~ b~): column k is Ṫ⁻¹ for ψ̇
+/// = e_k, times b.
 Matrix3d inverse_tangent_derivative(const Vector3d& psi, const Vector3d& b) {
   Matrix3d Z;
   for (int k = 0; k < 3; ++k) Z.col(k) = inverse_tangent_rate<double>(psi, Vector3d::Unit(k)) * b;
@@ -57,7 +58,7 @@ void add_frame_stiffness(const SuperelementBody& body, const SuperelementTangent
   const auto turned = [&](int j) {  // of the force on node j, less its share of what x₀ takes
     return Space<D>::turning(f.segment<D>(body.node[j].translation_row) - body.node[j].alpha * F0);
   };
-  // δm₀ without δf, and δc₀ = A⁻ᵀ (δm₀ − Σ αᵢ Z(ψᵢ, c₀) δψᵢ), per column of δq.
+  // THEORY (22), m₀ = μ and c₀ = γ: δm₀ without δf, and δc₀ = A⁻ᵀ (δm₀ − Σ αᵢ Z(ψᵢ, c₀) δψᵢ), per column of δq.
   for (const int j : body.translation_nodes) {
     const int row = body.node[j].translation_row;
     dm.template middleCols<D>(row) = turned(j).transpose() * R0.transpose();

@@ -64,7 +64,8 @@ void freeze_frame(const LocalMotion<double>& motion, const TangentCoefficients& 
   frozen.node = motion.node;
 }
 
-/// Lower triangle of the y block += c_k K_y + c_c b (L + h)ᵀ(L + h), K_y = (L + h)ᵀ(L + h) + Σ e_a Γ_a.
+/// Lower triangle of the y block += c_k K_y + c_c b (L + h)ᵀ(L + h), THEORY (44), (45), K_y = (L + h)ᵀ(L + h) + Σ e_a
+/// Γ_a.
 void add_strain_stiffness(const SuperelementBody& body, const StrainTerms<double>& t, const TangentCoefficients& c,
                           SecondOrderWork& work) {
   const Stiffening& stiffening = *body.second_order.stiffening;
@@ -103,7 +104,7 @@ void add_damping(const SuperelementBody& body, double factor, SecondOrderWork& w
   work.K.bottomRightCorner(m, m) += factor * damping.II;
 }
 
-/// Lower triangle of W ᵀM̄ W and of what turns: ∂²T/∂ν² and so on for ν = (v₀, Ω₀, ẏ) ([SO] 5).
+/// Lower triangle of ∂²T/∂(ν, ẏ)² of THEORY (54), ν = (v₀, Ω₀): Wᵀ M̄ W, and the terms of C and JJ by Ω₀.
 void add_inertia(const SuperelementBody& body, const InertiaTerms<double>& t, double factor, SecondOrderWork& work) {
   if (factor == 0.0) return;
   const FullInertia& inertia = *body.second_order.inertia;

@@ -16,12 +16,13 @@ SecondOrderWork make_second_order_work(const SuperelementBody& body);
 enum class InternalCoordinates { kept, eliminated };
 
 /// Step tangent of inertia option F: work.A_BB and the blocks of condense() and expand(). c_m Zᵀ M_ν Z + c_k (Υᵀ K_y Υ
-/// + K_f) + c_c Υᵀ D Υ with Z = [A₀; U; Υ] ([SO] 5): mass and stiffness are exact, the derivatives by velocities of the
-/// inertia and those of inertia and weight by positions are left out.
+/// + K_f) + c_c Υᵀ D Υ with Z = [A₀; U; Υ], THEORY (54). Mass and stiffness are exact. The derivatives by velocities of
+/// the inertia and those of inertia and weight by positions are left out.
 void full_inertia_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
                           InternalCoordinates internal, SuperelementScratch& scratch, SuperelementWork& work);
 
-/// Adds c_k (Υᵀ (K_y − S̄) Υ + K_f) to work.A_BB, A_BI and A_IB.
+/// Adds the stiffness of THEORY (54) less that of the linear body, c_k (Υᵀ (K_y − S̄) Υ + K_f), to work.A_BB, A_BI and
+/// A_IB.
 void add_stiffening_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
                             InternalCoordinates internal, SuperelementScratch& scratch, SuperelementWork& work);
 
@@ -43,8 +44,8 @@ auto frame_turn(const SuperelementNode& node, const LocalNode<double>& local) {
     return TurnOf<2>(node.alpha_rotation);
 }
 
-/// A += factor K_f, K_f δq = (δΥᵀ) f at the frozen frame ([SO] 5), f: elastic forces on y_B, from the turning of the
-/// frame under them. For frames from rotations; not symmetric with material increments.
+/// A += factor K_f of THEORY (21), (22), K_f δq = (δΥᵀ) f at the frozen frame; f: elastic forces on y_B, from the
+/// turning of the frame under them. For frames from rotations; not symmetric with material increments.
 template <int D>
 void add_frame_stiffness(const SuperelementBody& body, const SuperelementTangent& frozen, const Eigen::VectorXd& f,
                          double factor, FrameStiffnessWork work, Eigen::MatrixXd& A);

@@ -83,7 +83,7 @@ void freeze(const SuperelementBody& body, const LocalMotion<double>& motion, con
   }
 }
 
-/// δψ = B δΘ (in axes of the frame with option A: T⁻¹(ψ) Eᵀ = T⁻¹(−ψ)).
+/// The diagonal block of THEORY (19), δψ = B δΘ (in axes of the frame with option A: T⁻¹(ψ) Eᵀ = T⁻¹(−ψ)).
 Eigen::Matrix3d rotation_map(InertiaOption inertia, const LocalNode<double>& local) {
   return inertia == InertiaOption::A ? Eigen::Matrix3d(local.Tinv.transpose()) : local.Tinv;
 }
@@ -214,7 +214,7 @@ void multiply_P(const SuperelementBody& body, const SuperelementTangent& frozen,
   }
 }
 
-/// V₁ and the blocks ∓p~ of C₃: F −= c V₁ and G += ±c p~.
+/// V₁ and the blocks ∓p~ of C₃ of THEORY (31): F −= c V₁ and G += ±c p~.
 template <int NB>
 void add_momenta(const SuperelementBody& body, const Eigen::VectorXd& p, double c, Thin<NB>& V1, Square<NB>& G) {
   for (const SuperelementNode& node : body.node) {
@@ -231,7 +231,8 @@ void add_momenta(const SuperelementBody& body, const Eigen::VectorXd& p, double 
   }
 }
 
-/// In axes of the frame, with N = M_BB − c_m Q, Z₁ = c_c (O₀ᵀ + V U), W₁ = c_c (O₀ ∓ O_B − UᵀVᵀ):
+/// Boundary tangent of THEORY (38) in axes of the frame, with N = M_BB − c_m Q, Z₁ = c_c (O₀ᵀ + V U), W₁ = c_c (O₀ ∓
+/// O_B − UᵀVᵀ):
 ///   Â = c_m N + W₁ (N − Q Z₁) + N Z₁ + c_c (V₁ U − UᵀV₁ᵀ ∓ p~) + Υᵀ S' Υ
 /// Âᵀ = G₁ + G₂ᵀ is collected by operations on columns only; N' = N − (Q Z₁)ᵀ.
 template <int NB>

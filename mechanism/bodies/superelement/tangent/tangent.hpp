@@ -8,7 +8,7 @@
 
 namespace tisserand::mechanism {
 
-/// Step tangent after residual(): work.A_BB = A_BB − W Q Z with the boundary part of
+/// Step tangent after residual(), THEORY (31), (20), (38): work.A_BB = A_BB − W Q Z with the boundary part of
 ///   c_m Pᵀ M̄ P + c_c (C₁ + C₂ + C₃ + Υᵀ D Υ) + c_k Υᵀ S̄ Υ          ([Car00] (31), (49)-(51), (61)-(63), corrected)
 /// (the derivatives of Υ, of U and of the weight are left out), and what condense() and expand() need. The elimination
 /// of y_I is exact: C has no I-I block, so D = A_II is a constant diagonal and Q = M_BI D⁻¹ M_IB is kept while the
@@ -27,10 +27,10 @@ void kept_tangent(const SuperelementBody& body, const TangentCoefficients& coeff
 void exact_tangent(const SuperelementBody& body, const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,
                    const TangentCoefficients& coefficients, SuperelementScratch& scratch, SuperelementWork& work);
 
-/// work.r_B_condensed = r_B − A_BI A_II⁻¹ r_I with the blocks of the latest tangent of this use.
+/// THEORY (38): work.r_B_condensed = r_B − A_BI A_II⁻¹ r_I with the blocks of the latest tangent of this use.
 void condense(const SuperelementBody& body, const SuperelementScratch& scratch, SuperelementWork& work);
 
-/// dy_I = −A_II⁻¹ (r_I + A_IB dq_B): the internal part of the solution of A d = −r.
+/// THEORY (38), dy_I = −A_II⁻¹ (r_I + A_IB dq_B): the internal part of the solution of A d = −r.
 void expand(const SuperelementBody& body, const SuperelementScratch& scratch, const double* dq_B, double* dy_I,
             SuperelementWork& work);
 
