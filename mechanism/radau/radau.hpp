@@ -11,12 +11,11 @@
 //   (75) q_1 = q_3 ∘ exp(δ), A δ + Bᵀμ = 0, Φ(q_1) = 0; then B v + Φ_t = 0 likewise: δ is of order h⁶, and μ stands
 //        between the steps instead of in the stages                                            [GGL85], [HW96] VII.2
 //
-//   (76) error of q: A e + Bᵀμ = ω² M e_q + ω (M e_v + C e_q), B_ω e = B e_q, with ω = γ/h,
+//   (76) error of q, with A and B_ω of (77), ω = γ/h: A e + Bᵀμ = ω² M e_q + ω (M e_v + C e_q), B_ω e = B e_q,
 //        e_q = v_0/ω + Σ e_i d_i, e_v = v̇_0/ω + Σ e_i (v_i − v_0)                               [HW96] IV.8 (8.19)
 //
 //   (77) Newton: unknowns d and λ. With A⁻¹ = T Λ T⁻¹ one real and one complex system
-//        [A Bᵀ; B_ω 0] = [ω² M + ω C + K  Bᵀ; B + ∂(B v)/∂q/ω  0], ω = γ/h and (α + iβ)/h                        [HW96]
-//        IV.8 (8.5)
+//        [A Bᵀ; B_ω 0], A = ω² M + ω C + K, B_ω = B + ∂(B v)/∂q/ω, ω = γ/h and (α + iβ)/h          [HW96] IV.8 (8.5)
 //
 // Multipliers are in no error test; they are of order 3, positions and velocities of order 5 where nothing is stiff.
 #pragma once

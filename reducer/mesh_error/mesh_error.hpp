@@ -22,7 +22,7 @@ struct MeshErrors {
 };
 
 /// At most `most` modes. With smooth stresses σ* the continuous part has λ ≈ HR(σ*, u)/M(u) (energy_error() of the
-/// elements), THEORY (91), whose error is the product of those of σ* and u; so THEORY (92), λ_h − λ ≈ Σ energy_error
+/// elements), THEORY (92), whose error is the product of those of σ* and u; so THEORY (93), λ_h − λ ≈ Σ energy_error
 /// for uᵀ M u = 1, and (f_h − f)/f = √(λ_h/λ) − 1. Springs, masses, spiders and equations have no error of the mesh.
 /// Not seen: stresses that edges of spiders concentrate, faces of solids in place of curved ones.
 MeshErrors mesh_errors(const Mesh& mesh, const System& system, const FreeMotions& modes, int most);

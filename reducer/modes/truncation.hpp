@@ -9,7 +9,7 @@
 
 namespace tisserand::reducer {
 
-/// What the boundary sees of the inside beyond the modes that are kept: the terms of THEORY (86). U = S_II⁻¹ X, X =
+/// What the boundary sees of the inside beyond the modes that are kept: the terms of THEORY (87). U = S_II⁻¹ X, X =
 /// M_IB + M_II Ψ, all M_II-orthogonal to those modes; beside them the reduced part may have Ritz vectors W (moment
 /// vectors, free modes) with Wᵀ M_II W = 1, Wᵀ S_II W = Θ.
 struct LeftOut {
@@ -27,7 +27,7 @@ struct LeftOut {
 /// Elastic modes of the free reduced part below the first dropped fixed-boundary eigenvalue λ_d, ascending.
 struct TruncationErrors {
   Eigen::VectorXd lambda;  ///< ω² of the reduced part
-  Eigen::VectorXd estimate;  ///< relative error of the frequency, THEORY (88): ½ λ uᵀ R(λ) u for unit modal mass; where
+  Eigen::VectorXd estimate;  ///< relative error of the frequency, THEORY (89): ½ λ uᵀ R(λ) u for unit modal mass; where
                              ///< that may be above 1e-6 what taking the lower side and a quarter of the way to the
                              ///< upper one off does to the eigenvalue, and at least half of what the upper one does
   /// Whether the true error is at most twice the estimate, and not below half of it: by the enclosure, or because the
@@ -38,7 +38,7 @@ struct TruncationErrors {
   Eigen::VectorXd upper;  ///< nor above this
 };
 
-/// THEORY (86), (87). Δ(λ), the condensed dynamic stiffness of the reduced part less that of the full one, is λ² rᵀ
+/// THEORY (87), (88). Δ(λ), the condensed dynamic stiffness of the reduced part less that of the full one, is λ² rᵀ
 /// (S_II − λ M_II)⁻¹ r with the residual r(λ) = X − (S_II − λ M_II) W c, c = (Θ − λ)⁻¹ Wᵀ X, of the equation that the
 /// inside solves; on what is orthogonal to the kept modes S_II⁻¹ ≤ (S_II − λ M_II)⁻¹ ≤ S_II⁻¹/(1 − λ/λ_d). So for 0 ≤ λ
 /// < λ_d, as symmetric matrices,
@@ -57,7 +57,7 @@ struct BoundaryView {
   const Eigen::MatrixXd& coupling;  ///< n_B x modes
 };
 
-/// THEORY (89), (90): largest relative error that what is left out causes to a frequency of ω² ≤ `lambda` of the part
+/// THEORY (90), (91): largest relative error that what is left out causes to a frequency of ω² ≤ `lambda` of the part
 /// attached to anything with stiffness K ≥ 0 and mass ≥ 0, other bodies included. The motion u of the boundary in such
 /// a mode of unit mass shares strain and mass with what the part is attached to, so that, with m_k and λ_k of the kept
 /// vectors,

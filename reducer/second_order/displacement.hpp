@@ -3,7 +3,7 @@
 //
 // With the coordinates given, u = Φ y + u₂ has the least strain energy ½ ∫ (E1(u) + E2(Φy, Φy))². u₂ is zero at the
 // boundary and has no share of the internal coordinates, so that E1(Φ y) does no work on it, and
-//   u₂ = −A f(y, y) of THEORY (96),  f = ∂V3(w; Φy)/∂w,  A = K_II⁻¹ − Φ_I Λ⁻¹ Φ_Iᵀ,
+//   u₂ = −A f(y, y) of THEORY (97),  f = ∂V3(w; Φy)/∂w,  A = K_II⁻¹ − Φ_I Λ⁻¹ Φ_Iᵀ,
 // with V3 of elements/second_order.hpp; ties add what tie_strain.hpp has. The fields of all pairs of coordinates are
 // close to a few shapes. The shapes are the singular vectors of u₂ of sample deformations; their amplitudes are those
 // of the projection of u₂(y, y) on them.

@@ -1,5 +1,5 @@
 // Inertia of the part in a turning frame, THEORY (81), (85): from masses of elements to C, E, W, to what their insides
-// add to N and T, and to the loads of rigid accelerations, THEORY (93).
+// add to N and T, and to the loads of rigid accelerations, THEORY (94).
 #pragma once
 
 #include <array>

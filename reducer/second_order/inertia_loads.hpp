@@ -8,10 +8,10 @@
 namespace tisserand::reducer {
 
 /// Displacements of q under forces on q with the boundary held, less the share of the modes that are kept:
-/// w = K_II⁻¹ g − Φ_I Λ⁻¹ Φ_Iᵀ g of THEORY (94).
+/// w = K_II⁻¹ g − Φ_I Λ⁻¹ Φ_Iᵀ g of THEORY (95).
 Eigen::MatrixXd residual_displacements(const ReducedPart& part, const Eigen::MatrixXd& force);
 
-/// Static answers THEORY (94) to the twelve loads THEORY (93) about a point of the part frame.
+/// Static answers THEORY (95) to the twelve loads THEORY (94) about a point of the part frame.
 struct InertiaAnswers {
   Eigen::Vector3d reference_point = Eigen::Vector3d::Zero();
   Eigen::MatrixXd x;      ///< displacements of all coordinates of the mesh x 12

@@ -58,8 +58,8 @@ struct SuperelementNode {
 };
 
 /// Damping on the deformation rates, THEORY (41): D = b S̄ + diag(2 ζ ω) on the internal coordinates + a full matrix.
-/// The full matrix is a M̄ on what is no rigid motion, + M̄ΦΔΦᵀM̄ with the elastic modes Φ of the free body and Δ = diag(2
-/// ζ ω) (damping.cpp).
+/// The full matrix (damping.cpp) is a M̄ without the rigid motions, + M̄ΦΔΦᵀM̄ with the elastic modes Φ of the free body
+/// and Δ = diag(2 ζ ω).
 struct SuperelementDamping {
   double stiffness = 0.0;      ///< b [time]
   Eigen::VectorXd internal;    ///< m: b ω² + 2 ζ ω of the internal modes
