@@ -12,12 +12,12 @@ void add_forces(const Model& model, const State& state, const Pool<BeamElement3>
 void add_forces(const Model& model, const State& state, const Pool<RigidBody>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<ModalBody>& pool, Evaluation& evaluation);
 
-/// Elastic and inertia forces of modes one by one, which cancel in the residual of a free vibration, as forces of size
-/// √m ω² |w|, after all others, which are the outer forces: of use beside residuals alone, for they grow with the
-/// number of modes and are nobody's load.
+/// Adds the elastic and inertia forces of the modes, as forces of size √m ω² |w|. In a free vibration they cancel in
+/// the residual. They come after all others, the outer forces. They scale residuals only: they grow with the number of
+/// modes and are no load.
 void note_modes(const Model& model, Evaluation& evaluation);
 
-/// Their derivatives; internal coordinates of superelements are condensed.
+/// Adds the derivatives of these forces; internal coordinates of superelements are condensed.
 template <class T>
 void add_tangents(const Model& model, const Pool<T>& pool, TangentKind kind, Evaluation& evaluation,
                   const TangentTarget& target) = delete;

@@ -1,8 +1,9 @@
-// Carriers: what acts on nodes of modal bodies, which own no coordinates, in the coordinates of their bodies.
+// Carriers: forces and relations on nodes of modal bodies, which own no coordinates, expressed in the coordinates of
+// these bodies.
 //
-// Joints, coordinates and loads know six coordinates per carrier. Where one of the carriers follows a modal body their
-// map lists the carriers, and everything goes through T of each: [ẋ; Ω] = T [ṙ ω ẇ], 6 x (6 + m), the unit matrix for
-// other nodes. Maps without such a carrier list none and take the short way.
+// Joints, coordinates and loads use six coordinates per carrier. If a carrier follows a modal body, their map lists the
+// carriers, and T of each carrier transforms the terms: [ẋ; Ω] = T [ṙ ω ẇ], 6 x (6 + m). For other nodes T is the unit
+// matrix. Maps without such a carrier list none, and no T is applied.
 #pragma once
 
 #include "mechanism/equations/evaluate.hpp"
@@ -39,7 +40,7 @@ struct Carriers {
   CarrierMatrix rate_gradient(const LocalMatrix& B, const LocalMatrix& N, CarrierScratch& scratch) const;
   /// Multiplies the columns of turns with T(displacement of the step): rows for increments of rotation vectors.
   void turn_columns(CarrierMatrix& matrix) const;
-  /// Ṫ v, six numbers per carrier: what the carriers' accelerations have besides T v̇.
+  /// Ṫ v, six numbers per carrier: the carriers' accelerations less T v̇.
   void bias(double* values) const;
 
   // For all maps, and of the carrier alone whose columns begin at `first` of local vectors:
@@ -61,10 +62,10 @@ struct Carriers {
   void scatter_through(int first, const CarrierVector<D>& force, Eigen::VectorXd& result) const;
 };
 
-/// Adds Tᵀ force to the residual, six numbers per carrier; modal nodes keep what they got (Evaluation::modal_forces).
+/// Adds Tᵀ force to the residual, six numbers per carrier. Evaluation::modal_forces keeps the share of modal nodes.
 void add_pulled_force(const Model& model, const ElementMap& map, const double* force, Evaluation& evaluation);
 
-/// The same of the carrier whose columns begin at `first`.
+/// Adds Tᵀ force of the one carrier whose columns begin at `first`.
 template <int D>
 void add_carrier_force(const Model& model, const ElementMap& map, int first, const CarrierVector<D>& force,
                        Evaluation& evaluation) {
@@ -74,12 +75,11 @@ void add_carrier_force(const Model& model, const ElementMap& map, int first, con
     for (int c = 0; c < force.size(); ++c) evaluation.modal_forces[modal][Space<D>::columns[c]] += force[c];
 }
 
-/// B in the columns of map.coordinates, for maps with and without carriers; takes memory: not for the step.
+/// B in the columns of map.coordinates, for maps with and without carriers. Allocates memory, so not for the step.
 Eigen::MatrixXd model_rows(const Model& model, const ElementMap& map, const LocalMatrix& B,
                            const Evaluation& evaluation);
 
-/// T(dΘ) of the rotation that a node owns, or the body it follows, over the step; 1 for ground and where nothing
-/// turned.
+/// T(dΘ) for the rotation over the step of the node, or of the body that it follows; 1 for ground and without rotation.
 Eigen::Matrix3d step_tangent(const Model& model, const Evaluation& evaluation, int node);
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// The rows of the constraint Jacobian one by one, for what looks at them outside of the iteration matrix.
+// The rows of the constraint Jacobian one by one, for uses outside of the iteration matrix.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The one door between integration and mechanics: what a model does at a state, in three stages; tangent.hpp has its
+// The interface between integration and mechanics: evaluates a model at a state in three stages. tangent.hpp has the
 // derivatives.
 #pragma once
 
@@ -11,14 +11,15 @@ namespace tisserand::mechanism {
 /// Positions, velocities and accelerations of all nodes and modes.
 void evaluate_motion(const Model& model, const State& state, Evaluation& evaluation);
 
-/// That, and Φ, B, B v + Φ_t of all joints, couplings and motions: all that assembly and kinematics need.
+/// evaluate_motion(), then Φ, B, B v + Φ_t of all joints, couplings and motions: enough for assembly and kinematics.
 void evaluate_constraints(const Model& model, const State& state, Evaluation& evaluation);
 
-/// That, and r of THEORY (58), G_iner + G_int + G_damp + Bᵀλ − F (boundary coordinates; internal ones stay in the
-/// superelements' scratch), the force scales and the powers of loads and dampers; at a state that stands for itself.
+/// evaluate_constraints(), then r of THEORY (58), G_iner + G_int + G_damp + Bᵀλ − F, the force scales and the powers of
+/// loads and dampers. r has boundary coordinates; internal ones stay in the superelements' scratch. Displacements since
+/// the start of a step are zero.
 void evaluate(const Model& model, const State& state, Evaluation& evaluation);
 
-/// The same for a state that evaluation.displacement leads to from where the step began.
+/// evaluate() for a state that evaluation.displacement leads to from the start of the step.
 void evaluate_in_step(const Model& model, const State& state, Evaluation& evaluation);
 
 /// The motion of the nodes of modal bodies that nothing acts on, at the state of the last evaluate(): for output.
@@ -28,8 +29,8 @@ void update_modal_nodes(const Model& model, Evaluation& evaluation);
 /// Needs update_modal_nodes().
 void evaluate_coordinates(const Model& model, const State& state, Evaluation& evaluation);
 
-/// Wrench that each tie transmits to its follower, from the equilibrium of the massless bodies that hang on it: minus
-/// the sum of what joints, couplings, springs and loads exert on them. At the state of the last evaluate(), with the
+/// Wrench that each tie transmits to its follower, from the equilibrium of the massless bodies on it: minus the sum of
+/// the wrenches of joints, couplings, springs and loads on them. At the state of the last evaluate(), with the
 /// multipliers `lambda`.
 void evaluate_ties(const Model& model, const State& state, const double* lambda, Evaluation& evaluation);
 
@@ -43,14 +44,14 @@ void evaluate_bias(const Model& model, Evaluation& evaluation);
 /// state of the last evaluate().
 void gather_residual(const Model& model, const Evaluation& evaluation, Eigen::Ref<Eigen::VectorXd> r);
 
-/// At the state of the last evaluate().
+/// Energies of all bodies and springs, at the state of the last evaluate().
 Energy evaluate_energy(const Model& model, const Evaluation& evaluation);
 
-/// What dampers, friction and tyres take. At the state of the last evaluate().
+/// Power that dampers, friction and tyres dissipate. At the state of the last evaluate().
 double damping_power(const Model& model, const Evaluation& evaluation);
 
-/// What drives supply with the multipliers `lambda`: in Evaluation::load_power with those of the state. At the state of
-/// the last evaluate().
+/// Power that drives supply with the multipliers `lambda`. Evaluation::load_power has it with those of the state. At
+/// the state of the last evaluate().
 double drive_power(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& lambda, const Evaluation& evaluation);
 
 /// Moves each stored angle by less than half a turn to that at the last evaluate().

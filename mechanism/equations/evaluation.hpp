@@ -1,4 +1,4 @@
-// Evaluation: everything that was computed of a model at one state, in stages; sized once, so that no stage allocates.
+// Evaluation: all results of a model at one state, in stages. It is sized once, so no stage allocates memory.
 #pragma once
 
 #include <array>
@@ -36,16 +36,16 @@ struct PartLoadDirection {
 /// How far the latest evaluate() of a state has come; each stage needs the one before (evaluate.hpp).
 enum class Stage { nothing, motion, constraints, forces };
 
-/// Results of the stages motion, constraints, forces, and of what is asked for after them. Where assertions are on,
-/// every evaluation of a state begins by filling the results of later stages with NaN, and who reads them asks
-/// require_stage(): what belongs to another state cannot be taken for this one.
+/// Results of the stages motion, constraints and forces, and results on request. With assertions, every evaluation
+/// begins by filling the results of later stages with NaN, and readers call require_stage(). So results of another
+/// state cannot be taken for those of this one.
 struct Evaluation {
   explicit Evaluation(const Model& model);
 
   Stage stage = Stage::nothing;
-  long tangents = 0;         ///< how often the blocks of superelements were made anew: factors go with one of them
+  long tangents = 0;         ///< number of times that tangents of superelements were computed; identifies their factors
   double load_factor = 1.0;  ///< of loads and gravity (load steps of statics): set by the caller
-  bool standing = false;     ///< statics: tangents hold tyres where they stand; set by the caller
+  bool standing = false;     ///< statics: tangents hold tyres at their place; set by the caller
   /// θ of every node and displacement of every other coordinate since the state from which a step is taken: rows of Φ
   /// are derivatives by it (ConstraintRows). Zero unless evaluate_in_step() was given one.
   Eigen::VectorXd displacement;
@@ -75,10 +75,10 @@ struct Evaluation {
   Eigen::VectorXd residual;              ///< r, boundary coordinates (uncondensed)
   std::vector<Vector6d> modal_forces;    ///< share of each modal node in r: −[force, world; moment, node axes]
   std::array<double, 3> force_scale{};   ///< largest force, moment and internal force of any single term
-  double outer_force = 0.0;              ///< that force without what modes bear inside their bodies
+  double outer_force = 0.0;              ///< largest force without the internal forces of modes
   double load_power = 0.0;
-  double damper_power = 0.0;   ///< that is dissipated, but by tyres: damping_power()
-  double body_power = 0.0;     ///< of that, by damping of superelements
+  double damper_power = 0.0;   ///< dissipated power without that of tyres: damping_power()
+  double body_power = 0.0;     ///< the part of damper_power of damped superelements
   double spring_energy = 0.0;  ///< strain energy of springs, stops and bushings
 
   // On request.
@@ -95,7 +95,7 @@ struct Evaluation {
   CarrierScratch carriers;
 };
 
-/// Fails (a fault of the program) unless the latest evaluation has come so far.
+/// Fails (a fault of the program) if the latest evaluation has not reached this stage.
 void require_stage(const Evaluation& evaluation, Stage stage);
 
 /// Motion of a node at the last evaluate(); −1: ground.
@@ -108,7 +108,7 @@ inline NodeView<NodeMotion> nodes_of(const Model& model, std::size_t superelemen
   return {evaluation.motion.data(), model.superelements[superelement].nodes.data()};
 }
 
-/// What the uses of a superelement's body work with in turn.
+/// Work space that all uses of a superelement's body share.
 inline SuperelementWork& work_of(const Model& model, std::size_t superelement, Evaluation& evaluation) {
   return evaluation.superelement_work[model.superelements[superelement].body];
 }

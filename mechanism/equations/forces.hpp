@@ -11,7 +11,7 @@ void add_forces(const Model& model, const State& state, const Pool<Tyre>& pool, 
 void add_forces(const Model& model, const State& state, const Pool<Load>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<PartLoad>& pool, Evaluation& evaluation);
 
-/// Adds their derivatives to the stored values.
+/// Adds the derivatives of these forces to the stored values.
 template <class T>
 void add_tangents(const Model& model, const Pool<T>& pool, Evaluation& evaluation,
                   const TangentTarget& target) = delete;

@@ -10,8 +10,8 @@
 namespace tisserand::mechanism {
 
 /// [A/s Bᵀ; rows 0] of the boundary coordinates and multipliers, its factors, and the solutions found with them.
-/// It alone knows whether its factors serve: they belong to the request that they were made for, and are nobody's after
-/// a failed factorisation or forget().
+/// It decides whether its factors can be used: they belong to the request that they were made for, and are invalid
+/// after a failed factorisation or forget().
 class IterationMatrix {
  public:
   explicit IterationMatrix(const Model& model);
@@ -19,20 +19,20 @@ class IterationMatrix {
   /// Evaluates the tangent at the state of the last evaluate() and factors it.
   [[nodiscard]] FactorReport factor(const Model& model, const State& state, const TangentRequest& request,
                                     Evaluation& evaluation);
-  /// Whether the factors belong to this request, at whatever state, and the blocks of superelements in the evaluation,
-  /// which condense and expand internal coordinates, to the factors: another tangent makes them anew.
+  /// Whether the factors belong to this request, at any state, and to the blocks of superelements in the evaluation.
+  /// These blocks condense and expand internal coordinates, and every tangent replaces them.
   bool serves(const TangentRequest& request, const Evaluation& evaluation) const {
     return factored_ == request && tangent_ == evaluation.tangents;
   }
-  /// The next iteration factors anew.
+  /// Makes the next iteration factor again.
   void invalidate() { factored_.reset(); }
-  /// As new: the next factorisation chooses its pivots like the first one.
+  /// Resets: the next factorisation chooses its pivots as the first one did.
   void forget();
 
   /// Solves A d + Bᵀ dλ = −r, B d = rows with the factors. `increment` (boundary and internal) receives d,
   /// `multipliers` dλ.
   void solve_increment(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& rows, Evaluation& evaluation);
-  /// Solves A d + Bᵀ μ = 0, B d = rows: the smallest change, weighted with A, that does `rows` to the constraints.
+  /// Solves A d + Bᵀ μ = 0, B d = rows: the smallest change, weighted with A, that changes the constraints by `rows`.
   /// `correction` receives d, `projection_multipliers` μ.
   void solve_projection(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& rows, Evaluation& evaluation);
 

@@ -64,7 +64,7 @@ Rows constraint_rows(const Carriers& on, const Pair& item, const ConstraintBlock
   return rows;
 }
 
-/// The same in the coordinates of carriers that follow modal bodies.
+/// Adds the terms in the coordinates of carriers that follow modal bodies.
 template <class Rows, class Gradient>
 CarrierMatrix pulled_constraint_rows(const Carriers& on, const ConstraintBlock<Rows, Gradient>& block,
                                      const ConstraintRows& kind, CarrierScratch& scratch) {

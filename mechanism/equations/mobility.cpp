@@ -146,7 +146,7 @@ struct OpenMotions {
   }
 };
 
-/// Of a joint coordinate, or of a turn in a joint, in the motions of the parts.
+/// Row of a joint coordinate, or of a rotation in a joint, in the motions of the parts.
 template <class Pair>
 Eigen::RowVectorXd part_row(const Model& model, const Parts& parts, const Evaluation& evaluation, const Pair& pair,
                             const Row12& values) {
@@ -205,7 +205,7 @@ struct LockedJoint {
 std::vector<LockedJoint> locked_joints(const Model& model, const Parts& parts, const Evaluation& evaluation) {
   const Eigen::MatrixXd Z = open_motions(model, parts, evaluation, false);
   const int ground = parts.count();
-  // Of a part at `point`, rotations times the characteristic length.
+  // Motion of a part at `point`, rotations times the characteristic length.
   const auto motion = [&](int part, const Eigen::Vector3d& point) {
     Eigen::MatrixXd at = Eigen::MatrixXd::Zero(6, Z.cols());
     if (part == ground) return at;

@@ -24,15 +24,15 @@ struct Mobility {
   // By find_freedoms(), every body counted as a rigid one:
   std::vector<std::string>
       free;  ///< independent motions, drives held: joint coordinates, turns in joints, whole bodies
-  std::vector<std::string> locked;  ///< joints of loops that hold one another, though nothing drives them
+  std::vector<std::string> locked;  ///< joints of loops that cannot move although nothing drives them
 };
 
 /// Rank of B by a rank-revealing QR (rotations scaled with the characteristic length; up to 400 rows dense, above
 /// sparse), and that of B on the motions of rigid parts.
 Mobility count_mobility(const Model& model, const State& state, Evaluation& evaluation);
 
-/// Names what can move and what is locked at the state, by the null space of B on the motions of rigid parts; of up to
-/// 50 parts, else both lists stay empty.
+/// Names the free motions and the locked joints at the state, by the null space of B on the motions of rigid parts.
+/// With more than 50 parts both lists stay empty.
 void find_freedoms(const Model& model, const State& state, Evaluation& evaluation, Mobility& mobility);
 
 }  // namespace tisserand::mechanism

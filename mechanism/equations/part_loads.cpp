@@ -5,7 +5,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Of the factor 1 on the node of a rigid body [force world; moment material].
+/// Wrench of the factor 1 on the node of a rigid body [force world; moment material].
 Vector6d resultant(const PartLoad& load, const NodeMotion& node) {
   Vector6d force;
   force << node.R * load.force, load.moment;

@@ -8,7 +8,7 @@
 namespace tisserand::mechanism {
 namespace {
 constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
-/// Of the forces of the scene, in the reactions that they have: condition 1e3 of the mass matrix.
+/// Round-off of reactions relative to the forces of the scene: condition 1e3 of the mass matrix.
 constexpr double reaction_round_off = 1e-12;
 
 template <class Counts>

@@ -1,4 +1,4 @@
-// How far forces and constraints are from balance, and what rounding leaves of them: below it no iteration brings them.
+// Distance of forces and constraints from balance, and the round-off that no iteration removes.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,10 +19,10 @@ double force_round_off(const Model& model, const State& state);
 /// Largest present force; moments count through the length, so that a scale of zero in one does not stall a test.
 double force_size(const Model& model, const Evaluation& evaluation);
 
-/// Largest force on a node that counts as none: `share` of the present forces, or what rounding leaves.
+/// Largest force on a node that counts as zero: `share` of the present forces, or the round-off.
 double allowed_force(const Model& model, const State& state, const Evaluation& evaluation, double share);
 
-/// Row of a constraint, or of its rate, that is most open: lengths relative to the characteristic one, angles in
+/// Row with the largest violation of a constraint or of its rate: lengths relative to the characteristic one, angles in
 /// radians. The first NaN is the largest.
 struct Violation {
   double value = 0.0;
@@ -31,14 +31,14 @@ struct Violation {
 /// Φ or Φ̇ in `rows`.
 double violation_of(const Model& model, const Eigen::VectorXd& rows, int row);
 Violation largest_violation(const Model& model, const Eigen::VectorXd& rows);
-/// Φ of the last evaluate(), of the rows that are solved for or of those that are left out. The latter stay at
-/// round-off as long as they follow from the others: they open where the rank of the constraints is higher than when
-/// rows were chosen, or where the others have become dependent.
+/// Largest violation Φ at the last evaluate(), of the rows that are solved for or of those that are left out. Rows left
+/// out stay at round-off as long as they follow from the others. They open if the rank of the constraints has grown
+/// since the rows were chosen, or if the others have become dependent.
 enum class Rows { solved, left_out };
 Violation largest_violation(const Model& model, const Evaluation& evaluation, Rows kind);
 
-/// Whether these multipliers, as forces, are no more than rounding leaves of the forces of the scene: where nothing
-/// presses, as in free fall, reactions are never less. After evaluate().
+/// Whether these multipliers, as forces, are round-off of the forces of the scene. Without loads, as in free fall,
+/// reactions do not become smaller. After evaluate().
 bool is_round_off(const Model& model, const State& state, const Evaluation& evaluation,
                   const Eigen::Ref<const Eigen::VectorXd>& multipliers);
 

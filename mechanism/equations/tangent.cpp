@@ -32,14 +32,14 @@ TangentTarget clear(const Model& model, const TangentCoefficients& coefficients,
   return {coefficients, rows, 1.0 / matrix.scale, matrix.values, evaluation.carriers};
 }
 
-/// Of bodies without internal coordinates.
+/// Adds the tangents of bodies without internal coordinates.
 void add_body_tangents(const Model& model, TangentKind kind, Evaluation& evaluation, const TangentTarget& target) {
   for_each_body_pool(model, [&]<class T>(const Pool<T>& pool) {
     if constexpr (!std::is_same_v<T, SuperelementUse>) add_tangents(model, pool, kind, evaluation, target);
   });
 }
 
-/// Of everything that acts on nodes without internal coordinates.
+/// Adds the tangents of bodies, joints, friction, coordinates and forces without internal coordinates.
 void add_node_tangents(const Model& model, const State& state, TangentKind kind, Evaluation& evaluation,
                        const TangentTarget& target) {
   add_body_tangents(model, kind, evaluation, target);

@@ -40,8 +40,8 @@ struct MatrixValues {
 void evaluate_tangent(const Model& model, const State& state, const TangentRequest& request, Evaluation& evaluation,
                       MatrixValues& matrix);
 
-/// The same without the superelements, whose internal coordinates a caller may want to keep. All but the scale is
-/// linear in the coefficients.
+/// evaluate_tangent() without the superelements, for callers that keep internal coordinates. All values but the scale
+/// are linear in the coefficients.
 void evaluate_tangent_without_superelements(const Model& model, const State& state, const TangentRequest& request,
                                             Evaluation& evaluation, MatrixValues& matrix);
 

@@ -79,7 +79,7 @@ void note_scale(const Vector& local, Evaluation& evaluation) {
   }
 }
 
-/// The same of a carrier in the plane.
+/// Values of a carrier in the plane.
 inline void note_scale(const CarrierVector<2>& local, Evaluation& evaluation) {
   double &force = evaluation.force_scale[0], &moment = evaluation.force_scale[1];
   force = std::max({force, std::abs(local[0]), std::abs(local[1])});

@@ -19,7 +19,7 @@ struct Coordinate {
   bool active = false;  ///< used by a coupling, a motion or a spring: evaluated in every step
 };
 
-/// Of one coordinate at one instant; angles unwrapped.
+/// Values of one coordinate at one instant; angles unwrapped.
 struct CoordinateTerms {
   double value = 0.0;
   double rate = 0.0;

@@ -105,7 +105,7 @@ ContactForce normal_of(const Friction& friction, JointKind kind, const JointReac
   return normal;
 }
 
-/// Of z − lead × angle; zero where there is no thread.
+/// Gradient of z − lead × angle; zero without a thread.
 Row12 thread_row(const Friction& friction, const MarkerPair& pair) {
   if (friction.thread < 0) return Row12::Zero();
   return evaluate(shift_z, pair).G - friction.lead * evaluate(turn, pair).G;

@@ -44,11 +44,11 @@ bool keeps_orientation(const Joint& joint);
 /// Coincidence and relations of the joint from the law of its kind, or from `held` if `hold` says what is held.
 void set_relations(JointKind kind, const std::array<bool, 6>& held, Joint& joint);
 
-/// What the equations of the joint depend on, those of its coordinates aside.
+/// Dependence of the equations of the joint on places and axes, without its coordinates.
 Dependence depends_on(const Joint& joint);
 
-/// Of a displacement of marker B from A, axes of A: the length that the joint holds, which is what a shift of one of
-/// the markers by it would change.
+/// The part of a displacement of marker B from A (axes of A) that the joint holds: the length by which a shift of one
+/// marker by the displacement would violate the joint.
 double held_length(const Joint& joint, const Eigen::Vector3d& displacement);
 
 /// Whether the joint keeps a distance: its markers are then apart, and their axes do not matter.
@@ -119,7 +119,7 @@ struct JointReaction {
 };
 /// The reaction of constraint or applied forces with gradients G (rows of [x_A Θ_A x_B Θ_B]): −Gᵀ λ on B.
 JointReaction reaction_of(const Row12& pulled_back, const MarkerPair& pair);
-/// Of the joint's own rows: without its thread, which is a coupling.
+/// Reaction of the joint's own rows, without its thread, which is a coupling.
 JointReaction joint_reaction(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda);
 
 }  // namespace tisserand::mechanism

@@ -1,5 +1,5 @@
 // The kinds of joints as the equations know them: one row per kind with the relations that it holds at zero, the
-// coordinates that it leaves free, and how its surfaces slide. Where a new kind goes is told in mechanism/MAP.md.
+// coordinates that it leaves free, and how its surfaces slide. mechanism/MAP.md says where a new kind goes.
 #pragma once
 
 #include <array>
@@ -25,8 +25,8 @@ struct Relations {
   constexpr const Relation* end() const { return list.data() + count; }
 };
 
-/// What a joint holds: the origins together (three equations), then relations at zero, or at the length of the joint if
-/// they are a distance.
+/// Equations of a joint: the origins coincide (three equations), and relations are zero, or equal to the length of the
+/// joint if they are a distance.
 struct Held {
   bool coincident = false;
   Relations relations{};

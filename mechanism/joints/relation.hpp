@@ -32,8 +32,8 @@ inline bool is_length(const Relation& relation) {
   return relation.kind == RelationKind::along || relation.kind == RelationKind::distance;
 }
 
-/// What a relation depends on. Axes: those of a marker, beyond the place of its origin; a marker away from its node
-/// feels the rotation of the node in any case.
+/// What a relation depends on: places of the origins, axes of marker A, axes of marker B. A marker away from its node
+/// moves with the rotation of the node in any case.
 struct Dependence {
   bool places = false;
   bool axes_a = false;

@@ -15,8 +15,8 @@ using formats::IntegratorSpec;
 /// Largest error of an iterated floating frame [rad]: its iteration ends at 1e-14 where it converges (frame.hpp), a
 /// larger error is one of a frame that does not.
 constexpr double frame_tolerance = 1e-10;
-/// Violations of constraints relative to what accelerations move in a step, in units of Newton's tolerance: Φ stands
-/// for an acceleration of 4 Φ/h² (β about 1/4), so that 5 lets it be about as wrong as the forces may be.
+/// Allowed violations of constraints relative to the motion of a step, in units of Newton's tolerance. A violation Φ
+/// corresponds to an acceleration of 4 Φ/h² (β about 1/4), so with 5 it may be about as wrong as the forces.
 constexpr double share_of_motion = 5.0;
 
 /// The first NaN stays.
@@ -26,7 +26,7 @@ void raise(double& value, int& at, double candidate, int index) {
   at = index;
 }
 
-/// Its size is known before its place: the search for both at once waits for each comparison. A NaN is the largest.
+/// Finds the maximum first, then its index: a combined search cannot be vectorised. A NaN is the largest.
 template <class Array>
 double largest(const Array& values, int& at) {
   const double size = values.template maxCoeff<Eigen::PropagateNaN>();
@@ -41,8 +41,9 @@ struct Closed {
   double rate = 0.0;  ///< [1/time]
 };
 
-/// A violation of Φ stands for an acceleration of about 4 Φ/h², one of B v for B v/h: small against those of the motion
-/// only if Φ is small against what they move in a step. Not below the round-off: of Φ that of the positions.
+/// A violation Φ corresponds to an acceleration of about 4 Φ/h², a violation B v to B v/h. It is small against the
+/// accelerations of the motion only if Φ is small against their displacement in a step. The limit is not below the
+/// round-off; for Φ this is the round-off of the positions.
 Closed closed_constraints(const Model& model, const IntegratorSpec& options, double step, const State& state) {
   const double acceleration = std::max(state.acceleration_scale(), size_of(model, state.algorithmic()));
   const double motion = share_of_motion * options.tolerance * step * step * acceleration;

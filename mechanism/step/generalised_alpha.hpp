@@ -38,7 +38,7 @@ StepScheme step_scheme(const Model& model, const formats::IntegratorSpec& option
 /// with retract().
 void predict(const StepScheme& scheme, State& state, Evaluation& evaluation);
 
-/// Changes a_{n+1} by `change`, and with it what THEORY (62) to (64) make of it; positions follow with retract().
+/// Changes a_{n+1} by `change`, and v, v̇ and the displacement by THEORY (62) to (64); positions follow with retract().
 void add_acceleration(const StepScheme& scheme, const Eigen::VectorXd& change, State& state, Evaluation& evaluation);
 
 /// Adds the increment h² β Δa of the matrix to acceleration, velocity and displacement, its multipliers, and its

@@ -22,12 +22,12 @@ bool are_regular(const FactorReport& factors, Iteration& it) {
   return false;
 }
 
-/// Factors anew at the state of the last evaluation. False: singular.
+/// Factors again at the state of the last evaluation. False: singular.
 bool refactor(Iteration& it) {
   return are_regular(it.workspace.matrix.factor(it.model, it.state, it.scheme.request, it.workspace.now), it);
 }
 
-/// Whether corrections with the kept factors of the position projection do not close the constraints.
+/// Whether corrections with the kept factors of the position projection fail to close the constraints.
 bool projection_fails(const Iteration& it) {
   return it.scheme.projects && it.count > 1 && it.report.constraint_ratio > 1.0 &&
          it.report.constraint_ratio > it.last_constraint_ratio;
@@ -43,7 +43,8 @@ bool contracts_slowly(const Iteration& it) {
   return it.increment > it.workspace.memory.tuning.slow_rate * it.last_increment;
 }
 
-/// `increment_floor`, or what closing the rounding of positions takes if that is more: at 1 km from the origin it is.
+/// Smallest increment that is no round-off: `increment_floor`, or the round-off of positions if that is larger, as at 1
+/// km from the origin.
 double floor_of(const Iteration& it) {
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   return std::max(increment_floor, rounding * reach_of(it.model, it.state) / it.model.length);

@@ -1,4 +1,4 @@
-// One Newton iteration of a step, as verbs: what step.cpp is told with.
+// The operations of a Newton iteration of a step, which step.cpp calls.
 #pragma once
 
 #include "mechanism/step/convergence.hpp"

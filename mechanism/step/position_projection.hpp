@@ -12,16 +12,16 @@
 
 namespace tisserand::mechanism {
 
-/// [W Bᵀ; B 0] with its factors and their age, and what is known of δ before it is found. Index 3 leaves it empty.
+/// [W Bᵀ; B 0] with its factors and their age, and a prediction of μ. Index 3 leaves it empty.
 ///
-/// Factors serve many steps, and B turns meanwhile, from B₀ to B_m. Of W δ + B₀ᵀ(μ − μ₁) + B_mᵀ μ₁ = 0 with the
-/// multipliers μ₁ of the step before, the old direction is left with the change of μ over one step alone. The sum of
-/// all corrections of a step still follows from what they close, whatever the iterations on the way.
+/// Factors serve many steps, while B turns from B₀ to B_m. The projection therefore solves W δ + B₀ᵀ(μ − μ₁) + B_mᵀ μ₁
+/// = 0 with the multipliers μ₁ of the step before: only the change of μ over one step has the old direction B₀. The sum
+/// of all corrections of a step depends on the closed violations alone, not on the number of iterations.
 struct PositionProjection {
   void forget();
   bool has_factors() const { return step > 0.0; }
 
-  /// Of B₀: its slot in the matrix, where it stands, and what it was when the factors were made.
+  /// An entry of B₀: its slot in the matrix, its row and coordinate, and its value when the factors were made.
   struct Entry {
     int slot, coordinate, row;
     double value;
@@ -32,12 +32,12 @@ struct PositionProjection {
   Eigen::VectorXd turns;   ///< boundary: 1 for rotations of bodies with mass, else 0
   Eigen::VectorXd open;    ///< rows that are still to be closed
   Eigen::VectorXd closed;  ///< rows that the latest change closes
-  // μ as the system has it, that is over the scale of its matrix.
+  // μ divided by the scale of the matrix.
   Eigen::VectorXd multipliers;  ///< of this step so far
   Eigen::VectorXd expected;     ///< μ₁
   Eigen::VectorXd old;          ///< B₀ᵀ μ₁
   Eigen::VectorXd turned;       ///< buffer: (B₀ − B_m)ᵀ μ₁
-  Eigen::VectorXd upper;        ///< of that, what solutions of this step have been given
+  Eigen::VectorXd upper;        ///< the part of `turned` that solutions of this step already contain
   Eigen::VectorXd held;         ///< boundary: 0 for coordinates without mass that no constraint holds, else 1
   double taken = 0.0;           ///< length of the step that is being taken
   double expected_step = 0.0;   ///< of the step before, to which μ₁ belongs; zero: there is none
@@ -47,30 +47,31 @@ struct PositionProjection {
   bool renewed = false;         ///< factors are those of an iterate of this step, and end with it
 };
 
-/// Readies μ₁ and [W Bᵀ; B 0] for a step from `state`, W = c_m M + c_k K of the bodies alone: made anew, at `state`,
-/// where bodies have turned too far or too many steps have passed since the last one, or the step is more than twice or
-/// less than half of what it was then. What decides are motions of bodies with mass and numbers of steps, no numbers of
+/// Prepares μ₁ and [W Bᵀ; B 0] for a step from `state`, W = c_m M + c_k K of the bodies alone. The matrix is made
+/// again, at `state`, if bodies have turned too far or too many steps have passed since the last one, or if the step is
+/// more than twice or less than half of the one then. Motions of bodies with mass and numbers of steps decide, not
 /// iterations.
 [[nodiscard]] FactorReport prepare_projection(const Model& model, const State& state, const StepScheme& scheme,
                                               Evaluation& evaluation, PositionProjection& projection);
 
-/// [W Bᵀ; B 0] at the iterate of the last evaluation, for the rest of this step. Between B₀ and B of the end of a step
-/// there may be a singular position: a direction in which rows are nearly dependent then has the other sign, and
-/// corrections with B₀ open what they should close, whatever the length of the step. The next step makes its own.
+/// Makes [W Bᵀ; B 0] at the iterate of the last evaluation, for the rest of this step. A singular position may lie
+/// between B₀ and B of the end of a step. Then a direction in which rows are nearly dependent has the other sign, and
+/// corrections with B₀ open the constraints instead of closing them, whatever the length of the step. The next step
+/// makes its own.
 [[nodiscard]] FactorReport renew_projection(const Model& model, const State& state, const StepScheme& scheme,
                                             Evaluation& evaluation, PositionProjection& projection);
 
 /// Before the first iteration of a step: nothing is corrected yet.
 void start_projection(PositionProjection& projection);
 
-/// correction <- d with B d = projection.open, about: for B of prepare_projection(), or, where bodies have turned much
-/// since, of the last evaluate(); the sum of the corrections of a step in the direction that PositionProjection says.
-/// Internal coordinates of superelements stay. Nodes without mass have no weight, so that those of virtual bodies, kept
-/// or eliminated, change nothing.
+/// correction <- d with B d = projection.open, approximately. B is that of prepare_projection(), or, if bodies have
+/// turned much since, that of the last evaluate(). PositionProjection gives the direction of the sum of the corrections
+/// of a step. Internal coordinates of superelements stay. Nodes without mass have no weight, so kept and eliminated
+/// virtual bodies give the same correction.
 void project_positions(const Model& model, const StepTuning& tuning, const Evaluation& evaluation,
                        PositionProjection& projection, Eigen::VectorXd& correction);
 
-/// Notes what an accepted step uses up.
+/// Ages the factors by an accepted step.
 void age_projection(const Model& model, const StepTuning& tuning, const Evaluation& evaluation,
                     PositionProjection& projection);
 

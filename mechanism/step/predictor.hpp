@@ -9,8 +9,8 @@
 
 namespace tisserand::mechanism {
 
-/// Change of algorithmic acceleration and multipliers over the last step, by which the next step is predicted where the
-/// last one would have been predicted better by the change before.
+/// Change of algorithmic acceleration and multipliers over the last step. It predicts the next step if, one step
+/// earlier, such a prediction would have been better than none.
 struct Predictor {
   explicit Predictor(const Sizes& sizes)
       : acceleration(Eigen::VectorXd::Zero(sizes.velocities())),

@@ -145,8 +145,8 @@ bool RowWatch::renew(const Model& model, State& state, Evaluation& evaluation) {
   return largest_factor(model, state, evaluation) > most_factor && choose_active_rows(model, state, evaluation);
 }
 
-/// Of [M Bₐᵀ; Bₐ 0][x; c] = [b; 0] for each row b that is left out: b = Bₐᵀ c, with x = 0 if b depends on the rows Bₐ
-/// that are solved for. Infinite if it does not.
+/// Factors c of [M Bₐᵀ; Bₐ 0][x; c] = [b; 0] for each row b that is left out: b = Bₐᵀ c, with x = 0 if b depends on the
+/// rows Bₐ that are solved for. Infinite if it does not.
 double RowWatch::largest_factor(const Model& model, const State& state, Evaluation& evaluation) {
   constexpr double independent = 1e-6;  // of the row
   if (!system_) {

@@ -16,15 +16,15 @@ namespace tisserand::mechanism {
 /// Whether some constraint row is implied by others, so that the multipliers are not unique.
 bool is_overconstrained(const State& state);
 
-/// Chooses the rows that are solved for anew at the state, by a rank-revealing QR. Returns whether they changed.
-/// Multipliers keep their values, also those of rows that are left out from now on: what these exert is made up for by
-/// the others in the next solution.
+/// Chooses again which rows are solved for, by a rank-revealing QR at the state. Returns whether they changed.
+/// Multipliers keep their values, also those of rows that are left out from now on: in the next solution the others
+/// replace their forces.
 bool choose_active_rows(const Model& model, State& state, Evaluation& evaluation);
 
-/// Examines the rows of overconstrained scenes while bodies turn. A row that is left out is a sum of those that are
-/// solved for; where its factors grow, these become dependent. They are chosen again as soon as a factor exceeds
-/// `most_factor`, long before Newton's iteration meets the loss of rank. When that is, the state alone decides: it
-/// holds by how much bodies in loops have turned since the last examination.
+/// Examines the rows of overconstrained scenes while bodies turn. A row that is left out is a linear combination of
+/// those that are solved for. If its factors grow, these become dependent. Rows are chosen again as soon as a factor
+/// exceeds `most_factor`, long before Newton's iteration meets the loss of rank. The instant depends on the state
+/// alone, which contains the rotation of bodies in loops since the last examination.
 class RowWatch {
  public:
   explicit RowWatch(const Model& model);

@@ -8,8 +8,8 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Newton's iteration from the prediction. True if it converges; without an outcome of its own where kept factors are
-/// given up.
+/// Newton's iteration from the prediction. True if it converges. False without an outcome in the report if kept factors
+/// are given up.
 bool iterate(Iteration& it, const StepEnd& end) {
   Evaluation& now = it.workspace.now;
   const StepMemory& memory = it.workspace.memory;
@@ -33,7 +33,7 @@ bool iterate(Iteration& it, const StepEnd& end) {
   }
 }
 
-/// A step with the constraint rows that the state says are solved for.
+/// A step with the constraint rows that are active in the state.
 StepReport take_step(const Model& model, const formats::IntegratorSpec& options, const StepEnd& end, State& state,
                      Workspace& workspace) {
   const StepScheme scheme = step_scheme(model, options, state, end.time);

@@ -29,8 +29,8 @@ struct StepEnd {
 };
 
 /// One step from `state` (accepted, consistent) to `end`. On any outcome but `accepted` the state is as before.
-/// Where the rank of the constraints has changed on the way (rows that are left out open, or the step fails in an
-/// overconstrained mechanism) the rows are chosen anew and the step is taken again. No heap allocation but there.
+/// If the rank of the constraints has changed on the way (rows that are left out open, or the step fails in an
+/// overconstrained mechanism), the rows are chosen again and the step is repeated. Only this allocates memory.
 [[nodiscard]] StepReport advance(const Model& model, const formats::IntegratorSpec& options, const StepEnd& end,
                                  State& state, Workspace& workspace);
 

@@ -10,7 +10,7 @@
 namespace tisserand::mechanism {
 
 struct LocalError {
-  double ratio = 0.0;  ///< to what one step may add; at most 1: accurate enough
+  double ratio = 0.0;  ///< error over the error that one step may add; at most 1: accurate enough
   int worst_coordinate = -1;
 };
 
@@ -20,10 +20,10 @@ struct LocalError {
 void estimate_error(const formats::IntegratorSpec& options, double step, const State& state, const State& last,
                     Eigen::VectorXd& error);
 
-/// An estimated error against what one step may add, a share of the tolerance. A step of h of generalised alpha may add
-/// h/(end − start), so that errors which add up reach about the tolerance at the end, and fall with it: steps ~
-/// tolerance^(1/2), errors ~ step². Positions count relative to the characteristic length, rotations as they are,
-/// internal coordinates of a superelement of mass m relative to length·sqrt(m).
+/// Ratio of an estimated error to the error that one step may add, a share of the tolerance. A step h of generalised
+/// alpha may add the share h/(end − start), so that errors which add up reach about the tolerance at the end. Steps are
+/// proportional to tolerance^(1/2), errors to step². Positions count relative to the characteristic length, rotations
+/// as they are, internal coordinates of a superelement of mass m relative to length·sqrt(m).
 LocalError measure_error(const Model& model, const formats::ErrorControl& control, double share,
                          const Eigen::Ref<const Eigen::VectorXd>& error);
 

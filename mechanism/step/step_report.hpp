@@ -17,7 +17,7 @@ struct StepReport {
   double force_ratio = 0.0;
   double constraint_ratio = 0.0;
   double error_ratio = 0.0;   ///< estimated local error, where the step is controlled
-  double proposed = 0.0;      ///< the next step, or the one instead, where the method has a control of its own
+  double proposed = 0.0;      ///< the next step, or the one to take instead, if the method controls its steps itself
   double residual = 0.0;      ///< largest |r| of force rows, of moment rows / length
   double constraint = 0.0;    ///< largest |Φ| (positions, and angles times length)
   int worst_coordinate = -1;  ///< of the largest residual, when not accepted
@@ -28,7 +28,7 @@ struct StepReport {
     iterations += before.iterations;
     factorisations += before.factorisations;
   }
-  int row_choices = 0;  ///< how often the constraint rows that are solved for were chosen anew
+  int row_choices = 0;  ///< number of times that the constraint rows to solve for were chosen again
 };
 
 /// "body/node, translation x; likely cause ..." for a step that was not accepted.

@@ -1,4 +1,4 @@
-// What a run computes with besides model and state: three things with an owner each.
+// Work space of a run besides model and state: evaluation, iteration matrix, memory of the steps before.
 #pragma once
 
 #include <algorithm>
@@ -32,8 +32,8 @@ struct FactorReuse {
   }
 };
 
-/// All that a step remembers of the steps before it, besides the factors of the iteration matrix. None of it decides
-/// what a step converges to, all of it how.
+/// Data that a step keeps from the steps before, besides the factors of the iteration matrix. They influence how a step
+/// converges, not the solution.
 struct StepMemory {
   explicit StepMemory(const Model& model)
       : previous(model.sizes), predictor(model.sizes), dissipation(model), rows(model) {}
@@ -55,8 +55,8 @@ struct StepMemory {
 
 struct Workspace {
   explicit Workspace(const Model& model) : now(model), matrix(model), memory(model) {}
-  /// As new: the next step factors and learns from the start, so that a run continued from a copy of the state in a
-  /// workspace of its own takes bit-equal steps (tests/verification/checkpoint_test.cpp).
+  /// Resets: the next step factors and learns from the start, so that a run continued from a copy of the state in
+  /// another workspace takes bit-equal steps (tests/verification/checkpoint_test.cpp).
   void forget() {
     matrix.forget();
     memory.forget();
