@@ -1,4 +1,4 @@
-// Radau IIA of three stages: coefficients, and the transformation that parts its Newton iteration.
+// Radau IIA of three stages: coefficients, and the transformation that decouples its Newton iteration.
 #pragma once
 
 #include <complex>
@@ -14,8 +14,8 @@ struct Coefficients {
   Eigen::Matrix3d inverse;  ///< A⁻¹
   Eigen::Matrix3d T, T_inverse;
   double gamma = 0.0;         ///< the real eigenvalue of A⁻¹
-  std::complex<double> pair;  ///< α + iβ: for columns 2 + i 3 of the transformed unknowns
-  Eigen::Vector3d e;          ///< of the error: (1/γ) h f₀ + Σ e_i z_i, IV (8.17)
+  std::complex<double> pair;  ///< α + iβ: eigenvalue of the transformed unknowns column 2 + i column 3
+  Eigen::Vector3d e;          ///< coefficients of the error: (1/γ) h f₀ + Σ e_i z_i, IV (8.17)
 };
 
 const Coefficients& coefficients();

@@ -20,10 +20,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// A stage that turns a node by more has left the range in which rotation vectors are good unknowns.
+/// Largest rotation of a node to a stage [rad]: beyond it rotation vectors are no good unknowns.
 constexpr double farthest_turn = 3.0;
-/// Fresh parts contract the multipliers of a body that turns by θ with 2 sin(θ/2): those that stall below half a radian
-/// are as good as round-off lets them become, beyond it the step turns too far.
+/// With fresh parts the multipliers of a body that turns by θ contract by 2 sin(θ/2). Below half a radian multipliers
+/// that stall have reached round-off; beyond it the step turns too far.
 constexpr double safe_turn = 0.5;
 
 /// R_WN of a node at the state, relative to the axes of the parts.
@@ -171,9 +171,10 @@ void Newton::solve(const State& begin, Stages& stages) {
   }
 }
 
-/// Largest increment of the multipliers in units of what it may be. Rows that move no body show in nothing else: of a
-/// plane mechanism that has turned by more than 60 degrees since the parts were made, those across the plane would
-/// grow from step to step. `share`: of the forces; near singular positions, of the multipliers themselves.
+/// Largest increment of the multipliers relative to the allowed one. Rows that move no body appear in no other test: if
+/// a plane mechanism has turned by more than 60 degrees since the parts were made, the multipliers across the plane
+/// would grow from step to step. `share`: allowed increment relative to the forces; near singular positions, relative
+/// to the multipliers themselves.
 double Newton::measure_multipliers(const State& begin, const Evaluation& evaluation, double share,
                                    const Stages::Columns& lambda) const {
   const auto scale = [&](int kind) { return std::max(begin.force_scale(kind), evaluation.force_scale[kind]); };

@@ -16,19 +16,20 @@
 
 namespace tisserand::mechanism::radau {
 
-/// What increments are measured in: ratios of measure_error() with this.
+/// Units and limits for increments, which are ratios of measure_error().
 struct Accuracy {
   formats::ErrorControl units;
-  double newton = 1.0;  ///< increments that are still to come may have this ratio
+  double newton = 1.0;  ///< largest ratio of the increments that are still to come
   int most_iterations = 7;
-  double multipliers = 1.0;  ///< their increments may be this of the forces
-  bool fresh_parts = false;  ///< made at the start of this step
+  double multipliers = 1.0;  ///< largest increment of multipliers relative to the forces
+  bool fresh_parts = false;  ///< the tangents were made at the start of this step
 };
 
-/// Parts, factors and vectors of the iteration. The parts belong to one state and stay while the iteration contracts;
-/// factors belong to them and to a step. Left out by the iteration: all that changes between the state of the parts and
-/// a stage, which nodes of flexible bodies see from axes that turn with them, so that a stiff direction stays one; and
-/// what the turn of axes and T(θ) − 1 do to rates. It contracts by about the angle of a step.
+/// Parts (tangents), factors and vectors of the iteration. The parts belong to one state and stay while the iteration
+/// contracts; factors belong to the parts and to a step size. The iteration neglects the change of the tangents between
+/// the state of the parts and a stage. Nodes of flexible bodies use axes that turn with them, so that a stiff direction
+/// stays stiff. It also neglects the effect of the turning axes and of T(θ) − 1 on rates. It contracts by about the
+/// angle of a step.
 class Newton {
  public:
   explicit Newton(const Model& model);
@@ -36,16 +37,16 @@ class Newton {
   /// New parts at the state of the last evaluate().
   void renew(const State& state, Evaluation& evaluation);
   bool has_parts() const { return parts_.valid; }
-  /// Factors for a step of this size, if they are not there; of the real matrix alone. False: singular, with the
-  /// outcome.
+  /// Makes the factors for a step of this size if they are missing; ready_real(): of the real matrix alone. False:
+  /// singular, with the outcome.
   [[nodiscard]] bool ready(double step, StepReport& report);
   [[nodiscard]] bool ready_real(double step, StepReport& report);
-  /// From predicted stages of the step from the workspace's previous state to converged ones; false with an outcome,
-  /// and `shorter` as the part of the step to try.
+  /// Iterates the predicted stages of the step from the workspace's previous state until they converge. False with an
+  /// outcome; then shorter() is the part of the step to try.
   [[nodiscard]] bool iterate(const Accuracy& accuracy, Stages& stages, State& state, Workspace& workspace,
                              StepReport& report);
-  /// The smallest change, weighted with the real matrix, that takes `violation` from the constraints, at the state of
-  /// the last evaluate(): into `correction`.
+  /// Sets `correction` to the smallest change, weighted with the real matrix, that removes `violation` from the
+  /// constraints: THEORY (75), at the state of the last evaluate().
   void project(const Eigen::VectorXd& violation, const Evaluation& evaluation);
   /// Into `correction`: the error of positions, THEORY (76), in axes of the state of the parts.
   void estimate(const Stages& stages, const State& begin);

@@ -21,7 +21,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// Largest turn of a node in a step with error control [rad]: angles of joints are unwrapped from step to step.
 constexpr double longest_turn = 1.5;
 constexpr int most_projections = 4;
-/// A violation that projections do not lessen is round-off up to this times what is allowed.
+/// A violation that projections do not reduce is round-off if it is below this times the allowed one.
 constexpr double stuck = 1e3;
 
 }  // namespace

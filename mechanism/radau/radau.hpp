@@ -33,11 +33,11 @@ class Radau {
   Radau(const Model& model, const formats::IntegratorSpec& options);
 
   /// One step from `state` (accepted, consistent) to `end`, as advance() of step/step.hpp; with error control
-  /// `report.proposed` is the next step, or the one to take instead. No heap allocation but where rows are chosen anew.
+  /// `report.proposed` is the next step, or the one to take instead. Allocates memory only if rows are chosen again.
   [[nodiscard]] StepReport advance(const StepEnd& end, State& state, Workspace& workspace);
   /// The state at an instant within the step that was just accepted: of order 4, put onto the constraints.
   void interpolate(double time, State& state, Workspace& workspace);
-  /// As new: the next step factors and learns from the start.
+  /// Resets: the next step factors and learns from the start.
   void forget();
   /// The next step does not follow smoothly on the last one.
   void pass_jump() { last_.step = 0.0; }

@@ -1,4 +1,4 @@
-// The three stages of a step: displacements from its start, and what the collocation makes of them.
+// The three stages of a step: displacements from its start, and their rates by collocation.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,13 +26,13 @@ struct Stages {
 /// v and a from d: THEORY (74).
 void update_rates(const Model& model, Stages& stages);
 
-/// v and λ of a step to `end` that follows on `last`, from its polynomials; of the first step from v̇ and λ of the
-/// state. Then d from v: two sweeps of θ̇ = T⁻¹(θ) Ω.
+/// Predicts v and λ of a step to `end` from the polynomials of the step `last` before; in the first step from v̇ and λ
+/// of the state. Then d from v: two sweeps of θ̇ = T⁻¹(θ) Ω.
 void predict(const Model& model, const State& state, const StepEnd& end, const Stages& last, Stages& stages);
 
 /// Positions, velocities, accelerations and multipliers at the share `tau` of the step that began at `begin`:
-/// polynomials of order 4 through start and stages, with the rates of the start; of λ through the stages. Not yet on
-/// the constraints.
+/// polynomials of order 4 through start and stages with the rates of the start, and for λ through the stages. The
+/// result does not yet satisfy the constraints.
 void interpolate(const Model& model, const State& begin, double tau, Stages& stages, State& state);
 
 /// ∫ of a power from the start of the step to the share `tau`, by its polynomial through the stages (order 5 at 1).

@@ -14,7 +14,7 @@ double quotient(const Tuning& tuning, double quotient) {
   return std::clamp(quotient, 1.0 / tuning.most_growth, 1.0 / tuning.most_reduction);
 }
 
-/// Of this step to the next, by the error of this one alone; fewer iterations allow more.
+/// Quotient of this step and the next by the error of this one alone; fewer iterations allow a longer next step.
 double by_error(const Tuning& tuning, double error, int iterations) {
   const int n = 2 * tuning.most_iterations;
   const double factor = std::min(tuning.safety, tuning.safety * (1 + n) / (iterations + n));

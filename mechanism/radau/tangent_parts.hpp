@@ -1,4 +1,4 @@
-// M, C, K and the constraint rows at one state, apart from each other: what serves all steps until they are renewed.
+// M, C, K and the constraint rows at one state, separate from each other: they serve all steps until they are renewed.
 #pragma once
 
 #include <array>
@@ -11,8 +11,9 @@
 
 namespace tisserand::mechanism::radau {
 
-/// ∂r/∂v̇, ∂r/∂v and ∂r/∂q of the residual at one state: on the pattern of the model without superelements, whose blocks
-/// stand apart with their internal coordinates kept. Rows beside them: B and ∂(B v)/∂q, columns ∂r/∂λ.
+/// M, C and K of THEORY (77), ∂r/∂v̇, ∂r/∂v and ∂r/∂q at one state, on the pattern of the model without superelements.
+/// Blocks of superelements are stored separately, with their internal coordinates kept. The rows are B and ∂(B v)/∂q,
+/// the columns ∂r/∂λ.
 struct TangentParts {
   enum class Place : std::uint8_t { block, column, row };
   struct Element {
@@ -21,7 +22,7 @@ struct TangentParts {
 
   explicit TangentParts(const Model& of_model);
 
-  /// At the state of the last evaluate(). Of superelements the step tangent.
+  /// Takes the parts at the state of the last evaluate(); superelements contribute their step tangent.
   void take(const State& state, Evaluation& evaluation);
   /// upper += (M x_m + C x_c) of all coordinates, rows += B x_b.
   void multiply(const Eigen::VectorXd& x_m, const Eigen::VectorXd& x_c, const Eigen::VectorXd& x_b,

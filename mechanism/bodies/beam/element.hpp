@@ -14,13 +14,13 @@
 //   element of order 4 as long as bending stays in one plane:
 //   - shear stiffness 1/(1/GA + L²/(12 EI)): residual bending flexibility [Mac78], of the linear part of the moment;
 //   - e = Σ (2β_k − β_k²) Γ_k²/(|v| + v₁) + β_k² Γ_k²/10, v = Γ + Γ₀, with the share β = (L²/12EI)/(1/GA + L²/12EI) of
-//     bending in the shear strain. That share bends the axis by a cubic: the elongation of the axis is |v| − 1 then, not
-//     v₁ − 1, and its curve is longer than its chord by a tenth of Γ_k². N gives it the stiffness N/5, where shear of the
-//     section has −N. Without e the element becomes unstable at a tension of 12 EI/L²;
+//     bending in the shear strain. That share bends the axis by a cubic: the elongation of the axis is |v| − 1 then,
+//     not v₁ − 1, and its curve is longer than its chord by a tenth of Γ_k². N gives it the stiffness N/5, where shear
+//     of the section has −N. Without e the element becomes unstable at a tension of 12 EI/L²;
 //   - Γ = A(ψ) Λᵀ Δx/L − Γ₀ with A = 1 − ψ~²/24: the element is the arc of its curvature, not the chord Δx;
 //   - mass and weight along a parabola through the nodes that follows their sections (kernels.hpp, Parabola).
-//   What is left of order 2: the change of curvature κ × C_m κ along elements of bent and twisted beams (zero in a plane),
-//   axial and torsional waves, shear and rotary inertia of thick beams.
+//   What is left of order 2: the change of curvature κ × C_m κ along elements of bent and twisted beams (zero in a
+//   plane), axial and torsional waves, shear and rotary inertia of thick beams.
 // Three nodes: Φ_i = log(Λ₂ᵀΛ_i), Λ(s) = Λ₂ exp(N₁(s)Φ₁ + N₃(s)Φ₃) [CJ99]; two Gauss points.
 // Both depend on relative rotations of the nodes alone: strains do not change under a rigid motion and do not depend on
 // the path. Relative rotations inside an element must stay below π.
@@ -43,13 +43,13 @@ struct BeamElement {
   static constexpr int dofs = 6 * N;
   static constexpr int points = N - 1;  ///< quadrature points
 
-  std::array<int, N> nodes{};                           ///< indices of nodes, along the beam
-  double length = 0.0;                                  ///< L, arc length of the reference curve
-  std::array<Eigen::Matrix3d, N> section{};             ///< D_i: section triad in node axes
-  Eigen::Vector3d bending_share = {0, 0, 0};            ///< (0, β_y, β_z) of two nodes
-  double polar_radius_squared = 0.0;                    ///< ρ²
-  Eigen::Vector3d force_stiffness = {0, 0, 0};          ///< C_n = (E A, G A_y, G A_z), of two nodes less residual bending
-  Eigen::Vector3d moment_stiffness = {0, 0, 0};         ///< C_m = (G J, E I_y, E I_z)
+  std::array<int, N> nodes{};                    ///< indices of nodes, along the beam
+  double length = 0.0;                           ///< L, arc length of the reference curve
+  std::array<Eigen::Matrix3d, N> section{};      ///< D_i: section triad in node axes
+  Eigen::Vector3d bending_share = {0, 0, 0};     ///< (0, β_y, β_z) of two nodes
+  double polar_radius_squared = 0.0;             ///< ρ²
+  Eigen::Vector3d force_stiffness = {0, 0, 0};   ///< C_n = (E A, G A_y, G A_z), of two nodes less residual bending
+  Eigen::Vector3d moment_stiffness = {0, 0, 0};  ///< C_m = (G J, E I_y, E I_z)
   std::array<Eigen::Vector3d, points> initial_gamma{};  ///< Γ₀ (including the 1 of the axis)
   std::array<Eigen::Vector3d, points> initial_kappa{};  ///< κ₀
   double mass = 0.0;                                    ///< ρ A L
@@ -83,7 +83,7 @@ void residual(const BeamElement2& element, std::span<const NodeMotion> nodes, co
 void residual(const BeamElement3& element, std::span<const NodeMotion> nodes, const Eigen::Vector3d& gravity,
               Eigen::Matrix<double, 18, 1>& r);
 
-/// The same and A = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q, exact, with rotation increments δR = R skew(δΘ).
+/// residual(), and the exact tangent A = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q with rotation increments δR = R skew(δΘ).
 /// Not symmetric away from equilibrium (increments are not coordinates).
 void residual_and_tangent(const BeamElement2& element, std::span<const NodeMotion> nodes,
                           const Eigen::Vector3d& gravity, const TangentCoefficients& coefficients,

@@ -269,7 +269,8 @@ Matrix3d tangent_hessian(const beam::Point3<double>& p) {
 }
 
 /// Contribution of one quadrature point, scaled by c: K by (Φ₁, Φ₃, θ₂), Kx: their forces by (x₁, x₂, x₃).
-/// Of the variations δφ, δa, δθ₂ with δθ = T δφ + exp(−φ) δθ₂ and δκ = T δa + Ξ δφ; δφ = Σ n_i δΦ_i, δa = Σ n_i' δΦ_i.
+/// Coefficients of the variations δφ, δa, δθ₂, with δθ = T δφ + exp(−φ) δθ₂ and δκ = T δa + Ξ δφ; δφ = Σ n_i δΦ_i, δa =
+/// Σ n_i' δΦ_i.
 void add_point(const BeamElement3& e, const beam::Point3<double>& p, int point, double c, Matrix9& K, Matrix9& Kx,
                Square<3>& A) {
   const double weight = 0.5 * c * e.length;

@@ -112,7 +112,7 @@ void add_geometric_stiffness(const ModalNode& node, const ModalNodeTerms& t, con
   const Vector3d g = t.A.transpose() * force.head<3>(), h = t.E * force.tail<3>();
   const Matrix3d g_skew = skew<double>(g);
   K.block<3, 3>(3, 3) += skew<double>(t.b) * g_skew;
-  // Of the modal moments Xtᵀ Lᵀ h: L changes with θ, and h turns with the node.
+  // Derivative of the modal moments Xtᵀ Lᵀ h: L changes with θ, and h turns with the node.
   const Matrix3d L_h = tangent_derivative(t.theta, h) - t.L.transpose() * skew<double>(h) * t.L;
   for (Index i = 0; i < m; ++i) {
     const Vector3d turned = t.L * node.Xt.col(i), bent = L_h * node.Xt.col(i);

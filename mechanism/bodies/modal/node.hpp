@@ -24,7 +24,7 @@ struct ModalNode {
   Eigen::Matrix3Xd Xt;
 };
 
-/// Of one instant, sized once.
+/// Terms of a node at one instant, sized once.
 struct ModalNodeTerms {
   Eigen::Vector3d b, theta, rate;              ///< b, θ, θ̇
   Eigen::Vector3d om;                          ///< ω of the frame, body axes

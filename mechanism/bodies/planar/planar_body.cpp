@@ -1,4 +1,4 @@
-// Congruences y = T y_p, and what they must leave out.
+// Congruences y = T y_p, and checks of the couplings that they leave out.
 #include "mechanism/bodies/planar/planar_body.hpp"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ Split split_boundary(const SuperelementBody& body, const Matrix3d& axes, Superel
   return split;
 }
 
-/// Throws unless inᵀ A out is nothing beside the diagonals.
+/// Throws if inᵀ A out is not negligible against the diagonals.
 void require_apart(const MatrixXd& A, const Split& split, const std::string& what) {
   const MatrixXd mixed = split.in.transpose() * A * split.out;
   const VectorXd in = (split.in.transpose() * A * split.in).diagonal().cwiseAbs().cwiseSqrt(),
@@ -127,7 +127,7 @@ MatrixXd along(const std::vector<MatrixXd>& A, std::size_t first, const Eigen::V
   return sum;
 }
 
-/// Of forms that the plane has none of: what y in it gives must vanish.
+/// Checks forms that do not exist in the plane: their values for y in the plane must vanish.
 void require_none(const MatrixXd& A, const Split& split, double size, const std::string& what) {
   require_nothing(split.in.transpose() * A * split.in, size, what);
 }

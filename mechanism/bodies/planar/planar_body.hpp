@@ -1,5 +1,4 @@
-// From a superelement body in space to the one that moves in a plane: the rows of S̄, M̄ and of all that goes with them
-// which stay in it.
+// From a superelement body in space to a planar body: the rows of S̄, M̄ and of the other arrays that stay in the plane.
 #pragma once
 
 #include <Eigen/Core>

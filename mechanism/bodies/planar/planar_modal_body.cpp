@@ -1,4 +1,4 @@
-// Sums in other axes and of other modes, and what they must leave out.
+// Sums in other axes and of other modes, and checks of the couplings that they leave out.
 #include "mechanism/bodies/planar/planar_modal_body.hpp"
 
 #include <cmath>

@@ -17,8 +17,8 @@ void boundary_weight(const SuperelementBody& body, const TangentCoefficients& co
 
 /// Frame, y, ẏ, ÿ of the body. R0_reference: karcher and polar start from it (the latest R₀), the incremental frame
 /// uses it as R_ref (R₀ at the end of the latest accepted step); pair and single_node ignore it. y, yd, ydd: m
-/// canonical internal coordinates and rates. scratch.motion.frame_error tells whether an iterated frame converged (≤
-/// 1e-14 rad normally).
+/// canonical internal coordinates and rates. scratch.motion.frame_error shows whether an iterated frame converged
+/// (normally ≤ 1e-14 rad).
 void update_kinematics(const SuperelementBody& body, const NodeView<NodeMotion>& nodes, const double* y,
                        const double* yd, const double* ydd, const Eigen::Matrix3d& R0_reference,
                        SuperelementScratch& scratch);
@@ -37,7 +37,7 @@ struct SuperelementEnergy {
   double gravity_potential = 0.0;  ///< −m g · x_cm
 };
 
-/// What a body has at one state, for the mean power of damping over a step that begins there.
+/// Deformation of a body at the start of a step, for the mean power of damping over the step.
 struct StepDeformation {
   Eigen::VectorXd y_B, y_I;
   Eigen::VectorXd linear, quadratic;  ///< rows: l_a·y and g_a of the generalised strains; empty without stiffening
@@ -47,14 +47,14 @@ struct StepDeformation {
 /// ẏᵀ D ẏ ≥ 0, dissipated, at the rates of the nodes. After residual().
 double damping_power(const SuperelementBody& body, const SuperelementScratch& scratch);
 
-/// The same at the mean rates of a step, Δy/step. After residual().
+/// Damping power at the mean rates of a step, Δy/step. After residual().
 double mean_damping_power(const SuperelementBody& body, const SuperelementScratch& scratch, double step,
                           StepDeformation& before);
 
-/// After residual().
+/// Stores the deformation at the end of a step. After residual().
 void keep_deformation(const SuperelementBody& body, const SuperelementScratch& scratch, StepDeformation& kept);
 
-/// After residual().
+/// Energies of the body. After residual().
 SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratch& scratch,
                           const Eigen::Vector3d& gravity);
 
@@ -63,9 +63,9 @@ SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratc
 void file_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
                       Eigen::Ref<Eigen::VectorXd> out);
 
-/// y + L⁺ g in the same coordinates and order, with g the second-order part of the generalised strains L y + g: what
-/// has the strain of the body linearly, so that stress follows from it (formats/RESULTS.md, /superelements/y_strain). y
-/// itself without stiffening. After residual().
+/// y + L⁺ g in the same coordinates and order, with g the second-order part of the generalised strains L y + g: the
+/// coordinates whose linear strain is that of the body, so that stress follows from them (formats/RESULTS.md,
+/// /superelements/y_strain). y itself without stiffening. After residual().
 void strain_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
                         Eigen::Ref<Eigen::VectorXd> out);
 

@@ -14,7 +14,7 @@
 
 namespace tisserand::mechanism {
 
-/// What the scene says about one use of a superelement file.
+/// Options of the scene for one use of a superelement file.
 struct SuperelementOptions {
   formats::FrameKind frame = formats::FrameKind::karcher;
   std::string frame_node;  ///< for FrameKind::node
@@ -89,13 +89,13 @@ struct FileCoordinates {
   Eigen::MatrixXd left_out;       ///< of planar bodies: Q of the modes out of the plane
 };
 
-/// A superelement in canonical form (S_BI = 0, M_II = 1, S_II diagonal and ascending) and in units of the scene: what
-/// all uses of one file with the same options have in common. Boundary coordinates: per node [x, Θ], nodes in the order
-/// of the file; then m internal coordinates.
+/// A superelement in canonical form, THEORY (7) with S_II ascending, and in units of the scene: the constants that all
+/// uses of one file with the same options share. Boundary coordinates: per node [x, Θ], nodes in the order of the file;
+/// then m internal coordinates.
 struct SuperelementBody {
   std::string name;  ///< in the file
-  /// Of planar models (planar_body.hpp): two translations and one rotation per node, in these axes of the part, z
-  /// normal to the plane; of vectors of the frame z is zero.
+  /// Whether the body is planar (planar_body.hpp): two translations and one rotation per node in `axes` of the part, z
+  /// normal to the plane. Vectors of the frame then have z = 0.
   bool planar = false;
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   int translations() const { return planar ? 2 : 3; }  ///< of a node
@@ -146,7 +146,7 @@ Eigen::VectorXd coordinate_units(const SuperelementBody& body);
 /// (nb + m) x 6: translations, and rotations about x₀; internal coordinates rest (canonical form).
 Eigen::MatrixXd rigid_columns(const SuperelementBody& body);
 
-/// Elastic modes of the free reduced body, ascending, and what they exert: f = S̄ φ with φᵀS̄φ = 1, so that
+/// Elastic modes of the free reduced body, ascending, and their elastic forces f = S̄ φ with φᵀS̄φ = 1, so that
 /// M̄ΦΔΦᵀM̄ = Σ (2 ζ/ω) f fᵀ. Directions without mass are left out.
 struct FreeModes {
   Eigen::VectorXd omega;  ///< [rad/time]
@@ -155,7 +155,7 @@ struct FreeModes {
 /// Throws Error (at `where`) if the body has motions without strain besides the rigid ones.
 FreeModes free_modes(const SuperelementBody& body, const std::string& where);
 
-/// Sets body.damping from what the scene says of it. Throws Error.
+/// Sets body.damping from the options of the scene, THEORY (41). Throws Error.
 void set_damping(const formats::Damping& given, const std::string& where, SuperelementBody& body);
 
 /// The load cases of a companion on the coordinates of the body (companion_on_body()), `stiffness` where the body has

@@ -1,4 +1,4 @@
-// Damping of a superelement body: from what the scene says of it to the matrices on the deformation rates.
+// Damping of a superelement body: from the options of the scene to the matrices on the deformation rates.
 #include <cmath>
 
 #include <Eigen/Cholesky>

@@ -17,12 +17,12 @@ struct FormRun {
 };
 
 /// Symmetric matrices A_a (size x size), a = 0 .. count − 1, by the pairs of coordinates at which four of them that
-/// follow one another have an entry. One pass through memory serves all of them, and what is zero is not there: the
+/// follow one another have an entry. One pass through memory serves all of them, and zeros are not stored: the
 /// rows of a straight beam keep a thirtieth of their numbers.
 struct QuadraticForms {
   static constexpr int block = 4;  ///< matrices of a run, one register
-  /// Entries up to this share of the largest are nothing: symmetry and planes leave zeros, which solutions with K_II
-  /// and congruences fill with what is left of rounding, up to some thousand ε.
+  /// Entries up to this share of the largest count as zero. Symmetry makes entries zero, and solutions with K_II and
+  /// congruences fill them with round-off of up to some thousand ε.
   static constexpr double round_off = 1e-12;
 
   int size = 0;

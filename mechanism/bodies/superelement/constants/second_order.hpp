@@ -1,5 +1,4 @@
-// What goes beyond S̄ and M̄ in a superelement body: stiffening and full inertia, made from the arrays of a companion
-// file.
+// Stiffening and full inertia of a superelement body, from the arrays of a companion file.
 #pragma once
 
 #include <optional>
@@ -69,7 +68,7 @@ enum class Foreshortening { off, on };
 FullInertia make_full_inertia(const SuperelementBody& body, const formats::Companion& companion,
                               Foreshortening foreshortening);
 
-/// The terms that the options ask for.
+/// The terms of the chosen options.
 SecondOrder make_second_order(const SuperelementBody& body, const formats::Companion& companion,
                               formats::InertiaOption inertia, formats::StiffeningOption stiffening);
 

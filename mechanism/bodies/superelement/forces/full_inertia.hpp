@@ -34,7 +34,7 @@ struct InertiaTerms {
   Vector y, yd, ydd;
   FormRows<S> forms_y;  ///< [N_a y], [T_jk y], [E_jk y], or the last alone: rows in the order of FullInertia::forms
   Vector Cy, Cyd;       ///< 3N, padded: C_x y, C_y y, C_z y
-  Vector Wy, Wyd;       ///< the same of W; zero without it
+  Vector Wy, Wyd;       ///< 3N, padded: W_x y, W_y y, W_z y; zero without W
   Vector xi, p, xid, pd;
   Vector quadratic;  ///< 12: ẏᵀ N_a ẏ, ẏᵀ T_jk ẏ
   Vector G_y;        ///< inertia and weight without the elastic force

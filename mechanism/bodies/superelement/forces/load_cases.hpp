@@ -1,10 +1,11 @@
 // Load cases of the companion file on a superelement body, for every scalar: distributed loads that turn with it.
 //
-// With the factor s a load case does the virtual work of THEORY (42), s [F·R₀ᵀδx₀ + m(y)·δΘ₀ + (f + K y)·δy]: f = Φᵀ f
-// of the coordinates y, F and m(y) its resultant in axes of the floating frame, m about x₀. To first order in y its
-// points of attack move with the body: ∂m/∂y = −[f_i~] for displacements and −½[m_i~] for rotations of the boundary
-// nodes, + R_θᵀ K. For K = −Φᵀ K_G[w_f] Φ, and a turn of the stressed body turns the forces that hold it: K_G[w_f] R_θ
-// e = e × f for forces and ½ e × m for moments, which belong to rotation vectors (half, since K_G is symmetric).
+// With the factor s a load case does the virtual work of THEORY (42), s [F·R₀ᵀδx₀ + m(y)·δΘ₀ + (f + K y)·δy]. f = Φᵀ f
+// are the forces on the coordinates y; F and m(y) are their resultant in axes of the floating frame, m about x₀. To
+// first order in y the points of application move with the body: ∂m/∂y = −[f_i~] for displacements and −½[m_i~] for
+// rotations of the boundary nodes, + R_θᵀ K. The last term follows from K = −Φᵀ K_G[w_f] Φ: a turn of the stressed body
+// turns the forces that hold it, K_G[w_f] R_θ e = e × f for forces and ½ e × m for moments. Moments belong to rotation
+// vectors, hence the half, since K_G is symmetric.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,5 @@
-// Elastic forces of stiffening, for every scalar: what the quadratic part of the generalised strains adds to S̄ y.
+// Elastic forces of stiffening, for every scalar: the terms that the quadratic part of the generalised strains adds to
+// S̄ y.
 #pragma once
 
 #include "mechanism/bodies/superelement/constants/second_order.hpp"

@@ -1,5 +1,5 @@
-// The exact motion of a superelement's centre of mass, for every scalar: what inertia option M puts in place of the
-// interpolated one.
+// The exact motion of a superelement's centre of mass, for every scalar. Inertia option M uses it instead of the
+// interpolated motion.
 #pragma once
 
 #include <cstddef>
@@ -58,7 +58,7 @@ void turning_biases(const SuperelementBody& body, const NodeView<Node>& nodes, L
 }
 
 /// Ω̇₀ = U q̈ + U̇ q̇ of THEORY (25), after turning_biases(). The second derivative of Σ αⱼ ψⱼ = 0 gives
-/// U̇ q̇ = Σ Uⱼ T(ψⱼ) (Ṫ⁻¹(ψⱼ) Ωⱼ − Ṫ⁻ᵀ(ψⱼ) Ω₀); the polar frame Σ U_xⱼ R₀ (−2 Ω₀ × x̂ⱼ' − Ω₀ × (Ω₀ × x̂ⱼ)).
+/// U̇ q̇ = Σ Uⱼ T(ψⱼ) (Ṫ⁻¹(ψⱼ) Ωⱼ − Ṫ⁻ᵀ(ψⱼ) Ω₀). For the polar frame it is Σ U_xⱼ R₀ (−2 Ω₀ × x̂ⱼ' − Ω₀ × (Ω₀ × x̂ⱼ)).
 template <int D, class S, class Node>
 auto frame_acceleration(const SuperelementBody& body, const NodeView<Node>& nodes, const LocalMotion<S>& motion) {
   using Rotation = Eigen::Matrix<S, Space<D>::turns, 1>;
@@ -89,7 +89,7 @@ auto frame_acceleration(const SuperelementBody& body, const NodeView<Node>& node
   return acceleration;
 }
 
-/// sum += Γ v, of Γ the rows that bodies have: two of planar ones.
+/// sum += Γ v; planar bodies have two rows of Γ.
 template <class S>
 void add_sum(const SuperelementBody& body, const Eigen::Matrix<double, 3, Eigen::Dynamic>& Gamma,
              const Eigen::Matrix<S, Eigen::Dynamic, 1>& v, Vec3<S>& sum) {

@@ -18,7 +18,8 @@ Mat3<S> about_z(const S& cosine, const S& sine) {
   return R;
 }
 
-/// Rotation nodes: θ₀ = Σ αⱼ θⱼ, angles from the first of them; what all frames of the body are in the plane.
+/// Rotation nodes: θ₀ = Σ αⱼ θⱼ, with angles from the first of them. In the plane all frames from rotations are this
+/// one.
 template <class S, class Node>
 void frame_of_rotations(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   using std::cos, std::sin;

@@ -1,4 +1,4 @@
-// What inertia option M adds to the step tangent of option B: the exact motion of the centre of mass.
+// The part of the step tangent that inertia option M adds to that of option B: the exact motion of the centre of mass.
 #pragma once
 
 #include <Eigen/Core>

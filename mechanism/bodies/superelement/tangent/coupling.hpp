@@ -1,5 +1,5 @@
-// The coupling of boundary and internal coordinates in the step tangent: A_BI = W M_BI, A_IB = M_IB Z, and what damping
-// adds.
+// The coupling of boundary and internal coordinates in the step tangent: A_BI = W M_BI, A_IB = M_IB Z, and the terms of
+// damping.
 #pragma once
 
 #include <Eigen/Core>

@@ -18,7 +18,7 @@ Matrix3d inverse_tangent_derivative(const Vector3d& psi, const Vector3d& b) {
   return Z;
 }
 
-/// The same of the rotations of nodes; in the plane T is 1.
+/// inverse_tangent_derivative() for rotations of nodes in space or in the plane, where T is 1.
 template <int D>
 Eigen::Matrix<double, Space<D>::turns, Space<D>::turns> derivative_of(const Vector3d& psi, const TurnOf<D>& b) {
   if constexpr (D == 3)

@@ -75,7 +75,7 @@ void add_strain_stiffness(const SuperelementBody& body, const StrainTerms<double
   if (c.stiffness != 0.0) add_combination(stiffening.Gamma, c.stiffness, t.e, K);
 }
 
-/// The same of the load cases: −c_k Σ s K.
+/// Lower triangle of the y block += stiffness of the load cases, −c_k Σ s K.
 void add_load_stiffness(const SuperelementBody& body, const LoadTerms<double>& t, double stiffness,
                         SecondOrderWork& work) {
   for (std::size_t i = 0; i < body.load_cases.size(); ++i) {
@@ -85,14 +85,14 @@ void add_load_stiffness(const SuperelementBody& body, const LoadTerms<double>& t
   }
 }
 
-/// The same of S̄, which is block diagonal.
+/// The y block += factor S̄, which is block diagonal.
 void add_linear_stiffness(const SuperelementBody& body, double factor, SecondOrderWork& work) {
   const int nb = body.boundary_size, m = body.modes;
   work.K.block(6, 6, nb, nb) += factor * body.S_BB;
   work.K.diagonal().tail(m) += factor * body.S_II;
 }
 
-/// Damping beyond b S̄.
+/// The y block += damping without b S̄.
 void add_damping(const SuperelementBody& body, double factor, SecondOrderWork& work) {
   const SuperelementDamping& damping = body.damping;
   if (!damping.active || factor == 0.0) return;
@@ -141,7 +141,7 @@ void add_inertia(const SuperelementBody& body, const InertiaTerms<double>& t, do
   work.K.topLeftCorner<6, 6>() += factor * rr;
 }
 
-/// All of it, lower triangle.
+/// Lower triangle of all terms of inertia option F.
 void assemble_full_inertia(const SuperelementBody& body, const SuperelementForces<double>& forces,
                            const TangentCoefficients& c, SecondOrderWork& work) {
   work.K.setZero();

@@ -50,8 +50,8 @@ template <int D>
 void add_frame_stiffness(const SuperelementBody& body, const SuperelementTangent& frozen, const Eigen::VectorXd& f,
                          double factor, FrameStiffnessWork work, Eigen::MatrixXd& A);
 
-// Of planar bodies (planar_tangent.cpp): the same terms with few enough coordinates that products with vectors and the
-// dense coupling to internal coordinates are the quickest way.
+// Planar bodies (planar_tangent.cpp) have the same terms. They have so few coordinates that products with vectors and a
+// dense coupling to internal coordinates are fastest.
 
 /// work.A_BB with internal coordinates kept, and A_BI, A_IB of `scratch.tangent`, for work.coefficients, after freezing
 /// the state; with the terms of inertia option M. Stiffness and damping as in tangent(): work.K if the damping is full.

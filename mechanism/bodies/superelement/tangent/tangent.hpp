@@ -1,4 +1,4 @@
-// Tangents of a superelement body: of the step, with internal coordinates kept, exact; elimination of y_I.
+// Tangents of a superelement body (step tangent, with internal coordinates kept, exact) and elimination of y_I.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@ void tangent(const SuperelementBody& body, const TangentCoefficients& coefficien
 
 /// The step tangent with the internal coordinates kept: work.A_BB, and A_BI, A_IB of the tangent, whose sizes the
 /// caller has set; all linear in the coefficients. A_II is c_m + c_c D_II + c_k S_II, and of bodies with second-order
-/// terms the lower triangle of the last m rows of work.second.K. condense() and expand() are not for it.
+/// terms the lower triangle of the last m rows of work.second.K. condense() and expand() need tangent() instead.
 void kept_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
                   SuperelementWork& work);
 
@@ -34,7 +34,7 @@ void condense(const SuperelementBody& body, const SuperelementScratch& scratch, 
 void expand(const SuperelementBody& body, const SuperelementScratch& scratch, const double* dq_B, double* dy_I,
             SuperelementWork& work);
 
-/// dy_I = −A_II⁻¹ A_IB dq_B: the same without a residual.
+/// dy_I = −A_II⁻¹ A_IB dq_B: expand() with the residual zero.
 void expand_motion(const SuperelementBody& body, const SuperelementScratch& scratch, const double* dq_B, double* dy_I,
                    SuperelementWork& work);
 

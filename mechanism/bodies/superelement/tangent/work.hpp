@@ -1,4 +1,4 @@
-// What one use of a superelement body keeps between residual, tangent and solution, and matrices to work in.
+// Data that one use of a superelement body keeps between residual, tangent and solution, and work matrices.
 #pragma once
 
 #include <vector>
@@ -65,7 +65,7 @@ struct SuperelementWork {
   SecondOrderWork second;
 };
 
-/// The state at which the latest tangent of one use was formed: what condense() and expand() need.
+/// The state at which the latest tangent of one use was formed, for condense() and expand().
 struct SuperelementTangent {
   TangentCoefficients coefficients;
   InternalFactor internal;  ///< of A_II
