@@ -1,5 +1,5 @@
-// When the estimate of the error of the mesh can be off by more than a factor of two: measures of how far the smooth
-// stresses are from those of the part, and of meshes on which they cannot be known.
+// Whether the estimate of the discretisation error is reliable within a factor of two: measures of the distance between
+// the smooth stresses and those of the part, and checks for meshes on which smooth stresses cannot be found.
 #pragma once
 
 #include <cstdint>
@@ -24,22 +24,22 @@ enum class MeshDoubt : std::uint8_t {
   double_curvature,  ///< coarse shells of double curvature
 };
 
-/// One line for people: what is wrong, without the modes.
+/// One line for the user that says what is wrong, without the modes.
 const char* explain(MeshDoubt doubt);
 
-/// Per element, energies per mode (elements x modes), relative to nothing yet.
+/// Energies per element and mode (elements x modes), not yet relative to a scale.
 struct MeshMeasures {
   Eigen::MatrixXd error;      ///< energy_error()
   Eigen::MatrixXd strain;     ///< twice the strain energy, from the samples
   Eigen::MatrixXd scatter;    ///< of the samples around the smooth stresses
-  Eigen::MatrixXd traction;   ///< of smooth stresses at free faces of solids, in the half of the element beside them
+  Eigen::MatrixXd traction;   ///< of smooth stresses at free faces of solids, in the half of the element next to them
   Eigen::MatrixXd imbalance;  ///< of smooth stresses inside first-order solids
 };
 
 /// Shells, then solids.
 MeshMeasures mesh_measures(const Mesh& mesh, const Eigen::MatrixXd& motion, const Eigen::VectorXd& lambda);
 
-/// Per mode the doubt, and the size that the error of the frequency may have.
+/// The warning of each mode, and the size that the error of its frequency may have.
 struct MeshDoubts {
   std::vector<MeshDoubt> doubt;
   Eigen::VectorXd size;

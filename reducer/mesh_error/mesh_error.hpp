@@ -10,7 +10,7 @@
 
 namespace tisserand::reducer {
 
-/// Of the lowest modes of FreeMotions.
+/// Estimated errors of the lowest modes of FreeMotions.
 struct MeshErrors {
   bool boundary_held = false;
   Eigen::VectorXd lambda;    ///< ω²
@@ -24,7 +24,8 @@ struct MeshErrors {
 /// At most `most` modes. With smooth stresses σ* the continuous part has λ ≈ HR(σ*, u)/M(u) (energy_error() of the
 /// elements), THEORY (92), whose error is the product of those of σ* and u; so THEORY (93), λ_h − λ ≈ Σ energy_error
 /// for uᵀ M u = 1, and (f_h − f)/f = √(λ_h/λ) − 1. Springs, masses, spiders and equations have no error of the mesh.
-/// Not seen: stresses that edges of spiders concentrate, faces of solids in place of curved ones.
+/// The estimate does not include stress concentrations at edges of spiders, nor flat faces of solids on curved
+/// surfaces.
 MeshErrors mesh_errors(const Mesh& mesh, const System& system, const FreeMotions& modes, int most);
 
 }  // namespace tisserand::reducer

@@ -48,13 +48,13 @@ Eigen::Matrix3Xd normals_of(const Mesh& mesh) {
   return normal;
 }
 
-/// The nodes beside a corner along the two edges there.
+/// The nodes next to a corner along its two edges.
 std::array<int, 2> beside(const ShellElement& shell, int corner) {
   const int n = shell.corners();
   return {shell.nodes[(corner + 1) % n], shell.nodes[(corner + n - 1) % n]};
 }
 
-/// The edge from the corner to the node beside it, counted by its first corner.
+/// The edge from the corner to the next node, counted by its first corner.
 int edge_towards(const ShellElement& shell, int corner, int node) {
   return beside(shell, corner)[0] == node ? corner : (corner + shell.corners() - 1) % shell.corners();
 }

@@ -1,4 +1,4 @@
-// Where stresses are smooth: the elements around each corner that share a property and, of shells, a tangent plane.
+// Patches of smooth stresses: the elements around each corner that share a property and, for shells, a tangent plane.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@ namespace tisserand::reducer {
 /// Elements are numbered shells first, then solids.
 struct StressPatch {
   int node = 0;
-  double angle = 0.0;         ///< what its elements take around the node: angle of shells, solid angle of solids
+  double angle = 0.0;         ///< sum over its elements at the node: angle of shells, solid angle of solids
   std::vector<int> elements;  ///< ascending
-  /// Patches whose polynomials hold here: itself, or at edges and faces those inside beside it, where a polynomial has
-  /// elements on both sides.
+  /// Patches whose polynomials are used here: itself, or at edges and faces its neighbours inside, whose polynomials
+  /// have elements on both sides.
   std::vector<int> source;
 };
 

@@ -1,4 +1,4 @@
-// Meshes of shells on which smooth stresses cannot be known: what turns too much, what is folded too often.
+// Meshes of shells on which smooth stresses cannot be found: coarse curves, and folds too close to each other.
 #pragma once
 
 #include <vector>

@@ -28,7 +28,7 @@ Eigen::RowVectorXd monomials(const Eigen::Vector3d& x, int count) {
 }
 
 /// Least squares by orthogonalising one term after the other over the samples. A term whose new part is small there
-/// beside its values at the nodes is not known from these samples: left out.
+/// against its values at the nodes is not determined by these samples and is left out.
 MatrixXd least_squares(MatrixXd at_samples, MatrixXd at_nodes, const MatrixXd& values) {
   constexpr double known_share = 0.05;
   const Index count = at_samples.cols();

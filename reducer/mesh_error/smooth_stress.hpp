@@ -18,7 +18,7 @@ class SmoothStress {
   /// patch do not determine (a single layer of elements) are left out. Deterministic whatever the number of threads.
   SmoothStress(const Mesh& mesh, const Eigen::MatrixXd& motion);
 
-  /// What energy_error() asks for: [N; M; Q] at the corners of a shell in its axes, Q = div M of the polynomials; [xx
+  /// Stresses for energy_error(): [N; M; Q] at the corners of a shell in its axes, Q = div M of the polynomials; [xx
   /// yy zz xy yz zx] at all nodes of a solid.
   Eigen::MatrixXd of_shell(int shell) const;
   Eigen::MatrixXd of_solid(int solid) const;

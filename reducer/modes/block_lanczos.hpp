@@ -23,7 +23,7 @@ struct LanczosBasis {
   int initial = 0;                    ///< columns behind them that hold vectors to begin with
 };
 
-/// What whoever calls the iteration decides.
+/// Settings of the caller for the iteration.
 struct LanczosControl {
   int wanted = 0;
   int block = 0;
@@ -35,7 +35,7 @@ struct LanczosControl {
   std::function<bool(int steps, int converged, const Eigen::VectorXd& mu, const Eigen::VectorXd& error)> ends;
 };
 
-/// What the iteration found; the vectors are in the basis behind its constraints.
+/// Results of the iteration; the vectors are in the basis after its constraints.
 struct LanczosPairs {
   Eigen::VectorXd mu;      ///< of the converged pairs, largest first
   int steps = 0;           ///< blocks that were solved for

@@ -65,7 +65,7 @@ class Eps {
   Eigen::Index rows_ = 0;
   int wanted_ = 1;
   int columns_ = 0;             ///< solved for by solve()
-  double done_ = 0.0;           ///< of solve(), as told
+  double done_ = 0.0;           ///< share of solve() that was last reported
   std::exception_ptr failure_;  ///< of a function that SLEPc called
 };
 

@@ -1,4 +1,4 @@
-// Block Lanczos iteration as a type of SLEPc's EPS, beside those of the library.
+// Block Lanczos iteration as an additional type of SLEPc's EPS.
 #pragma once
 
 #include <exception>

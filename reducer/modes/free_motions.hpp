@@ -1,4 +1,4 @@
-// The lowest modes of the free reduced part on the full model: what its figures are checked with.
+// The lowest modes of the free reduced part on the full model, with which its accuracy is checked.
 #pragma once
 
 #include "reducer/modes/internal_modes.hpp"

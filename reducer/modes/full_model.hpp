@@ -1,4 +1,4 @@
-// Figures of the unreduced part that the certificate sets beside those of the reduced one.
+// Quantities of the unreduced part with which the certificate compares those of the reduced one.
 #pragma once
 
 #include <functional>
@@ -43,14 +43,14 @@ std::optional<FreeModes> full_free_modes(
     const System& system, const FreeSearch& sought, const formats::ModeSelection& asked, Count verify = Count::if_cheap,
     const std::function<void(double)>& share = [](double /*done*/) {});
 
-/// Elastic modes of the free part beside others.
+/// Elastic modes of the free part compared with others.
 struct ModeComparison {
   std::vector<double> frequency;  ///< [1/time], at most `count` lowest
   Eigen::MatrixXd assurance;      ///< (vᵢᵀ M u_k)²: one row per frequency, one column per mode u
 };
 
-/// Modes v of the full part beside the modes `u` (coordinates q, uᵀ M u = 1): modal assurance criterion weighted with
-/// the mass, 1 where they agree. Empty if a rigid motion moves no mass or round-off hides the frequencies.
+/// Modes v of the full part compared with the modes `u` (coordinates q, uᵀ M u = 1): modal assurance criterion weighted
+/// with the mass, 1 where they agree. Empty if a rigid motion moves no mass or round-off hides the frequencies.
 ModeComparison compare_free_modes(const System& system, const FreeSearch& sought, const formats::ModeSelection& asked,
                                   const Eigen::MatrixXd& u);
 

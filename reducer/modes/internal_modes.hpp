@@ -35,7 +35,7 @@ struct InternalModes {
   int loose() const { return count_of(pins); }
 };
 
-/// What the internal modes are computed from.
+/// Input of the internal modes.
 struct InternalProblem : PartitionedPart {
   const Blocks& blocks;
   const Factor& S_II;  ///< of a part with a mechanism: of what its pins leave
@@ -45,8 +45,7 @@ struct InternalProblem : PartitionedPart {
   std::function<void(int)> seek = [](int /*modes*/) {};  ///< hears how many modes are about to be sought; may refuse
 };
 
-/// A part and all that its reduction found: what the certificate, the companion and the recovery file are computed
-/// from.
+/// A part and the results of its reduction: input of the certificate, the companion and the recovery file.
 struct ReducedPart : InternalProblem {
   const BoundaryModes& boundary;
   const InternalModes& internal;
@@ -62,14 +61,14 @@ int finite_mode_count(const Matrix& M);
 /// Throws the Error for a cut-off that keeps nothing; `lowest`: ω² of the first mode of that kind.
 [[noreturn]] void fail_low_cutoff(const formats::ModeSelection& selection, const char* kind, double lowest);
 
-/// What no dropped eigenvalue is below when the first `kept` are kept of those found, `value` (ascending, one at
-/// least), of `available` finite ones: the next that was found, else the last that is kept; infinite if all are kept.
+/// Lower bound of the dropped eigenvalues if the first `kept` are kept of those found, `value` (ascending, at least
+/// one), of `available` finite ones: the next that was found, or the last that is kept; infinite if all are kept.
 double least_dropped(const Eigen::VectorXd& value, Eigen::Index kept, Eigen::Index available);
 
-/// By number, by cut-off frequency, or as many as the accuracy takes: all below its frequency, and more until the bound
-/// of the errors of the free part's frequencies up to it meets the error: moment vectors first, unless `moments` is 0,
-/// then modes. Throws Error if more modes are asked for than exist, if the cut-off is below the first, or if 1000 modes
-/// do not meet the accuracy.
+/// Internal modes by number, by cut-off frequency, or for an accuracy. The last means all modes below its frequency,
+/// then more vectors until the bound THEORY (91) meets the error: moment vectors first, unless `moments` is 0, then
+/// modes. Throws Error if more modes are asked for than exist, if the cut-off is below the first, or if 1000 modes do
+/// not meet the accuracy.
 InternalModes internal_modes(const InternalProblem& problem, const BoundaryModes& boundary,
                              const formats::ModeSelection& selection);
 

@@ -14,7 +14,7 @@ struct EigenPairs {
   Eigen::MatrixXd vector;
 };
 
-/// What iterations apply to the rows that this process has.
+/// The operator on the rows of this process.
 struct ShiftedOperator {
   double shift = 0.0;
   Eigen::Index size = 0;                                         ///< rows of all processes
@@ -35,15 +35,16 @@ struct ShiftedOperator {
 /// hide from a solver whose inner product is that of M. As S y − λ M y = (λ − shift) M (x − y), it measures the
 /// residual of y without the cancellation of S y. λ becomes Rayleigh's quotient. Pairs far above the first keep x,
 /// since the step amplifies the round-off along the first. Then sorted, Xᵀ M X = 1. Pairs whose 1/(λ − shift) is
-/// round-off beside that of the first are dropped: `value` becomes shorter, and X holds its vectors in its leading
+/// round-off of that of the first are dropped: `value` becomes shorter, and X holds its vectors in its leading
 /// columns. Returns the residuals relative to (λ − shift) ‖M y‖, of far pairs also to λ/λ₁. Works on a few columns at a
 /// time: vectors take the memory.
 Eigen::VectorXd iterate_once(const ShiftedOperator& op, Eigen::VectorXd& value, Eigen::Ref<Eigen::MatrixXd> X);
 Eigen::VectorXd iterate_once(const ShiftedOperator& op, EigenPairs& pairs);
 
-/// One more step on the pairs `columns`, ascending, whose vectors then leave out their share of the other pairs, so that
-/// round-off along lower ones is not amplified; by one process alone. Replaces their values, vectors and residuals, and gives the bounds
-/// |λ' − λ| ≤ (λ − shift) ‖x − y‖_M/‖y‖_M of the distance to an eigenvalue λ', relative to λ − shift.
+/// One more step on the pairs `columns`, ascending, whose vectors then leave out their share of the other pairs, so
+/// that round-off along lower ones is not amplified; by one process alone. Replaces their values, vectors and
+/// residuals, and gives the bounds |λ' − λ| ≤ (λ − shift) ‖x − y‖_M/‖y‖_M of the distance to an eigenvalue λ', relative
+/// to λ − shift.
 Eigen::VectorXd refine(const ShiftedOperator& op, const std::vector<Eigen::Index>& columns, EigenPairs& pairs,
                        Eigen::VectorXd& residual);
 

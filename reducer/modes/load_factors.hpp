@@ -19,7 +19,7 @@ struct StressPencil {
   std::function<void(double)> share = [](double /*done*/) {};  ///< hears how much of the search is done, about
 };
 
-/// Loads of buckling as multiples of a load, lowest first, with what was checked about them.
+/// Buckling loads as multiples of a load, lowest first, with the results of their checks.
 struct LoadFactors {
   Eigen::VectorXd factor;  ///< λ > 0, ascending
   Eigen::MatrixXd shape;   ///< φ in columns, φᵀ S φ = 1

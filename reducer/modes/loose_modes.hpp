@@ -1,4 +1,4 @@
-// Mechanisms that a part has on purpose: reduced with one coordinate of each held, which then becomes an internal one.
+// Intended mechanisms inside a part. The part is reduced with one coordinate of each held, which then becomes internal.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Vectors of the inside that are no fixed-boundary modes: moment vectors beside them, and what the modes of the free
-// part leave inside (Rubin, MacNeal).
+// Internal vectors that are no fixed-boundary modes: moment vectors in addition to these, and the internal part of the
+// modes of the free part (Rubin, MacNeal).
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@
 
 namespace tisserand::reducer {
 
-/// A space of the inside (boundary held), leading vectors first, with what the boundary sees of it. `first(p)` gives
-/// the Ritz vectors of its leading p and the LeftOut that goes with them.
+/// A space of internal vectors (boundary held), leading vectors first, with their coupling to the boundary. `first(p)`
+/// gives the Ritz vectors of its leading p and the LeftOut that goes with them.
 class RitzSpace {
  public:
   /// `raw` (n_I x p): made orthogonal to `Phi` (n_I x m, M_II-orthonormal fixed-boundary modes) in M_II, then
@@ -39,7 +39,7 @@ class RitzSpace {
   Eigen::MatrixXd third_;     ///< Wᵀ M_II S_II⁻¹ M_II W
 };
 
-/// Moment vectors, those first whose absence can change frequencies most.
+/// Moment vectors, sorted by the effect of their absence on frequencies, largest first.
 struct MomentSpace {
   RitzSpace space;
   Eigen::VectorXd order;  ///< 1/γ of each, ascending: equal ones belong together

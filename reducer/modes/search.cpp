@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// What the leader tells the followers of a search.
+/// Message of the leader to the followers of a search.
 struct Order {
   double shift = 0.0;
   EigenSolver type = EigenSolver::block_lanczos;

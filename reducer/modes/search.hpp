@@ -39,10 +39,10 @@ struct SearchResult {
 /// factor lies on several ranks, so do the vectors while it runs.
 SearchResult search(const Pencil& pencil, EigenSolver type, int wanted, const Eigen::MatrixXd& known);
 
-/// What the followers do meanwhile.
+/// Work of the followers during a search.
 void help_to_search(const Mumps& factor);
 
-/// All pairs of a small pencil by LAPACK, ascending, but those whose 1/(λ − shift) is round-off beside that of the
+/// All pairs of a small pencil by LAPACK, ascending, without those whose 1/(λ − shift) is round-off of that of the
 /// first.
 SearchResult search_all(const Pencil& pencil);
 

@@ -166,7 +166,7 @@ DensePairs largest_pairs(Eigen::MatrixXd A, Eigen::MatrixXd B, int count) {
   return pairs;
 }
 
-/// The same by the QR algorithm, which finds all of them always.
+/// All eigenvalues by the QR algorithm, which always finds all of them.
 DensePairs largest_pairs_by_qr(Eigen::MatrixXd A, Eigen::MatrixXd B, int count) {
   const auto n = static_cast<PetscBLASInt>(A.rows());
   const PetscBLASInt type = 1;

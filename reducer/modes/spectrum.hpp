@@ -21,7 +21,7 @@ struct UnsharpPair {
   double error = 0.0;  ///< bound of the relative distance of its frequency to an exact one
 };
 
-/// Lowest pairs with what was checked about them.
+/// Lowest pairs, with the results of their checks.
 struct Spectrum {
   EigenPairs pairs;            ///< at least `kept`, with the pairs behind the cut that were found
   int kept = 0;                ///< the requested number, raised to the end of the cluster that it would cut
@@ -34,7 +34,7 @@ struct Spectrum {
   EigenSolver solver() const { return runs.back().type; }
 };
 
-/// What a report says about a search.
+/// The part of a report about a search.
 struct SolverReport {
   std::string text;                ///< "SLEPc 3.18.2, block_lanczos (9 iterations)"; empty: nothing was searched
   double residual = 0.0;           ///< largest of the pairs kept
@@ -50,21 +50,21 @@ int cluster_end(const Eigen::VectorXd& value, int count, double shift);
 
 /// Number of eigenvalues of (S, M) below `value`: negative pivots of S − value M.
 int count_below(const Matrix& S, const Matrix& M, double value);
-/// The same as a phase of its own.
+/// count_below() as a separate phase of the progress.
 int count_below(const Pencil& pencil, double value);
 
 /// The number of eigenvalues up to the gap behind the first `kept` pairs (one at least), by inertia: `kept` unless some
 /// are missing.
 int count_kept(const Pencil& pencil, const EigenPairs& pairs, int kept);
 
-/// The solver that the part asks for, else the one that serves a problem of this size. Throws Error if it cannot.
+/// The solver of the part file, or the one for a problem of this size. Throws Error if it cannot be used.
 EigenSolver choose_solver(Eigen::Index size, int count, const formats::ModeSelection& asked);
 
 /// Pairs that iterations seek beyond those asked for, to complete clusters and to know the next eigenvalue.
 inline constexpr int sought_beyond = 2;
 
 /// The `count` lowest pairs (count ≤ available, the number of finite eigenvalues); clusters are completed. They are
-/// counted always where a cluster is as large as the block of the iteration, which then proves nothing.
+/// always counted if a cluster is as large as the block of the iteration, which then proves nothing.
 /// Pairs with a residual above 1e-8 take up to three more steps of inverse iteration. Throws Error if pairs are still
 /// missing after repeated searches, or if residuals stay above 1e-6.
 Spectrum lowest_pairs(const Pencil& pencil, int count, int available, EigenSolver solver, Count verify);

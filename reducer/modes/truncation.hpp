@@ -1,4 +1,4 @@
-// What leaving out internal modes can do to the part, whatever it is attached to: a bound from one block of solutions.
+// Truncation error: bounds for the effect of the internal modes that are left out, from one block of solutions.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace tisserand::reducer {
 
-/// What the boundary sees of the inside beyond the modes that are kept: the terms of THEORY (87). U = S_II⁻¹ X, X =
-/// M_IB + M_II Ψ, all M_II-orthogonal to those modes; beside them the reduced part may have Ritz vectors W (moment
+/// Coupling of the boundary to the interior without the modes that are kept: the terms of THEORY (87). U = S_II⁻¹ X, X
+/// = M_IB + M_II Ψ, all M_II-orthogonal to those modes. In addition the reduced part may have Ritz vectors W (moment
 /// vectors, free modes) with Wᵀ M_II W = 1, Wᵀ S_II W = Θ.
 struct LeftOut {
   double first_dropped = 0.0;  ///< λ_d: the lowest fixed-boundary ω² that is not kept
@@ -28,8 +28,9 @@ struct LeftOut {
 struct TruncationErrors {
   Eigen::VectorXd lambda;  ///< ω² of the reduced part
   Eigen::VectorXd estimate;  ///< relative error of the frequency, THEORY (89): ½ λ uᵀ R(λ) u for unit modal mass; where
-                             ///< that may be above 1e-6 what taking the lower side and a quarter of the way to the
-                             ///< upper one off does to the eigenvalue, and at least half of what the upper one does
+                             ///< that may be above 1e-6, the effect on the eigenvalue of subtracting the lower side
+                             ///< and a quarter of the way to the upper one, but at least half of the effect of the
+                             ///< upper one
   /// Whether the true error is at most twice the estimate, and not below half of it: by the enclosure, or because the
   /// quarter of the way is above half of the upper side.
   std::vector<bool> known;
@@ -49,7 +50,7 @@ struct TruncationErrors {
 /// values (law of inertia) with both sides of the bound taken off. At most `most` modes.
 TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, int most);
 
-/// What the boundary sees of the part: S̄_BB, M̄_BB, and per internal vector that is kept its ω² and coupling.
+/// The part as coupled to its boundary: S̄_BB, M̄_BB, and ω² and coupling of each internal vector that is kept.
 struct BoundaryView {
   const Eigen::MatrixXd& S;         ///< n_B x n_B
   const Eigen::MatrixXd& M;         ///< n_B x n_B
@@ -67,8 +68,8 @@ struct BoundaryView {
 ///
 /// and the left-out Δ (truncation_errors()) lowers ω² by uᵀ Δ u. So relatively by no more than the largest eigenvalue γ
 /// of (λ R(λ)/(1 − λ/λ_c), t W + (1 − t) E) for any t in [0, 1]: the least of some t, for the least W/λ and E/λ up to
-/// `lambda`. λ_c = `first_coupled`: what no left-out eigenvalue that moves the boundary is below. Infinite if `lambda`
-/// is not below that.
+/// `lambda`. λ_c = `first_coupled`: lower bound of the left-out eigenvalues whose modes move the boundary. Infinite if
+/// `lambda` is not below that.
 double attached_error(const BoundaryView& part, const LeftOut& out, double first_coupled, double lambda);
 
 /// m_kᵀ (W + E)⁻¹ m_k of each column of `coupling` (n_B x k): the largest share of a mode's mass that it can have.
@@ -78,7 +79,7 @@ Eigen::VectorXd boundary_shares(const BoundaryView& part, double lambda, const E
 /// the size of the first elastic eigenvalue; at most `count`. Throws Error if S − shift M is not positive definite.
 EigenPairs free_modes(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count, int rigid_motions);
 
-/// Their eigenvalues.
+/// Eigenvalues of free_modes().
 Eigen::VectorXd free_eigenvalues(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count, int rigid_motions);
 
 }  // namespace tisserand::reducer

@@ -88,7 +88,7 @@ class ElementBatches {
     std::size_t batch = 0;
     int at = 0;
   };
-  /// Of a thread.
+  /// Work matrices of one thread.
   struct Scratch {
     MatrixXd d;
     MatrixXd product;

@@ -28,7 +28,7 @@ constexpr double small_mode = 1e-3;  ///< of what internal coordinates move, of 
 constexpr double nothing =
     1e-12;  ///< of displacements of second order, of those of first order squared over the length
 
-/// The same numbers between −1 and 1 everywhere.
+/// Numbers between −1 and 1, equal on all machines.
 class Numbers {
  public:
   double next() { return 2.0 * (static_cast<double>(bits_() >> 11) * 0x1p-53) - 1.0; }
@@ -81,7 +81,7 @@ MatrixXd tie_constants(const InternalProblem& problem, const TieForces& ties, co
   return c2;
 }
 
-/// f(d, d) of the columns d on all x: elements under their second-order strain, and S `moved` of those beside ties.
+/// f(d, d) of the columns d on all x: elements under their second-order strain, and S `moved` of those at ties.
 class SampleForces {
  public:
   SampleForces(const InternalProblem& problem, const TieForces& ties, const MatrixXd& d, const MatrixXd& moved)

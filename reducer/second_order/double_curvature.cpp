@@ -64,8 +64,8 @@ std::vector<bool> turns_of(const ElementRows& at) {
   return turns;
 }
 
-/// 1/√K_kk: rotations and displacements alike. Zero for coordinates whose K_kk is nothing beside the largest of their
-/// kind, such as those of a rod across its axis: round-off, by which no force may be divided.
+/// 1/√K_kk: rotations and displacements alike. Zero for coordinates whose K_kk is negligible against the largest of
+/// their kind, such as those of a rod across its axis: round-off, by which no force may be divided.
 VectorXd unit_of(const MatrixXd& K, const std::vector<bool>& turns) {
   double largest[2] = {0.0, 0.0};
   for (Index k = 0; k < K.rows(); ++k) {

@@ -1,10 +1,9 @@
-// Membrane stress that bending into double curvature traps: rows of the companion's strain that no coordinate
-// stretches.
+// Membrane stress that bending into double curvature traps: rows of the companion's strain without a linear part.
 //
-// The second-order strains of a deformation d load the elements with the nodal forces f_e = ∂V3/∂w. A part whose
-// elements could follow on their own would lose all of the energy ½ f_eᵀ K_e⁺ f_e by that; the displacements that its
-// elements share take up ½ fᵀ K⁺ f of it, f = Σ f_e. The difference, THEORY (83), is never negative and is a form of
-// degree four in d: that of a plate of zero Gaussian curvature vanishes, that of a turned part too. Over pairs of
+// The second-order strains of a deformation d load the elements with the nodal forces f_e = ∂V3/∂w. If every
+// element could relax on its own, all of the energy ½ f_eᵀ K_e⁺ f_e would vanish. The shared displacements of the
+// elements relax only ½ fᵀ K⁺ f of it, f = Σ f_e. The difference, THEORY (83), is never negative and is a form of
+// degree four in d. It vanishes for plates of zero Gaussian curvature and for a part that only turns. Over pairs of
 // shapes it is a Gram matrix, whose eigenvectors are rows ½ dᵀ Λ_b d of the sum of squares V = ½ Σ e².
 #pragma once
 
@@ -21,7 +20,7 @@ namespace tisserand::reducer {
 /// amplitudes]: d = Σ z_k d_k has the energy ⅛ Σ m_kl z_k z_l gram(kl, mn) m_mn z_m z_n, m = 1 for k = l, else 2.
 struct TrappedEnergy {
   Eigen::MatrixXd gram;
-  Eigen::VectorXd own;  ///< its diagonal, did the elements not share displacements: what round-off is measured by
+  Eigen::VectorXd own;  ///< its diagonal if the elements relaxed one by one: the scale of round-off
 };
 
 /// `shapes`: displacements of all x. Memory: coordinates of the mesh x pairs. Pairs with a rigid motion trap nothing.

@@ -166,7 +166,7 @@ std::vector<FreeBlock> tie_blocks(const StressedPart& part, const FreeBlocks& fr
   return blocks;
 }
 
-/// Weights of masses beside their nodes, on the second order ½ θ × (θ × c) of their arms.
+/// Weights of masses off their nodes, on the second order ½ θ × (θ × c) of their arms.
 std::vector<FreeBlock> offset_masses(const StressedPart& part, const FreeBlocks& free, const LoadedState& state) {
   std::vector<FreeBlock> blocks;
   if (state.gravity.isZero(0.0)) return blocks;

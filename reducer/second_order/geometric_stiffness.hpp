@@ -1,5 +1,4 @@
-// Geometric stiffness of a loaded part as a sparse matrix, beside its stiffness: what buckling of the unreduced part is
-// computed from.
+// Stiffness and geometric stiffness of a loaded part as sparse matrices, for the buckling of the unreduced part.
 #pragma once
 
 #include <functional>
@@ -20,7 +19,7 @@ struct LoadedState {
   Eigen::Vector3d gravity;  ///< acceleration that pulls at every mass
 };
 
-/// What the states of a part have in common.
+/// Data that all loaded states of a part share.
 struct StressedPart {
   const Mesh& mesh;
   const System& system;
@@ -30,10 +29,11 @@ struct StressedPart {
 };
 
 /// Stiffness S (SymmetricPair::S) and geometric stiffness K_g (SymmetricPair::M) of the free coordinates with one
-/// pattern: the potential energy is ½ φᵀ (S + K_g) φ under loads that keep their size and direction. K_g sums what the
-/// companion file projects: second-order strains of the elements (elements/second_order.hpp), of ties under the forces
-/// that they transmit (tie_strain.hpp), and of masses beside their nodes under gravity. `S` has rows for the free
-/// coordinates. `share` hears how much of the elements is added. Throws Error for averages of too many nodes.
+/// pattern: the potential energy is ½ φᵀ (S + K_g) φ under loads that keep their size and direction. K_g is the sum of
+/// the terms that the companion file projects: second-order strains of the elements (elements/second_order.hpp), of
+/// ties under the forces that they transmit (tie_strain.hpp), and of masses off their nodes under gravity. `S` has rows
+/// for the free coordinates. `share` receives the share of the elements that is added. Throws Error for averages of too
+/// many nodes.
 SymmetricPair stiffness_pair(const StressedPart& part, const LoadedState& state, const SymmetricRows& S,
                              const std::function<void(double)>& share);
 

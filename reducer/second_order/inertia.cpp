@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 
 constexpr int block_elements = 128;
 
-/// What one element adds, and where its rows of translations, turns and pivots begin in the block.
+/// Contribution of one element, and the first rows of its translations, turns and pivots in the block.
 struct ElementInertia {
   ElementRows rows;
   TurningMass mass;
@@ -36,7 +36,7 @@ struct TurningPart {
   MatrixXd D = rigid_motions(mesh, coordinates, point);
 };
 
-/// Of elements whose mass moves alike in all directions.
+/// Mass of elements that is equal in all directions.
 void compute_alike(const MatrixXd& M, const TurningPart& part, ElementInertia& out) {
   MatrixXd D_e(M.rows(), 6);
   gather(out.rows, part.D, D_e);

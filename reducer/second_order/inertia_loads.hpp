@@ -1,4 +1,4 @@
-// The twelve inertia loads of a floating frame, and what the part answers to them beyond its internal coordinates.
+// The twelve inertia loads of a floating frame, and the static answers of the part beyond its internal coordinates.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// Second order of ties: rigid arms and averages that turn, worked on by the forces that the ties transmit.
+// Second order of ties: the work of the forces that ties transmit on rigid arms and averages that turn.
 //
 // Ties are equations c(x) = 0. Of the displacements w under the loads g they transmit forces λ, S w + Cᵀ λ = g with the
 // matrices of the mesh, and V3 gains λ · c₂(d, d) with the second order c₂ of the equations:
@@ -9,7 +9,7 @@
 //   W = Σ w r rᵀ (both with rotations that are averaged: J + Σ w L² 1),
 //   J ψ₂ = (Y ᵀ − tr Y) ψ + ½ ψ × W ψ + ½ Σ w L² ψ × θ_i, Y = Σ w v rᵀ;  u₂ = ψ₂ × r₀ + ½ ψ × (ψ × r₀).
 // Without them offsets and spiders would not be invariant when the part turns. Equations that a mesh gives by
-// coefficients alone have no second order: what they mean for finite motions is not known.
+// coefficients alone have no second order, because their meaning for finite motions is not known.
 #pragma once
 
 #include <vector>
@@ -35,7 +35,7 @@ struct TieForces {
 /// `independent`: coordinates x that ties leave independent, those with which `system` was built.
 TieForces find_tie_forces(const Mesh& mesh, const System& system, const std::vector<int>& independent,
                           const std::string& where);
-/// The same of a system that is built with its boundary independent.
+/// find_tie_forces() for a system that is built with its boundary independent.
 TieForces find_tie_forces(const Mesh& mesh, const System& system, const std::string& where);
 
 /// Residual g − S w of the elements at the coordinates that ties make dependent (rows of TieForces::dependent; a column
@@ -47,7 +47,7 @@ Eigen::MatrixXd tie_residual(const Mesh& mesh, const Coordinates& coordinates, c
 /// TieForces::dependent): C_Dᵀ λ = g − S w.
 Eigen::MatrixXd multipliers(const TieForces& forces, const Eigen::MatrixXd& residual);
 
-/// What c(x) = −constant makes of the dependent coordinates (rows of TieForces::dependent), all others zero.
+/// The dependent coordinates (rows of TieForces::dependent) of c(x) = −constant, all others zero.
 /// `constant`: a row per equation.
 Eigen::MatrixXd dependents(const TieForces& forces, const Eigen::MatrixXd& constant);
 
