@@ -62,7 +62,6 @@ std::vector<Formulation> rods(const std::string& rigid_is_impossible) {
 
 /// Frames, weights and boundary nodes, of inertia B.
 std::vector<Formulation> boundaries() {
-  const std::string one_end = "a body without the node that it is held against";
   return {{"two nodes", {}, ""},
           {"frame: paper", {superelement("rod", "frame: paper, second_order: off")}, ""},
           {"frame at a node", {superelement("rod", "frame: {node: start}, inertia: B")}, ""},
@@ -70,9 +69,9 @@ std::vector<Formulation> boundaries() {
            {superelement(
                "rod", "inertia: B, weights: {positions: {start: 1.5, end: -0.5}, rotations: {start: 1.5, end: -0.5}}")},
            ""},
-          {"five in a line", {superelement("rod_line", "inertia: B")}, ""},
-          {"two nearly one", {superelement("rod_near", "inertia: B")}, ""},
-          {"mass far outside", {superelement("rod_base", "inertia: B")}, ""},
+          {"five nodes in a line", {superelement("rod_line", "inertia: B")}, ""},
+          {"two close nodes", {superelement("rod_near", "inertia: B")}, ""},
+          {"mass far from the nodes", {superelement("rod_base", "inertia: B")}, ""},
           {"one node", {superelement("rod_one", "inertia: B")}, ""}};
 }
 
@@ -83,7 +82,7 @@ std::vector<Case> four_bars() {
                      .scene = "four_bar",
                      .settings = {fmt::format("parameters.windows={}", windows)},
                      .criteria = {at_end("joints/coordinate/upright[0]/foot", angle, 2e-2), balance(1e-3)},
-                     .source = "angle of the uprights: IFToMM library A02, exact one-coordinate equation",
+                     .source = "IFToMM library A02: angle of the uprights by an exact equation of one coordinate",
                      .quick = windows == 2});
   const double n = 80;
   cases.push_back({.name = "four-bar, 80 windows",
@@ -92,7 +91,7 @@ std::vector<Case> four_bars() {
                    .criteria = {at_end("joints/coordinate/upright[0]/foot",
                                        swing(g * ((n + 1) / 2 + n) / ((n + 1) / 3 + n), pi / 2, -1, 1) - pi / 2, 2e-2),
                                 balance(1e-3)},
-                   .source = "one-coordinate equation, Runge and Kutta",
+                   .source = "exact equation of one coordinate, integrated by a Runge-Kutta method",
                    .quick = false});
   cases.push_back({.name = "Bricard's mechanism",
                    .scene = "bricard",
@@ -100,7 +99,7 @@ std::vector<Case> four_bars() {
                    .criteria = {at_end("nodes/position/bar2/P3/x", -0.967200, 2e-3),
                                 at_end("nodes/position/bar2/P3/y", -1.228020, 2e-3),
                                 at_end("nodes/position/bar2/P3/z", 0.745983, 2e-3), balance(1e-3)},
-                   .source = "IFToMM library A04, refined run of an independent program",
+                   .source = "IFToMM library A04, run of an independent program with a finer step",
                    .scales = false});
   return cases;
 }
@@ -116,8 +115,8 @@ std::vector<Case> slider_cranks() {
          .scene = "slider_crank",
          .settings = {fmt::format("parameters.longer={:g}", longer)},
          .criteria = {length_at_end("nodes/position/slider/x", x, 1e-3)},
-         .source = longer == 0.0 ? "geometry; the branch on which the slider goes on by its inertia"
-                                 : "geometry: the rod cannot turn over",
+         .source = longer == 0.0 ? "geometry, on the branch where inertia carries the slider on"
+                                 : "geometry: the longer rod cannot turn over",
          .quick = longer == 0.0 || longer == 1e-2});
   }
   return cases;
@@ -140,7 +139,7 @@ std::vector<Case> pendulums() {
                      .criteria = {length_at_end("nodes/position/bob/x", -std::cos(angle), 2e-3),
                                   length_at_end("nodes/acceleration/bob/y", -g * (1 - 3 * std::pow(std::sin(angle), 2)),
                                                 step > 1e-3 ? 0.1 : 1e-2)},
-                     .source = "pendulum equation: the acceleration shows what 1/h^2 makes of round-off"});
+                     .source = "pendulum equation; the acceleration shows how 1/h^2 amplifies round-off"});
   }
   for (const auto& [steps, thousands] : {std::pair{"100 000", 100}, {"1 000 000", 1000}})
     cases.push_back(
@@ -149,21 +148,21 @@ std::vector<Case> pendulums() {
          .settings = {fmt::format("integrator.end={}", 2 * thousands), "output.interval=1"},
          .criteria = {balance(1e-2),
                       {Kind::length, {{1.0, "nodes/position/bob/x"}, {1.0, "nodes/position/bob/y"}}, 1.0, 1e-8}},
-         .source = "conservation of energy; the length of the rod",
+         .source = "conservation of energy; constant length of the rod",
          .scales = false,
          .quick = false});
   cases.push_back({.name = "massless chain",
                    .scene = "virtual_chain",
                    .settings = {},
                    .criteria = {at_end("joints/coordinate/hinge", swing(0.75 * g, 0, 0, 2), 2e-3), balance(1e-3)},
-                   .source = "physical pendulum, as if the chain were rigid"});
+                   .source = "physical pendulum: the chain moves like a rigid body"});
   const double heavy = swing(g / 1.1, 0, 0, 2);
   for (const double ratio : {1e-10, 1e-5})
     cases.push_back({.name = fmt::format("mass ratio {:g}", ratio),
                      .scene = "mass_ratio",
                      .settings = {fmt::format("parameters.ratio={:g}", ratio)},
                      .criteria = {at_end("joints/coordinate/hinge", heavy, 2e-3), balance(1e-3)},
-                     .source = "the heavy pendulum alone"});
+                     .source = "motion of the heavy pendulum alone"});
   cases.push_back({.name = "axis without inertia",
                    .scene = "needle",
                    .settings = {},
@@ -188,7 +187,7 @@ std::vector<Case> free_flights() {
          .settings = {fmt::format("integrator.end={:g}", end), fmt::format("output.interval={:g}", end / 100)},
          .criteria = {length_at_end("nodes/position/top/x", 0.01 * end, 1e-8 * end),
                       length_at_end("nodes/position/top/tip/z", std::sqrt(0.75), 1e-3), balance(1e-3)},
-         .source = "momentum, and the angle between the axis and the moment of momentum",
+         .source = "conservation of momentum; constant angle between axis and angular momentum",
          .quick = quick});
     std::vector<Criterion> momentum;
     for (const auto& [direction, value, place] : {std::tuple{'x', 6.0, 5.0}, {'y', 19.5, 3.0}, {'z', -5.0, 0.0}})
@@ -204,7 +203,7 @@ std::vector<Case> free_flights() {
          .scene = "flying_chain",
          .settings = {fmt::format("integrator.end={:g}", end), fmt::format("output.interval={:g}", end / 100)},
          .criteria = momentum,
-         .source = "momentum and the way of the mass centre",
+         .source = "conservation of momentum; path of the centre of mass",
          .quick = quick});
   };
   add("1000 steps", 2, true);
@@ -213,58 +212,60 @@ std::vector<Case> free_flights() {
 }
 
 std::vector<Case> springs_and_contacts() {
+  const std::string half_swings =
+      "each half swing is shorter by 2 mu g/omega^2; the block sticks where the fifth ends within mu g/omega^2";
   std::vector<Case> cases;
   cases.push_back({.name = "stiffness ratio 1e12",
                    .scene = "stiff_spring",
                    .settings = {},
                    .criteria = {length_at_end("nodes/position/a/x", 0, 2e-3), balance(1e-2)},
-                   .source = "two masses as one, 1 rad/s; a mode at 1.4e6 rad/s rests"});
+                   .source = "both masses move as one at 1 rad/s; the mode at 1.4e6 rad/s is at rest"});
   cases.push_back({.name = "mode at 1.4e6 rad/s that moves",
                    .scene = "stiff_spring",
                    .settings = {"parameters.kick=1e-6"},
                    .criteria = {length_at_end("nodes/position/a/x", 0, 2e-3), balance(1e-2)},
-                   .source = "it holds as much energy as the slow one: a step of 1e-3 cannot keep it"});
+                   .source = "the fast mode has as much energy as the slow one; a step of 1e-3 cannot preserve it"});
   cases.push_back({.name = "159 turns",
                    .scene = "rotor",
                    .settings = {},
                    .criteria = {at_end("joints/coordinate/axle", 1000, 0.1), balance(1e-3)},
-                   .source = "constant rate"});
+                   .source = "constant angular velocity"});
   cases.push_back({.name = "3.1 rad per step",
                    .scene = "rotor",
                    .settings = {"parameters.rate=310", "integrator.step=0.01"},
                    .criteria = {at_end("joints/coordinate/axle", 3100, 0.3), balance(1e-3)},
-                   .source = "constant rate"});
+                   .source = "constant angular velocity"});
   cases.push_back({.name = "4 rad per step",
                    .scene = "rotor",
                    .settings = {"parameters.rate=400", "integrator.step=0.01"},
                    .criteria = {at_end("joints/coordinate/axle", 4000, 0.4), balance(1e-3)},
-                   .source = "constant rate"});
-  cases.push_back({.name = "friction that turns over and sticks",
+                   .source = "constant angular velocity"});
+  cases.push_back({.name = "friction that reverses and sticks",
                    .scene = "friction",
                    .settings = {},
                    .criteria = {length_at_end("nodes/position/block/x", 0.1019, 5e-4), balance(1e-2)},
-                   .source = "half swings shrink by 2 mu g/omega^2, the fifth ends within mu g/omega^2"});
+                   .source = half_swings});
   cases.push_back({.name = "friction, step 0.05",
                    .scene = "friction",
                    .settings = {"parameters.step=0.05"},
                    .criteria = {length_at_end("nodes/position/block/x", 0.1019, 5e-4), balance(1e-2)},
-                   .source = "the same"});
+                   .source = half_swings});
   cases.push_back({.name = "ball that bounces",
                    .scene = "bounce",
                    .settings = {},
                    .criteria = {length_at_end("nodes/position/ball/z", 0.5, 2e-3), balance(1e-2)},
-                   .source = "the height from which it fell"});
+                   .source = "height from which the ball fell"});
   cases.push_back({.name = "ball that bounces, step 0.01",
                    .scene = "bounce",
                    .settings = {"integrator.step=0.01"},
                    .criteria = {length_at_end("nodes/position/ball/z", 0.5, 2e-3), balance(1e-2)},
-                   .source = "the same; contact lasts 3 ms"});
+                   .source = "height from which the ball fell; the contact lasts 3 ms"});
   cases.push_back({.name = "impulse and jump of loads",
                    .scene = "impulse",
                    .settings = {},
                    .criteria = {length_at_end("nodes/velocity/hit/x", 1, 2e-3),
                                 length_at_end("nodes/position/pushed/x", 0.25, 1e-3), balance(1e-2)},
-                   .source = "momentum; constant acceleration"});
+                   .source = "conservation of momentum; constant acceleration"});
   return cases;
 }
 
@@ -276,14 +277,14 @@ std::vector<Case> rods_in_motion() {
                    .scene = "rod_pendulum",
                    .settings = {},
                    .criteria = {at_end("joints/coordinate/hinge", angle, 2e-2), balance(1e-2)},
-                   .source = "rigid rod; it bends by 1e-3",
+                   .source = "motion of a rigid rod; the rod bends by 1e-3 of its length",
                    .formulations = rods(""),
                    .scales = false});
   cases.push_back({.name = "rod pendulum, boundaries",
                    .scene = "rod_pendulum",
                    .settings = {},
                    .criteria = {at_end("joints/coordinate/hinge", angle, 2e-2), balance(1e-2)},
-                   .source = "rigid rod; it bends by 1e-3",
+                   .source = "motion of a rigid rod; the rod bends by 1e-3 of its length",
                    .formulations = boundaries(),
                    .scales = false});
   const std::string gate = "bodies.gate={type: superelement, file: gate";
@@ -295,18 +296,18 @@ std::vector<Case> rods_in_motion() {
        .criteria = {at_end("energy/potential", 4 * 7800 * pi * 1e-4 * g / 2 * std::sin(swing(1.2 * g, 0, 0, 2)),
                            4 * 7800 * pi * 1e-4 * g / 2 * 2e-2),
                     balance(1e-2)},
-       .source = "physical pendulum about one of its sides; it bends by 1e-3",
+       .source = "physical pendulum about one side; the gate bends by 1e-3 of its side",
        .formulations = {{"B", {}, ""},
                         {"A", {gate + ".superelement.h5, inertia: A}"}, ""},
                         {"M", {gate + ".superelement.h5, inertia: M}"}, ""},
-                        {"translations alone", {gate + "_points.superelement.h5, inertia: B}"}, ""},
-                        {"rotations apart", {gate + "_apart.superelement.h5, inertia: B}"}, ""}},
+                        {"translations only", {gate + "_points.superelement.h5, inertia: B}"}, ""},
+                        {"one node with rotations only", {gate + "_apart.superelement.h5, inertia: B}"}, ""}},
        .scales = false});
   cases.push_back({.name = "drive that moves at the start",
                    .scene = "driven_rod",
                    .settings = {},
                    .criteria = {at_end("nodes/position/rod/end/x", std::cos(5.0), 5e-3), balance(1e-2)},
-                   .source = "the rod turns as a rigid one from the start",
+                   .source = "the rod turns like a rigid rod from the start",
                    .formulations = rods(""),
                    .scales = false});
   // A cantilever of length 1 under P along and F across: δ = F (tan k − k)/(k P), k² = P/EI.
@@ -316,7 +317,7 @@ std::vector<Case> rods_in_motion() {
                      .scene = "column",
                      .settings = {fmt::format("parameters.axial={:.10g}", P)},
                      .criteria = {at_end("nodes/position/rod/end/y", deflection, 0.03 * deflection)},
-                     .source = "beam column of Euler: F (tan kL - kL)/(k P)",
+                     .source = "Euler's beam-column: F (tan kL - kL)/(k P)",
                      .formulations = rods("a rigid body does not bend"),
                      .takes_steps = false,
                      .scales = false});
@@ -332,7 +333,7 @@ std::vector<Case> rods_in_motion() {
                      .settings = {fmt::format("parameters.rate={:g}", rate)},
                      .criteria = {at_end("nodes/position/rod/end/z", -sag / (1 + 1.193 * rate * rate / omega2),
                                          0.1 * sag / (1 + 1.193 * rate * rate / omega2))},
-                     .source = "Southwell's quotient 1.193; first frequency 55 rad/s",
+                     .source = "Southwell's formula with the factor 1.193; the first frequency is 55 rad/s",
                      .formulations = rods("a rigid body does not bend"),
                      .takes_steps = false,
                      .scales = false});
@@ -358,7 +359,7 @@ std::vector<Case> beyond_the_linear_range() {
        .criteria = {at_end("nodes/position/outer/tip/x", 10 * std::cos(75.0), 0.05),
                     at_end("nodes/position/outer/tip/y", 10 * std::sin(75.0), 0.05),
                     at_end("nodes/position/outer/tip/z", 0, 1e-3), balance(1e-2)},
-       .source = "Simo and Vu-Quoc's beam spun up to 6 rad/s: within 0.0037 of the turning axis, in its plane",
+       .source = "beam of Simo and Vu-Quoc at 6 rad/s: 0.0037 from the line that turns with its root, in its plane",
        .formulations = {{"B", {}, ""},
                         {"A", halves("inertia: A"), ""},
                         {"M", halves("inertia: M"), ""},
@@ -370,7 +371,7 @@ std::vector<Case> beyond_the_linear_range() {
        .scene = "roll_up",
        .settings = {},
        .criteria = {at_end("nodes/position/rod/end/x", 0, 2e-2), at_end("nodes/position/rod/end/y", 0, 2e-2)},
-       .source = "a full circle at 2 pi EI/L",
+       .source = "full circle at the moment 2 pi EI/L",
        .formulations = rods("a rigid body does not bend"),
        .takes_steps = false,
        .scales = false});

@@ -1,5 +1,5 @@
-// stability <folder of programs> <folder of scenes> <folder to write in> page|expect|check|small [expected.csv]: the
-// matrix of hard cases.
+// stability <folder of programs> <folder of scenes> <folder to write in> page|expect|check|small [expected.csv]:
+// runs the matrix of hard cases.
 #include <cstdio>
 #include <fstream>
 #include <map>

@@ -1,4 +1,4 @@
-// Runs of the program, judged from outside.
+// Runs the program and compares its results with the criteria.
 #include "tests/stability/matrix.hpp"
 
 #include <algorithm>
@@ -61,21 +61,21 @@ bool sets(const Case& one, const std::string& key) {
   return std::ranges::any_of(one.settings, [&](const std::string& setting) { return setting.starts_with(key); });
 }
 
-constexpr const char* stiff_for_bdf = "not run: stiff bodies cost bdf minutes of short steps";
+constexpr const char* stiff_for_bdf = "not run: bdf needs minutes of short steps for stiff bodies";
 
-/// Why an integrator cannot be asked of a case.
+/// Why an integrator does not run a case; empty if it does.
 std::string impossible_integrator(const Case& one, const std::string& name) {
   const bool other_method = name == "radau" || name == "bdf";
   if (one.scene == "stiff_spring" && !sets(one, "parameters.kick") && name == "bdf")
-    return "bdf follows the mode at 1.4e6 rad/s, which it does not damp: nine million steps, minutes";
+    return "not run: bdf does not damp the mode at 1.4e6 rad/s and would take nine million steps";
   if (one.scene == "soft_blade" && name == "bdf") return stiff_for_bdf;
   if (one.scene == "four_bar_misaligned" && name == "controlled")
-    return "not run: vibrations of its bars, which nothing damps, ask for minutes of short steps";
-  if (!one.takes_steps) return "statics takes no steps";
+    return "not run: undamped vibrations of the bars need minutes of short steps";
+  if (!one.takes_steps) return "statics has no time steps";
   if (sets(one, "integrator.formulation=index3") && (other_method || name.starts_with("index 3")))
-    return "the case is about index 3";
+    return "the case tests index 3";
   if ((sets(one, "integrator.step") || sets(one, "parameters.step")) && (other_method || name == "controlled"))
-    return "the case is about its step";
+    return "the case tests its step";
   return {};
 }
 
@@ -89,17 +89,17 @@ void add_integrators(const Case& one, const Formulation* body, std::vector<Cell>
       cell.settings.insert(cell.settings.end(), body->settings.begin(), body->settings.end());
       if (cell.impossible.empty()) cell.impossible = body->impossible;
       if (level.name == "bdf" && cell.impossible.empty()) cell.impossible = stiff_for_bdf;
-      if (body->name == "mass far outside" && cell.impossible.empty())
-        cell.impossible = "not run: told with the default already, after minutes of ever shorter steps with others";
+      if (body->name == "mass far from the nodes" && cell.impossible.empty())
+        cell.impossible = "not run: the default reports the case, others need minutes of ever shorter steps";
       if (level.name == "radau" && body->name == "second order")
-        cell.impossible = "radau takes linear superelements only (an error says so)";
+        cell.impossible = "radau supports linear superelements only (reported as an error)";
     }
     cell.settings.insert(cell.settings.end(), level.settings.begin(), level.settings.end());
     cells.push_back(std::move(cell));
   }
 }
 
-/// Doubts of the run.
+/// Warnings of the run, joined.
 std::string doubts_of(const Json& report) {
   std::vector<std::string> texts;
   const auto add = [&texts](const Json& list) {
@@ -160,8 +160,8 @@ std::string word(State state) {
   switch (state) {
     case State::pass:
       return "pass";
-    case State::told:
-      return "told";
+    case State::reported:
+      return "reported";
     case State::fail:
       return "FAIL";
     case State::impossible:
@@ -180,7 +180,7 @@ std::vector<Cell> cells_of(const Case& one) {
   add_integrators(one, nullptr, cells);
   if (one.takes_steps)
     for (std::size_t i = 1; i < one.formulations.size(); ++i) add_integrators(one, &one.formulations[i], cells);
-  if (!one.quick) return cells;  // longer ones: formulations and integrators alone
+  if (!one.quick) return cells;  // long cases: formulations and integrators only
   const auto add = [&](const char* factor, const std::string& level, std::vector<std::string> settings,
                        const std::string& impossible) {
     Cell cell{&one, factor, level, one.settings, impossible};
@@ -188,13 +188,13 @@ std::vector<Cell> cells_of(const Case& one) {
     cells.push_back(std::move(cell));
   };
   for (const std::string& solver : solvers()) {
-    add("solver", solver, {"integrator.linear_solver=" + solver}, one.takes_steps ? "" : "statics chooses its own");
+    add("solver", solver, {"integrator.linear_solver=" + solver}, one.takes_steps ? "" : "statics selects its solver");
     add("solver x radau", solver,
         {"integrator.linear_solver=" + solver, "integrator.method=radau", "integrator.error_control={tolerance: 1e-6}"},
-        solver == "qr" ? "qr has no complex values (an error says so)" : impossible_integrator(one, "radau"));
+        solver == "qr" ? "qr takes no complex matrices (reported as an error)" : impossible_integrator(one, "radau"));
   }
   for (const Level& level : scalings())
-    add("scaling", level.name, level.settings, one.scales ? "" : "units of files are converted on load");
+    add("scaling", level.name, level.settings, one.scales ? "" : "bodies from files have their own units");
   return cells;
 }
 
@@ -233,14 +233,14 @@ Outcome run(const Cell& cell, const Place& place) {
     outcome.said = printable_line(without(complaint, place.work + "/"), 1000);
     const bool has_reason = (child.code == 1 || child.code == 3) && !child.complaint.empty() &&
                             child.complaint.find("internal error") == std::string::npos;
-    outcome.state = has_reason ? State::told : State::fail;
+    outcome.state = has_reason ? State::reported : State::fail;
     return outcome;
   }
   const formats::ResultsReader reader(results);
   const Json report = Json::parse(reader.report_json(), nullptr, false);
   outcome.worst = worst_error(cell, reader, report);
   outcome.said = doubts_of(report);
-  outcome.state = outcome.worst <= 1.0 ? State::pass : outcome.said.empty() ? State::fail : State::told;
+  outcome.state = outcome.worst <= 1.0 ? State::pass : outcome.said.empty() ? State::fail : State::reported;
   return outcome;
 }
 

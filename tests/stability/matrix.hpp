@@ -1,4 +1,4 @@
-// Cells of the matrix, and what each ends with.
+// Cells of the matrix, and the outcome of each.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@ namespace tisserand::stability {
 
 enum class State {
   pass,       ///< the criteria hold
-  told,       ///< they do not, and the run says why: its doubts, or the error that it ended with
-  fail,       ///< a silent wrong answer, no number, no end, or an end without a reason
-  impossible  ///< there is no such cell
+  reported,   ///< they do not, and the run says why, by a warning or by the error that ended it
+  fail,       ///< a silent wrong answer, not a number, no end, or an end without a reason
+  impossible  ///< the cell does not exist
 };
 
 std::string word(State state);
@@ -22,19 +22,19 @@ struct Cell {
   std::string factor;  ///< formulation, integrator, solver, scaling, and pairs of them
   std::string level;
   std::vector<std::string> settings;
-  std::string impossible;  ///< why there is none; empty: there is
+  std::string impossible;  ///< why the cell does not exist; empty if it does
   std::string id() const { return of->name + " | " + factor + " | " + level; }
 };
 
 struct Outcome {
   State state = State::fail;
   double worst = 0.0;  ///< largest error over its tolerance
-  std::string said;    ///< doubts or error
+  std::string said;    ///< warnings or error, or why the cell does not exist
   double seconds = 0.0;
 };
 
-/// Every factor fully against the default of the others; formulation × integrator for flexible bodies; solver × Radau,
-/// whose systems are complex.
+/// All levels of each factor with the defaults of the others; formulation × integrator for flexible bodies; solver ×
+/// Radau, whose systems are complex.
 std::vector<Cell> cells_of(const Case& one);
 
 struct Place {

@@ -1,9 +1,12 @@
-// Tables by factor, what was told, and what a case is.
+// The page of hard cases: one table per factor, the messages of failing cells, reasons and sources.
 #include "tests/stability/page.hpp"
 
 #include <algorithm>
+#include <ctime>
 #include <map>
+#include <regex>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "common/text.hpp"
@@ -13,22 +16,47 @@ namespace {
 
 constexpr const char* head = R"(# Hard cases
 
-`scripts/stability` computes this page anew: every case with every formulation, integrator, solver and scaling against the default of
-the others, and the pairs named below. **pass**: the criteria hold; the number is the largest error over its tolerance. **told**: they do not,
-and the run said so itself, in its doubts or with the error that it ended with. **FAIL**: a silent wrong answer, no number, a crash or no
-end. `-`: there is no such cell, with the reason beneath. Cases and criteria are in
-[tests/stability/catalogue.cpp](../tests/stability/catalogue.cpp), scenes beside it; quick cells run in `./check` and are held to the states in
-[tests/stability/expected.csv](../tests/stability/expected.csv).
+Singular positions, redundant constraints, extreme ratios of mass and stiffness, long runs, contact and buckling: what the program does in each case.
+`scripts/stability` runs all cases and writes this page (three minutes). No cell of the tables is a silent wrong answer.
+
+Contents: [How to read the tables](#how-to-read-the-tables) · {}[Messages](#messages) ·
+[Cells that do not exist](#cells-that-do-not-exist) · [Sources of the expected values](#sources-of-the-expected-values)
+
+## How to read the tables
+
+Each table varies one factor and keeps the defaults of the others. Tables with "x" in the heading vary two factors.
+
+| cell | meaning |
+| --- | --- |
+| a number | The case passes. The number is the largest error, divided by its tolerance. |
+| reported | The case misses a criterion, and the run itself reports this by a [warning or an error](#messages). |
+| **FAIL** | The answer is wrong and the run does not report it, or the run crashes or does not end. |
+| - | The cell [does not exist](#cells-that-do-not-exist). |
+
+Levels of the factors:
+
+- **Integrator**: `default` is `generalised_alpha` with `formulation: stabilised_index2`. `rho` is its spectral radius; `index 3` is `formulation: index3`.
+  `controlled` has error control with a tolerance of 1e-4, `radau` with 1e-6.
+- **Solver**: `linear_solver` of the integrator.
+- **Scaling**: units of length (L) and mass (M), relative to those of the case.
+- **Formulation**: how the flexible bodies are described. A, B and M are the options of `inertia`.
+
+Cases and criteria are in [tests/stability/catalogue.cpp](../tests/stability/catalogue.cpp), the scenes in the same folder. `./check` runs the fast
+cells and compares their states with [tests/stability/expected.csv](../tests/stability/expected.csv).
 
 )";
 
 std::string entry(const Outcome& outcome) {
-  if (outcome.state == State::pass) return fmt::format("pass {:.1g}", outcome.worst);
+  if (outcome.state == State::pass) return fmt::format("{:.1g}", outcome.worst);
   return outcome.state == State::fail ? fmt::format("**FAIL** {:.1g}", outcome.worst) : word(outcome.state);
 }
 
-/// Row and column of a cell: levels of two factors have the first in the row, "A, rho 0" of a pendulum in "pendulum,
-/// A".
+std::string capitalised(const std::string& factor) {
+  return static_cast<char>(std::toupper(factor[0])) + factor.substr(1);
+}
+
+/// Row and column of a cell. A level of two factors has the first in the row: "A, rho 0" of a pendulum is column "rho
+/// 0" of row "pendulum, A".
 std::pair<std::string, std::string> place_of(const Cell& cell) {
   const std::size_t comma = cell.level.find(", ");
   if (!cell.factor.starts_with("formulation x") || comma == std::string::npos) return {cell.of->name, cell.level};
@@ -39,25 +67,39 @@ void add_new(std::vector<std::string>& list, const std::string& name) {
   if (std::ranges::count(list, name) == 0) list.push_back(name);
 }
 
-std::string table(const std::string& factor, const std::vector<const Judged*>& cells) {
-  std::vector<std::string> rows, columns;
-  std::map<std::pair<std::string, std::string>, std::string> entries;
-  for (const Judged* one : cells) {
-    const auto [row, column] = place_of(one->cell);
-    add_new(columns, column);
-    if (one->outcome.state != State::impossible) add_new(rows, row);
-    entries[{row, column}] = entry(one->outcome);
-  }
-  std::string text = fmt::format("## {}{}\n\n| case | {} |\n| --- |", static_cast<char>(std::toupper(factor[0])),
-                                 factor.substr(1), join(columns, " | "));
+using Row = std::pair<std::string, std::vector<std::string>>;  ///< name, then entries
+
+std::string table(const std::vector<std::string>& columns, const std::vector<Row>& rows) {
+  std::string text = fmt::format("| case | {} |\n| --- |", join(columns, " | "));
   for (std::size_t i = 0; i < columns.size(); ++i) text += " --- |";
   text += '\n';
-  for (const std::string& row : rows) {
-    text += fmt::format("| {} |", row);
-    for (const std::string& column : columns) text += fmt::format(" {} |", entries[{row, column}]);
-    text += '\n';
-  }
+  for (const auto& [name, entries] : rows) text += fmt::format("| {} | {} |\n", name, join(entries, " | "));
   return text + '\n';
+}
+
+/// One table for all rows that have the same columns. Rows without any cell that exists are left out.
+std::string tables(const std::string& factor, const std::vector<const Judged*>& cells) {
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<std::string>> columns;
+  std::map<std::string, std::vector<std::string>> entries;
+  std::map<std::string, bool> exists;
+  for (const Judged* one : cells) {
+    const auto [row, column] = place_of(one->cell);
+    add_new(names, row);
+    columns[row].push_back(column);
+    entries[row].push_back(entry(one->outcome));
+    exists[row] = exists[row] || one->outcome.state != State::impossible;
+  }
+  std::vector<std::vector<std::string>> heads;
+  std::map<std::vector<std::string>, std::vector<Row>> rows;
+  for (const std::string& name : names) {
+    if (!exists[name]) continue;
+    if (std::ranges::count(heads, columns[name]) == 0) heads.push_back(columns[name]);
+    rows[columns[name]].emplace_back(name, entries[name]);
+  }
+  std::string text = fmt::format("## {}\n\n", capitalised(factor));
+  for (const std::vector<std::string>& one : heads) text += table(one, rows[one]);
+  return text;
 }
 
 std::string counts(const std::vector<Judged>& judged) {
@@ -67,56 +109,114 @@ std::string counts(const std::vector<Judged>& judged) {
     ++count[one.outcome.state];
     seconds += one.outcome.seconds;
   }
-  return fmt::format("{} cells: {} pass, {} told, {} fail; {} cannot exist. {:.0f} s of processor time.\n\n",
-                     judged.size() - count[State::impossible], count[State::pass], count[State::told],
-                     count[State::fail], count[State::impossible], seconds);
+  return fmt::format("{:%F}, {} cells: {} pass, {} are reported, {} fail. Processor time: {:.0f} s.\n\n",
+                     fmt::gmtime(std::time(nullptr)), judged.size() - count[State::impossible], count[State::pass],
+                     count[State::reported], count[State::fail], seconds);
 }
 
-std::string said(const std::vector<Judged>& judged, State state) {
-  std::vector<std::string> order;
-  std::map<std::string, std::vector<std::string>> cells;
-  for (const Judged& one : judged) {
-    if (one.outcome.state != state) continue;
-    const std::string text = one.outcome.said.empty() ? "nothing" : one.outcome.said;
-    if (!cells.contains(text)) order.push_back(text);
-    cells[text].push_back(state == State::impossible ? one.cell.factor + ", " + one.cell.level : one.cell.id());
+/// The first of the warnings, or the error, without the name of the program.
+std::string first_message(const std::string& said) {
+  const std::string text = said.empty() ? "nothing" : said.substr(0, said.find("; "));
+  return text.starts_with("mechanism: ") ? text.substr(11) : text;
+}
+
+/// Messages of one kind have the same kind, whatever their numbers and names are.
+std::string kind_of(const std::string& message) {
+  constexpr std::size_t enough = 50;  // letters; names without quotation marks stand behind them
+  const std::string nameless = std::regex_replace(message, std::regex("'[^']*'"), "'");
+  return std::regex_replace(nameless, std::regex("[0-9][0-9.e+-]*"), "#").substr(0, enough);
+}
+
+std::string in_a_cell(std::string text) {
+  std::ranges::replace(text, '|', '/');
+  return text;
+}
+
+/// Lines "key | names" in order of the first appearance; a name that stands n times gets " (n)" if it is to be counted.
+class Lists {
+ public:
+  void add(const std::string& key, const std::string& shown, const std::string& name) {
+    if (!lines_.contains(key)) order_.push_back(key);
+    Line& line = lines_[key];
+    if (line.shown.empty()) line.shown = shown;
+    add_new(line.names, name);
+    ++line.count[name];
   }
-  std::string result;
-  for (const std::string& text : order) {
-    std::vector<std::string>& ids = cells[text];
-    std::ranges::sort(ids);
-    ids.erase(std::ranges::unique(ids).begin(), ids.end());
-    std::string clean = text;
-    std::ranges::replace(clean, '|', '/');
-    std::string names = listed(ids, "; ");
-    std::ranges::replace(names, '|', '/');
-    result += fmt::format("| {} | {} |\n", names, clean);
+  std::string text(bool counted, const std::string& separator) const {
+    std::string result;
+    for (const std::string& key : order_) {
+      const Line& line = lines_.at(key);
+      std::vector<std::string> names;
+      for (const std::string& name : line.names)
+        names.push_back(counted && line.count.at(name) > 1 ? fmt::format("{} ({})", name, line.count.at(name)) : name);
+      result += fmt::format("| {} | {} |\n", in_a_cell(line.shown), in_a_cell(join(names, separator)));
+    }
+    return result;
   }
-  return result;
+
+ private:
+  struct Line {
+    std::string shown;
+    std::vector<std::string> names;
+    std::map<std::string, int> count;
+  };
+  std::vector<std::string> order_;
+  std::map<std::string, Line> lines_;
+};
+
+std::string messages(const std::vector<Judged>& judged, State state) {
+  Lists lists;
+  for (const Judged& one : judged)
+    if (one.outcome.state == state) {
+      const std::string message = first_message(one.outcome.said);
+      lists.add(kind_of(message), message, one.cell.of->name);
+    }
+  return lists.text(true, "; ");
+}
+
+std::string reasons(const std::vector<Judged>& judged) {
+  Lists lists;
+  for (const Judged& one : judged)
+    if (one.outcome.state == State::impossible)
+      lists.add(one.outcome.said, one.outcome.said, fmt::format("{}: {}", one.cell.factor, place_of(one.cell).second));
+  return lists.text(false, "; ");
+}
+
+std::string sources(const std::vector<Case>& cases) {
+  Lists lists;
+  for (const Case& one : cases) lists.add(one.source, one.source, one.name);
+  return lists.text(false, "; ");
 }
 
 }  // namespace
 
 std::string page_of(const std::vector<Case>& cases, const std::vector<Judged>& judged) {
-  std::string page = head + counts(judged);
   std::vector<std::string> factors;
-  for (const Judged& one : judged)
-    if (std::ranges::count(factors, one.cell.factor) == 0) factors.push_back(one.cell.factor);
+  for (const Judged& one : judged) add_new(factors, one.cell.factor);
+  std::string links, body;
+  int linked = 0;
   for (const std::string& factor : factors) {
+    std::string anchor = factor;
+    std::ranges::replace(anchor, ' ', '-');
+    links += fmt::format("[{}](#{}) ·{}", capitalised(factor), anchor, ++linked == 3 ? '\n' : ' ');
     std::vector<const Judged*> cells;
     for (const Judged& one : judged)
       if (one.cell.factor == factor) cells.push_back(&one);
-    page += table(factor, cells);
+    body += tables(factor, cells);
   }
-  page += "## What was told\n\n| cells | words of the run |\n| --- | --- |\n" + said(judged, State::told) + '\n';
-  if (const std::string failed = said(judged, State::fail); !failed.empty())
-    page += "## What failed\n\n| cells | words of the run |\n| --- | --- |\n" + failed + '\n';
-  page += "## What cannot exist\n\n| factor | reason |\n| --- | --- |\n" + said(judged, State::impossible) + '\n';
-  page += "## Where expected values come from\n\n| case | source |\n| --- | --- |\n";
-  for (const Case& one : cases) page += fmt::format("| {} | {} |\n", one.name, one.source);
+  std::string page = fmt::format(fmt::runtime(head), links) + counts(judged) + body;
   page +=
-      "\nBodies described in other units, far from the origin or in parts move alike: tests `Rewritings` and "
-      "`FarScene`.\n";
+      "## Messages\n\nThe first message of each reported run. Messages that differ only in numbers and names share a "
+      "line, which shows the first of them.\nThe number of cells stands in brackets.\n\n"
+      "| message | cases |\n| --- | --- |\n" +
+      messages(judged, State::reported) + '\n';
+  if (const std::string failed = messages(judged, State::fail); !failed.empty())
+    page += "## Failures\n\n| message | cases |\n| --- | --- |\n" + failed + '\n';
+  page += "## Cells that do not exist\n\n| reason | factor: levels |\n| --- | --- |\n" + reasons(judged) + '\n';
+  page += "## Sources of the expected values\n\n| source | cases |\n| --- | --- |\n" + sources(cases);
+  page +=
+      "\nThe tests `Rewritings` and `FarScene` check that bodies move alike when they are described in other units, "
+      "far from the origin or in parts.\n";
   return page;
 }
 

@@ -11,7 +11,7 @@ namespace tisserand::stability {
 namespace {
 
 /// Statics without a choice of bodies.
-std::vector<Formulation> as_it_is() { return {{"as it is", {}, ""}}; }
+std::vector<Formulation> as_it_is() { return {{"as written", {}, ""}}; }
 
 /// A beam of so many elements in place of the scene's.
 Formulation elements(const std::string& parameters, int count, int nodes) {
@@ -27,7 +27,7 @@ std::vector<Case> beams_under_load() {
        .scene = "catenary",
        .settings = {},
        .criteria = {at_end("joints/force/left/x", -33.173, 0.034)},
-       .source = "a = 3.382 m of 10 m between pins 8 m apart; EA = 1e6 N",
+       .source = "catenary of 10 m between pins 8 m apart, a = 3.382 m, EA = 1e6 N",
        .formulations = {elements("parameters", 20, 2), elements("parameters", 80, 2), elements("parameters", 40, 3)},
        .takes_steps = false,
        .scales = false});
@@ -36,12 +36,12 @@ std::vector<Case> beams_under_load() {
                I = 2 * t * b * b * b * 4 / 12;
   for (const double share : {-2.0, 0.5, 0.9}) {
     const double N = share * G * J * A / (2 * I);
-    cases.push_back({.name = fmt::format("twist under {:g} of the load of torsional buckling", share),
+    cases.push_back({.name = fmt::format("twist under {:g} of the torsional buckling load", share),
                      .scene = "cruciform_twist",
                      .settings = {fmt::format("parameters.axial={:.10g}", N)},
                      .criteria = {at_end("joints/coordinate/turn/angle", 1e-3 / (G * J * (1 - share)),
                                          2e-2 * 1e-3 / (G * J * (1 - share)))},
-                     .source = "Wagner: T L/(G J - N I_p/A)",
+                     .source = "Wagner's formula T L/(G J - N I_p/A)",
                      .formulations = as_it_is(),
                      .takes_steps = false,
                      .scales = false});
@@ -56,7 +56,7 @@ std::vector<Case> equilibria() {
                      .scene = "fail2_hanging_statics",
                      .settings = {fmt::format("bodies.arm.pose.orientation.angle_deg={:g}", angle)},
                      .criteria = {at_end("joints/coordinate/hinge", -angle * std::numbers::pi / 180, 1e-6)},
-                     .source = "it hangs straight down",
+                     .source = "the pendulum hangs straight down",
                      .formulations = as_it_is(),
                      .takes_steps = false,
                      .scales = false});
@@ -67,7 +67,7 @@ std::vector<Case> equilibria() {
          .scene = "elastica",
          .settings = {fmt::format("parameters.weight={:g}", load)},
          .criteria = {at_end("nodes/position/rod/40/x", x, 1e-4), at_end("nodes/position/rod/40/z", z, 1e-4)},
-         .source = "elliptic integrals",
+         .source = "elastica by elliptic integrals",
          .formulations = as_it_is(),
          .takes_steps = false,
          .scales = false});
@@ -77,7 +77,7 @@ std::vector<Case> equilibria() {
                      .scene = "turning_guide",
                      .settings = {fmt::format("parameters.rate={:g}", rate)},
                      .criteria = {at_end("joints/coordinate/guide", rate * rate / (1e3 - rate * rate), 1e-6)},
-                     .source = "a spring of 1000 N/m against m r W^2",
+                     .source = "spring of 1000 N/m in balance with m r W^2",
                      .formulations = as_it_is(),
                      .takes_steps = false,
                      .scales = false});
@@ -92,10 +92,10 @@ std::vector<Case> loops() {
            .scene = "bennett",
            .settings = {},
            .criteria = {at_end("joints/coordinate/j1", 1.1044, 5e-3), balance(1e-2)},
-           .source = "radau at 1e-9 and index 3 agree; the rows chosen at the start turn singular at 1.504 s",
+           .source = "radau (tolerance 1e-9) and index 3 agree; the rows of the start become singular at 1.504 s",
            .scales = false,
            .quick = false},
-          {.name = "four-bar out of line",
+          {.name = "four-bar with a misaligned hinge",
            .scene = "four_bar_misaligned",
            .settings = {},
            .criteria = {at_end("nodes/position/coupler/tip/x", 0.24 + 0.12 * std::cos(angle), 2e-3),
