@@ -1,4 +1,4 @@
-// Buckling and preload of reduced parts, for the page of verification: ratios to exact loads by number of modes.
+// Buckling and preload of reduced parts, for the verification page: ratios to exact loads by number of modes.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace {
 using namespace reducer;
 
 constexpr int mode_counts[] = {0, 4, 8, 12};
-constexpr double none = 1e6;  ///< ratios from here on: nothing that could buckle
+constexpr double none = 1e6;  ///< larger ratios mean that the reduced part cannot buckle
 
 /// One line: the load over its reference for each number of modes, then that of the full model, if there is one.
 template <class Ratio>
@@ -34,7 +34,7 @@ std::string columns() {
                                    {"clamped-clamped", ColumnEnds::clamped}})
     text += line(fmt::format("column of beams, {}", name), fmt::format("{:g} π² EI/L²", euler_factor(ends)),
                  [&](int modes) { return reduced_column(ends, modes); });
-  text += line("strip turned over by a force at its end", "4.0126 √(EI GJ)/L²",
+  text += line("strip, lateral buckling by a force at its end", "4.0126 √(EI GJ)/L²",
                [](int modes) { return reduced_strip(modes); });
   text += line("box column of shells, clamped-free", "Euler with shear", reduced_box_column);
   for (const auto& [shape, cells] : {std::pair{SolidShape::hexahedron8, 10},
@@ -52,7 +52,7 @@ std::string columns() {
 std::string plates() {
   std::string text;
   for (const auto& [name, preload] :
-       {std::pair{"pressed", PlatePreload::compression}, {"in shear", PlatePreload::shear}})
+       {std::pair{"under compression", PlatePreload::compression}, {"in shear", PlatePreload::shear}})
     for (const auto& [cells, facets] : {std::pair{"quads", Facets::quadrilaterals}, {"triangles", Facets::triangles}}) {
       const double exact = exact_plate(preload);
       text += line(
@@ -63,7 +63,7 @@ std::string plates() {
           full_plate(preload, {facets, 8}) / exact);
     }
   text += line(
-      "panel of a cylinder pressed along its axis, quads", fmt::format("{:.4f} π² D/b²", exact_panel()),
+      "cylindrical panel under axial compression, quads", fmt::format("{:.4f} π² D/b²", exact_panel()),
       [](int modes) { return reduced_panel(8, modes) / exact_panel(); }, full_panel(8) / exact_panel());
   return text;
 }
@@ -73,11 +73,13 @@ std::string plates() {
 std::string buckling_table() {
   return R"(## Buckling and preload
 
-Parts reduced to their ends or edges with m internal modes and a companion file: the load at which S̄ + λ K_G, K_G = Σ y_j H_j, S̄ y the load,
-has no stiffness left, over the reference. Columns: Euler; with shear GA/2 (√(1 + 4 P_E/GA) − 1) (Haringx) of beams and solids,
-P_E/(1 + P_E/GA) of the box; the strip, the square plates (pressed 4, in shear 9.325) after Timoshenko and Gere 1961 (2.1 to 2.4, 6.3, 9.2, 9.7) and Bulson 1970;
-the shallow panel (R 20 b, t 0.01 b) 4 + E t b⁴/(4 π⁴ D R²) by Donnell's equations with one half wave. Plates and panels: 8 x 8 cells, translations of
-the edges kept; "full": the unreduced model of the same mesh. A mode more can only lower these loads; half of the modes of slender beams belong to each plane.
+Buckling loads of parts that are reduced to their ends or edges with m internal modes and a companion file, divided by a reference. The load is where
+S̄ + λ K_G becomes singular, with K_G = Σ y_j H_j and S̄ y the load. A further mode can only lower these loads. Half of the modes of slender beams belong to
+each plane. Plates and panels have 8 x 8 cells, and the translations of their edges are kept. "full" is the unreduced model of the same mesh.
+
+References: Euler; Haringx with shear, GA/2 (√(1 + 4 P_E/GA) − 1), for beams and solids; P_E/(1 + P_E/GA) for the box; Timoshenko and Gere 1961 (2.1 to 2.4,
+6.3, 9.2, 9.7) and Bulson 1970 for the strip and the square plates (4 under compression, 9.325 in shear). The shallow panel (R 20 b, t 0.01 b) has
+4 + E t b⁴/(4 π⁴ D R²) by Donnell's equations with one half wave.
 
 | part | reference | m = 0 | 4 | 8 | 12 | full |
 | --- | --- | --: | --: | --: | --: | --: |

@@ -1,7 +1,9 @@
-// Prints the page of verification: every problem of the collection with target, result, error, mesh and order.
+// Prints the verification page: every problem of the collection with target, result, error, mesh and order.
 #include <cstdio>
+#include <ctime>
 #include <exception>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "tests/tables/page.hpp"
@@ -10,16 +12,24 @@ namespace {
 
 using namespace tisserand::tables;
 
-const char* const introduction = R"(# Verification of stage 1
+const char* const introduction = R"(# Verification of parts
 
-`scripts/verification_tables` computes this page anew: published and exact problems of elements and of component modes, with
-the elements that `reducer` uses. The tests run the same problems on coarse meshes and gate on them.
+This page compares the elements and the reductions of `reducer` with exact and published results. `scripts/verification_tables` wrote it on {:%F} (40 s).
+The tests run the same problems on coarse meshes and fail beyond fixed limits.
 
-- Columns between target and error: results on meshes named in the heading. **error %**: of the finest mesh against the target.
-- **order**: log2 of how much the error falls when the mesh is halved, at the finest meshes: from the error where the target
-  is exact (beams), from the differences of three meshes where it has few digits. Empty: not monotone, or round-off.
-- Targets "from memory" were not found in print while this collection was made; "recomputed" means that an independent
-  computation gives them; "2x" and "2 and 3" are double modes.
+Contents: [How to read the tables](#how-to-read-the-tables) · [Beams](#beams) · [Frequencies of plates and shells](#plates-and-shells-frequencies) ·
+[Statics of plates and shells](#plates-and-shells-statics) · [Component modes](#component-modes) · [Error of the mesh](#error-of-the-mesh) ·
+[Buckling and preload](#buckling-and-preload) · [Recovered stress](#recovered-stress) · [Recovered displacement](#recovered-displacement)
+
+## How to read the tables
+
+- Columns between "target" and "error %" hold results. Their headings name the meshes, by numbers of elements.
+- **error %** is the difference of the finest mesh from the target.
+- **order** is the rate of convergence of the finest meshes, log2 of the factor by which the error falls when the elements are halved. For exact targets
+  (beams) it uses the errors, for targets of few digits the differences of three meshes. It is empty where the values are not monotone or differ by round-off.
+- Targets: *read* means found in the source, *from memory* means not found in print. *Computed* and *recomputed* targets come from an independent
+  computation. Keys such as [MH85] are in [CONVENTIONS.md](../CONVENTIONS.md).
+- "2x" and "2 and 3" are double modes. Problems without units use any consistent units, as their sources do.
 
 )";
 
@@ -28,14 +38,14 @@ void print(const std::vector<Problem>& problems) {
 }
 
 void print_page() {
-  fmt::print("{}", introduction);
+  fmt::print(fmt::runtime(introduction), fmt::gmtime(std::time(nullptr)));
   fmt::print("## Beams\n\n");
   print(beam_problems());
   fmt::print("## Plates and shells: frequencies\n\n");
   print(shell_vibration_problems());
   fmt::print("## Plates and shells: statics\n\n{}", to_markdown(shell_patch_laws()));
   print(shell_static_problems());
-  fmt::print("## Component modes\n\n");
+  fmt::print("## Component modes\n\n{}", truss_table());
   print(synthesis_problems());
   fmt::print("{}", to_markdown(synthesis_laws()));
   fmt::print("{}", mesh_error_table());

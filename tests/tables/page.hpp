@@ -1,4 +1,4 @@
-// The page of verification: problems with their targets and what the reducer gives on several meshes, as markdown.
+// The verification page: problems with their targets and the results of `reducer` on several meshes, as markdown.
 #pragma once
 
 #include <string>
@@ -6,12 +6,12 @@
 
 namespace tisserand::tables {
 
-/// Exact: the error itself has an order. Published: digits are few, so the order comes from differences of meshes.
+/// Exact: the order comes from the errors. Published (few digits): it comes from the differences of meshes.
 enum class Target { exact, published };
 
 struct Row {
   std::string quantity;
-  std::string element;  ///< kind of element; empty: only one
+  std::string element;  ///< kind of element; empty if there is only one
   double target = 0.0;
   Target kind = Target::published;
   std::vector<double> ours;  ///< one per mesh of the problem
@@ -19,13 +19,13 @@ struct Row {
 
 struct Problem {
   std::string title;
-  std::string source;               ///< where the targets come from, and how sure they are
-  std::vector<std::string> meshes;  ///< of the last three each is twice as fine as the one before
+  std::string source;               ///< quantity, data, and where the targets come from
+  std::vector<std::string> meshes;  ///< each of the last three is twice as fine as the previous one
   std::vector<Row> rows;
-  std::string remark;  ///< why something differs; may be empty
+  std::string remark;  ///< explains differences; may be empty
 };
 
-/// Something that must hold up to round-off or as an inequality: `measured` is at most `limit`.
+/// A property that holds up to round-off or as an inequality: `measured` is at most `limit`.
 struct Law {
   std::string property;
   std::string example;
@@ -39,8 +39,8 @@ struct Laws {
   std::vector<Law> laws;
 };
 
-/// log2 of how much the error falls when the mesh is halved, at the finest meshes; empty if it does not fall steadily
-/// or is round-off.
+/// Rate of convergence: log2 of the ratio of the errors of the two finest meshes. Empty if the errors do not fall
+/// steadily or are round-off.
 std::string measured_order(const Row& row);
 
 std::string to_markdown(const Problem& problem);
@@ -53,6 +53,7 @@ std::vector<Problem> shell_static_problems();
 std::vector<Problem> synthesis_problems();
 Laws shell_patch_laws();
 Laws synthesis_laws();
+std::string truss_table();
 std::string mesh_error_table();
 std::string buckling_table();
 

@@ -1,4 +1,5 @@
-// Plates and shells of the page of verification: patch test, statics and frequencies, with the sources of the targets.
+// Plates and shells of the verification page: patch test, statics and frequencies, with the sources of the targets.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -66,19 +67,19 @@ void add_rows(Problem& problem, const std::vector<int>& n, const Vibration& vibr
   }
 }
 
-const std::string from_memory = "[MH85], from memory.";
+const std::string from_memory = "[MH85] (from memory).";
 
 std::vector<Problem> straight_beam_problems() {
   const std::vector<int> n{1, 2, 4, 8}, fine{4, 8, 16};
   Problem problem{
       "Straight beam",
-      "6 x 0.2 x 0.1, E 1e7, nu 0.3, unit loads at the tip; the 6 x 1 mesh is rectangular, of trapezoids or of "
-      "parallelograms (45 degrees). Targets: " +
+      "Displacement of the tip under unit loads. 6 x 0.2 x 0.1, E 1e7, nu 0.3. The 6 x 1 mesh consists of "
+      "rectangles, trapezoids or parallelograms (45 degrees). Targets: " +
           from_memory,
       meshes(n, 6, 1),
       {},
-      "Triangles in the plane: halves of skewed cells five times as long as wide bend too stiffly; they converge "
-      "(0.1052 and 0.1024 on 96 x 16)."};
+      "In the plane, triangles that are halves of skewed cells, five times as long as wide, are too stiff in "
+      "bending. They converge: 0.1052 and 0.1024 on 96 x 16."};
   const std::pair<Distortion, const char*> shapes[] = {{Distortion::none, "rectangles"},
                                                        {Distortion::trapezoids, "trapezoids"},
                                                        {Distortion::parallelograms, "parallelograms"}};
@@ -87,18 +88,17 @@ std::vector<Problem> straight_beam_problems() {
                                                             {TipLoad::out_of_plane, "out of plane", 0.4321}};
   for (const auto& [load, load_name, target] : loads)
     for (const auto& [shape, shape_name] : shapes)
-      add_rows(problem, n,
-               {{fmt::format("{}, {}", load_name, shape_name), target,
-                 [load, shape](const ShellMesh& m) { return straight_beam(m, shape, load); }}});
-  Problem twist{
-      "Straight beam, twist",
-      "The same under a unit torque: rotation of the tip. Target: Saint-Venant's torsion of the rectangle, TL/(GJ) "
-      "with J = 4.5736e-5 (series, exact). [MH85], from memory, has 0.03208.",
-      meshes(fine, 6, 1),
-      {},
-      "0.03208 would need J = 4.863e-5 and is 6 % below Saint-Venant's value; refined meshes pass it. Shear strains "
-      "live within t/sqrt(10) = 0.03 of the edges: coarser meshes are between 0.0234 (no such strains) and the "
-      "target; the triangles need finer ones than the quads."};
+      add_rows(problem, n, {{fmt::format("{}, {}", load_name, shape_name), target, [load, shape](const ShellMesh& m) {
+                               return straight_beam(m, shape, load);
+                             }}});
+  Problem twist{"Straight beam, twist",
+                "Rotation of the tip of the straight beam under a unit torque. Target: Saint-Venant's torsion of the "
+                "rectangle, TL/(GJ) with J = 4.5736e-5 (exact series). [MH85] has 0.03208 (from memory).",
+                meshes(fine, 6, 1),
+                {},
+                "0.03208 would need J = 4.863e-5 and is 6 % below Saint-Venant's value; refined meshes exceed it. The "
+                "shear strains lie within t/sqrt(10) = 0.03 of the edges. Coarser meshes give values between 0.0234 "
+                "(without these strains) and the target. Triangles need finer meshes than quads."};
   add_rows(
       twist, fine,
       {{"twist", 0.034109, [](const ShellMesh& m) { return straight_beam(m, Distortion::none, TipLoad::twist); }}});
@@ -109,14 +109,14 @@ Problem curved_beam_problem() {
   const std::vector<int> n{1, 4, 8, 16};
   Problem problem{
       "Curved beam",
-      "Radii 4.12 and 4.32, 90 degrees, t 0.1, E 1e7, nu 0.25, unit loads at the tip. Targets: in plane the exact "
-      "plane stress of a bar bent by a radial force at its end (Timoshenko and Goodier, Theory of Elasticity, "
-      "article 33); out of plane [MH85], read.",
+      "Displacement of the tip under unit loads. Radii 4.12 and 4.32, 90 degrees, t 0.1, E 1e7, nu 0.25. "
+      "Targets: in plane, the exact plane stress of a bar bent by a radial force at its end (Timoshenko and "
+      "Goodier, Theory of Elasticity, article 33); out of plane, [MH85] (read).",
       meshes(n, 6, 1),
       {},
-      "In plane [MH85] prints 0.08734, 1.4 % below the exact 0.088566 and below beam theory (pi P R^3/(4 E I) = "
-      "0.08853). Out of plane, beam theory without shear gives 0.5003; torsion converges slowly, as for the "
-      "straight beam."};
+      "In plane, [MH85] prints 0.08734. This is 1.4 % below the exact 0.088566 and below beam theory, pi P "
+      "R^3/(4 E I) = 0.08853. Out of plane, beam theory without shear gives 0.5003, and torsion converges "
+      "slowly as in the straight beam."};
   add_rows(problem, n,
            {{"in plane", 0.088566, [](const ShellMesh& m) { return curved_beam(m, TipLoad::in_plane); }},
             {"out of plane", 0.5022, [](const ShellMesh& m) { return curved_beam(m, TipLoad::out_of_plane); }}});
@@ -124,13 +124,12 @@ Problem curved_beam_problem() {
 }
 
 Problem twisted_beam_problem() {
-  Problem problem{
-      "Twisted beam",
-      "12 x 1.1 x 0.32, 90 degrees twist, E 29e6, nu 0.22, unit loads at the tip. Targets: Zupan and Saje 2004, "
-      "read (a beam theory: sections keep their shape).",
-      meshes({1, 2, 4}, 12, 2),
-      {},
-      ""};
+  Problem problem{"Twisted beam",
+                  "Displacement of the tip under unit loads. 12 x 1.1 x 0.32, twisted by 90 degrees, E 29e6, nu 0.22. "
+                  "Targets: Zupan and Saje 2004 (read), a beam theory in which sections keep their shape.",
+                  meshes({1, 2, 4}, 12, 2),
+                  {},
+                  ""};
   const auto beam = [](TipLoad load) { return [load](const ShellMesh& m) { return twisted_beam(m, 0.32, load); }; };
   add_rows(problem, {1, 2, 4},
            {{"in plane", 0.005424534868469, beam(TipLoad::in_plane)},
@@ -141,13 +140,14 @@ Problem twisted_beam_problem() {
 Problem rectangular_plates() {
   Problem problem{
       "Rectangular plates",
-      "2 x b, t 1e-4, E 1.7472e7, nu 0.3, pressure 1e-4 or central force 4e-4, centre deflection; mesh of a "
-      "quarter. Targets: [MH85], from memory; b = 2 and the simply supported plates recomputed (thin-plate "
-      "series).",
+      "Deflection of the centre under a pressure of 1e-4 or a central force of 4e-4; meshes of a quarter. 2 x "
+      "b, t 1e-4, E 1.7472e7, nu 0.3. Targets: [MH85] (from memory); b = 2 and the simply supported plates "
+      "were recomputed by thin-plate series.",
       meshes({8, 16, 32}, 1, 1),
       {},
-      "Clamped, b = 10, pressure: [MH85] prints 2.56. At b/a = 5 the ends are not felt in the middle (e^-10), "
-      "which bends like a strip: q a^4/(384 D) = 2.604, the target here and what the meshes give."};
+      "For the clamped plate with b = 10 under pressure [MH85] prints 2.56. At b/a = 5 the ends have no "
+      "influence on the middle (e^-10), which bends like a strip. The target is therefore q a^4/(384 D) = "
+      "2.604, which the meshes also give."};
   const auto plate = [](double b, PlateEdges edges, PlateLoad load) {
     return [=](const ShellMesh& m) { return plate_deflection(m, {b, edges, load}); };
   };
@@ -172,13 +172,14 @@ Problem simple_problem(Problem problem, const std::vector<int>& n, const Static&
 Problem slit_cylinder_problem() {
   Problem problem{
       "Slit cylinder under torque",
-      "R 300, L 900, t 3, E 3e6, nu 0.3, T 1000, slit along a generator; axial displacement of the slit, pi C, and "
-      "circumferential one of the turned end, C L/R, with T = 4 pi D (1 - nu) C/R; cells around x along. Source: "
-      "Morris, NAFEMS P12 (FinEtoolsFlexStructures, read; exact for a thin shell; its printed v = C x lacks 1/R).",
+      "Axial displacement of the slit, pi C, and circumferential displacement of the turned end, C L/R, with T "
+      "= 4 pi D (1 - nu) C/R; columns: cells around x along. R 300, L 900, t 3, E 3e6, nu 0.3, T 1000, slit "
+      "along a generator. Targets: Morris, NAFEMS P12 (quoted by FinEtoolsFlexStructures, read), exact for a "
+      "thin shell. The printed v = C x lacks 1/R.",
       meshes({1, 2, 4}, 16, 4),
       {},
-      "The twisting moment D (1 - nu) C/R^2 = 0.265258 is T/(4 pi R): the ratio of the circumferential displacement "
-      "to its target is that of the stiffness against twisting."};
+      "The twisting moment D (1 - nu) C/R^2 = 0.265258 equals T/(4 pi R). The ratio of target to "
+      "circumferential displacement is therefore the ratio of the torsional stiffness to its exact value."};
   add_rows(
       problem, {1, 2, 4},
       {{"axial, at the slit", 0.014444, [](const ShellMesh& m) { return slit_cylinder(m).axial; }},
@@ -193,37 +194,37 @@ std::vector<Problem> shell_static_problems() {
   problems.insert(problems.end(), {curved_beam_problem(), twisted_beam_problem(), rectangular_plates()});
   problems.push_back(simple_problem(
       {"Scordelis-Lo roof",
-       "R 25, L 50, t 0.25, half angle 40 degrees, E 4.32e8, nu 0, weight 90 per area, diaphragms at both ends; mesh "
-       "of a "
-       "quarter. Target: refined shell meshes, 0.30202 (FinEtoolsFlexStructures, commit d7ccda5, read); shallow-shell "
-       "theory has 0.3024, deep-shell theory 0.3008.",
+       "Deflection under a weight of 90 per area; meshes of a quarter. R 25, L 50, t 0.25, half angle 40 "
+       "degrees, E 4.32e8, nu 0, diaphragms at both ends. Target: refined shell meshes "
+       "(FinEtoolsFlexStructures, commit d7ccda5, read). Shallow-shell theory gives 0.3024, deep-shell theory "
+       "0.3008.",
        meshes({8, 16, 32}, 1, 1),
        {},
        ""},
       {8, 16, 32}, {"middle of the free edge", 0.30202, scordelis_lo_roof}));
   problems.push_back(simple_problem(
       {"Pinched cylinder with diaphragms",
-       "R 300, L 600, t 3, E 3e6, nu 0.3, two opposite unit forces; mesh of an eighth. Target: "
-       "FinEtoolsFlexStructures, "
-       "read (the classical double series, without transverse shear).",
+       "Displacement under one of two opposite unit forces; meshes of an eighth. R 300, L 600, t 3, E 3e6, nu "
+       "0.3. Target: the classical double series without transverse shear (FinEtoolsFlexStructures, read).",
        meshes({16, 32, 64}, 1, 1),
        {},
-       "Shear deformation, which the series leaves out, lets a concentrated force sink further with every refinement "
-       "(logarithmically): fine meshes pass the target slowly."},
+       "The series has no shear deformation. With shear deformation the displacement under a concentrated "
+       "force grows logarithmically with each refinement, so fine meshes slowly exceed the target."},
       {16, 32, 64}, {"under the load", 1.8248e-5, pinched_cylinder}));
   problems.push_back(simple_problem(
       {"LE5, Z section cantilever",
-       "L 10, flanges 1, web 2, t 0.1, E 210e9, nu 0.3, torque 1.2 MN m as two edge forces; axial membrane stress "
-       "[MPa] at a "
-       "flange tip, x = 2.5; cells along the length x along the profile. Target: -111.2 converged "
-       "(FinEtoolsFlexStructures, read; forces at the corners of the web); NAFEMS prints -108, of a coarse mesh.",
+       "Axial membrane stress [MPa] at a flange tip, x = 2.5 m; columns: cells along the length x along the "
+       "profile. L 10 m, flanges 1 m, web 2 m, t 0.1 m, E 210e9, nu 0.3; torque of 1.2 MN m as two edge "
+       "forces. Target: converged value (FinEtoolsFlexStructures, read), with the forces at the corners of the "
+       "web. NAFEMS prints -108, from a coarse mesh.",
        meshes({2, 4, 8}, 8, 4),
        {},
        ""},
       {2, 4, 8}, {"axial stress", -111.2, [](const ShellMesh& m) { return 1e-6 * z_section_stress(m); }}));
   problems.push_back(simple_problem({"Cook's membrane",
-                                     "Corners (0,0) (48,44) (48,60) (0,44), t 1, E 1, nu 1/3, left edge clamped, total "
-                                     "shear 1 on the right one. Target: from memory (23.97 in other lists).",
+                                     "Displacement under a total shear force of 1 on the right edge; the left "
+                                     "edge is clamped. Corners (0,0) (48,44) (48,60) (0,44), t 1, E 1, nu 1/3. "
+                                     "Target: from memory; other lists have 23.97.",
                                      meshes({8, 16, 32}, 1, 1),
                                      {},
                                      ""},
@@ -237,8 +238,9 @@ namespace {
 Problem square_plates() {
   Problem problem{
       "Thin square plates",
-      "lambda = omega a^2 sqrt(rho h/D), nu 0.3, h/a 1e-3. Targets: Ritz with 14 x 14 Legendre polynomials, 6 "
-      "digits, computed. Leissa 1973 prints 13.489 19.789 24.432 35.024 61.526 for the free plate: 0 to 0.7 % high.",
+      "Frequency parameters omega a^2 sqrt(rho h/D), nu 0.3, h/a 1e-3. Targets: computed by the Ritz method "
+      "with 14 x 14 Legendre polynomials, 6 digits. For the free plate Leissa 1973 prints 13.489 19.789 24.432 "
+      "35.024 61.526, which is 0 to 0.7 % too high.",
       meshes({8, 16, 32}, 1, 1),
       {},
       ""};
@@ -273,14 +275,13 @@ Problem square_plates() {
 Problem clamped_cylinder_problem() {
   Problem problem{
       "Clamped cylinder",
-      "R 0.1, L 0.4, t 0.01 m, E 200e9, nu 0.3, rho 7800, both ends clamped [Hz]; cells around x along. First: 1701 "
-      "(ADINA, quoted by FinEtoolsFlexStructures, read; accuracy not stated). Torsion: sqrt(G/rho)/(2L) of a "
-      "thin wall, exact.",
+      "Frequencies [Hz]; columns: cells around x along. R 0.1 m, L 0.4 m, t 0.01 m, E 200e9, nu 0.3, rho 7800, "
+      "both ends clamped. Target of the first mode: ADINA (quoted by FinEtoolsFlexStructures, read; accuracy "
+      "not stated). Target of torsion: sqrt(G/rho)/(2L), exact for a thin wall.",
       meshes({4, 8, 16}, 4, 2),
       {},
-      "Clamped ends hold the drilling rotation too. In torsion it is half the shear strain, not zero: an error of "
-      "order 1. "
-      "With the ends held in translation only the order is 2."};
+      "Clamped ends also hold the drilling rotation, which in torsion is half the shear strain and not zero. "
+      "This error has order 1. If only the translations of the ends are held, the order is 2."};
   add_rows(problem, {4, 8, 16}, Vibration{clamped_cylinder, 0, {{"first (2x)", 0, 1701.0}}});
   const double torsion = std::sqrt(200e9 / 2.6 / 7800.0) / 0.8;
   const auto turn = [](CylinderEnds ends) { return [ends](const ShellMesh& m) { return cylinder_torsion(m, ends); }; };
@@ -299,13 +300,13 @@ Problem vibration_problem(Problem problem, const Vibration& vibration) {
 
 std::vector<Problem> shell_vibration_problems() {
   const std::vector<std::string> squares = meshes({8, 16, 32}, 1, 1);
-  const std::string steel = "E 200e9, nu 0.3, rho 8000 [Hz]. ";
+  const std::string steel = "E 200e9, nu 0.3, rho 8000. ";
   std::vector<Problem> problems;
   problems.push_back(
       vibration_problem({"NAFEMS FV12, free square plate",
-                         "10 x 10 x 0.05 m, " + steel +
-                             "Targets: thin-plate Ritz, recomputed; they agree with the revised list (first print: "
-                             "4.233 and 7.416).",
+                         "Frequencies [Hz]. 10 x 10 x 0.05 m, " + steel +
+                             "Targets: thin plate by the Ritz method, recomputed. They agree with the revised "
+                             "list; the first print has 4.233 and 7.416.",
                          squares,
                          {},
                          ""},
@@ -319,9 +320,9 @@ std::vector<Problem> shell_vibration_problems() {
                           {"14", 7, 7.6682}}}));
   problems.push_back(vibration_problem(
       {"NAFEMS FV15, clamped rhombic plate",
-       "45 degrees, side 10 m, t 0.05 m, " + steel +
-           "Targets: thin-plate Ritz, 18 x 18 polynomials in "
-           "oblique coordinates, computed, 5 digits. NAFEMS (read): 7.938 12.835 17.941 19.133 24.009 27.922.",
+       "Frequencies [Hz]. Angle 45 degrees, side 10 m, t 0.05 m, " + steel +
+           "Targets: thin plate by the Ritz method with 18 x 18 polynomials in oblique coordinates, computed, "
+           "5 digits. NAFEMS (read): 7.938 12.835 17.941 19.133 24.009 27.922.",
        squares,
        {},
        ""},
@@ -334,11 +335,11 @@ std::vector<Problem> shell_vibration_problems() {
         {"5", 4, 23.6927},
         {"6", 5, 27.6322}}}));
   Problem thick{"NAFEMS FV52, simply supported thick plate",
-                "10 x 10 x 1 m, " + steel +
-                    "Targets: Mindlin's closed form with k = 5/6, which is ours (pi^2/12: 45.895 109.444 "
-                    "167.886; NAFEMS: 45.897 109.44 167.89); in its plane, free: Ritz, recomputed (NAFEMS: 193.59 "
-                    "206.19). The list "
-                    "44.762 110.52 169.08 193.93 206.64, also in print, is that of a coarse mesh.",
+                "Frequencies [Hz]. 10 x 10 x 1 m, " + steel +
+                    "Targets of bending: Mindlin's closed form with the shear factor 5/6 of our elements. With "
+                    "pi^2/12 it gives 45.895 109.444 167.886; NAFEMS has 45.897 109.44 167.89. Targets in the "
+                    "plane (free plate): Ritz method, recomputed; NAFEMS has 193.59 206.19. The list 44.762 "
+                    "110.52 169.08 193.93 206.64, also in print, is from a coarse mesh.",
                 squares,
                 {},
                 ""};
@@ -355,13 +356,12 @@ std::vector<Problem> shell_vibration_problems() {
 }
 
 Laws shell_patch_laws() {
-  Laws laws{
-      "Patch test",
-      "[MH85], 0.24 x 0.12, E 1e6, nu 0.25, four inner nodes, outer ones prescribed, turned in space: largest errors, "
-      "relative. The exact energies are those of the stresses 1333, 1333, 400 and, for t = 0.001, of the moments "
-      "1.111e-7, 1.111e-7, 3.333e-8 (at the surface 0.667, 0.667, 0.200). Limits: round-off times the condition "
-      "(size/thickness)^2.",
-      {}};
+  Laws laws{"Patch test",
+            "Largest relative errors of displacements, rotations and energy in the patch test of [MH85]: 0.24 x "
+            "0.12, E 1e6, nu 0.25, four inner nodes, prescribed outer nodes, turned in space. The stresses are 1333, "
+            "1333, 400. The moments for t = 0.001 are 1.111e-7, 1.111e-7, 3.333e-8, with surface stresses 0.667, "
+            "0.667, 0.200. Limits: round-off times the condition number (size/thickness)^2.",
+            {}};
   for (const Facets facets : both)
     for (const double thickness : {0.001, 0.05}) {
       const ShellSection section = isotropic_shell(1e6, 0.25, 1.0, thickness, 5.0 / 6.0);
@@ -369,8 +369,7 @@ Laws shell_patch_laws() {
       for (const auto& [state, state_name] :
            {std::pair{patch_membrane(), "membrane"}, std::pair{patch_bending(), "bending"}}) {
         const PatchErrors errors = patch_errors({facets, section, 0.0, state}, Eigen::Vector3d(0.7, -1.1, 0.4));
-        laws.laws.push_back({fmt::format("{}: displacements and rotations", state_name), example, errors.motion, 1e-9});
-        laws.laws.push_back({fmt::format("{}: energy", state_name), example, errors.energy, 1e-9});
+        laws.laws.push_back({state_name, example, std::max(errors.motion, errors.energy), 1e-9});
       }
     }
   return laws;
