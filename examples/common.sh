@@ -145,10 +145,11 @@ split_scene() {
     }'
 }
 
-# benchmark_tables <folder with targets.csv>: runs every scene of the file with each value of `refine`; one table per scene with target,
-# results, error of the last and its order (log2 of how much the error falls when the value is halved). Columns of targets.csv: scene
-# file, of several analyses `scene:analysis`; the setting that is varied and its values; quantity; channel (with *: the last that matches), or `modes/2` for the second frequency; time; target; scale of the
-# relative error; largest error accepted by the tests (empty: none); order expected by the tests (empty: none).
+# benchmark_tables <folder with targets.csv>: runs every scene of the file with each value of `refine` and prints one table per scene: target, results,
+# error of the last result, and its order (log2 of the factor by which the error falls when the value is halved). Tables without a time or with one
+# result lack that column. Columns of targets.csv: scene file, with several analyses `scene:analysis`; the setting to vary and its values; quantity;
+# channel (with *: the last that matches), or `modes/2` for the second frequency; time; target; scale of the relative error; largest error that the
+# tests accept (empty: none); order that the tests expect (empty: none).
 benchmark_tables() {
   local folder="$1" target scene analysis refine values value name
   while IFS=, read -r target refine values; do
@@ -163,10 +164,15 @@ benchmark_tables() {
       [ "$value" = - ] || settings+=(--set "$refine=$value")
       simulate "$out/$scene.scene.yaml" "$name" "${settings[@]}" || true
     done
-    printf '\n### %s\n%s\n\n| quantity | time | target | %s | error %% | order |\n| --- | --: | --: | %s | --: | --: |\n' \
+    local timed ordered=0
+    timed="$(awk -F, -v scene="$target" '$1 == scene && $6 != 0 { on = 1 } END { print on + 0 }' "$folder/targets.csv")"
+    [ "${#names[@]}" -lt 2 ] || ordered=1
+    printf '\n### %s\n%s\n\n| quantity |%s target | %s | error %% |%s\n| --- |%s --: | %s | --: |%s\n' \
       "$(awk '$1 == "scene:" { sub(/^scene: */, ""); print }' "$folder/$scene.scene.yaml")${analysis:+, $analysis}" \
       "$(awk '/^#/ { sub(/^# */, ""); print; next } { exit }' "$folder/$scene.scene.yaml")" \
-      "$([ -n "$values" ] && sed 's/ / | /g' <<<"$values" || printf 'ours')" "$(sed 's/[^ ]*/--:/g; s/ / | /g' <<<"${values:-x}")"
+      "$([ "$timed" = 0 ] || printf ' time |')" "$([ -n "$values" ] && sed 's/ / | /g' <<<"$values" || printf 'result')" \
+      "$([ "$ordered" = 0 ] || printf ' order |')" "$([ "$timed" = 0 ] || printf ' --: |')" \
+      "$(sed 's/[^ ]*/--:/g; s/ / | /g' <<<"${values:-x}")" "$([ "$ordered" = 0 ] || printf ' --: |')"
     awk -F, -v scene="$target" '$1 == scene { print $4 "," $5 "," $6 "," $7 "," $8 }' "$folder/targets.csv" |
       while IFS=, read -r quantity channel time target scale; do
         local results=()
@@ -179,11 +185,13 @@ benchmark_tables() {
           results+=("$(awk -F, -v t="$time" 'NR > 1 { d = $1 - t; if (d < 0) d = -d; if (NR == 2 || d < best) { best = d; y = $NF } }
             END { printf "%.9g", y }' "$out/channel.csv")")
         done
-        awk -v q="$quantity" -v t="$time" -v target="$target" -v scale="$scale" -v ours="${results[*]}" 'BEGIN {
+        awk -v q="$quantity" -v t="$time" -v target="$target" -v scale="$scale" -v ours="${results[*]}" \
+          -v timed="$timed" -v ordered="$ordered" 'BEGIN {
           n = split(ours, y, " ")
           for (i = 1; i <= n; i++) { e[i] = (y[i] - target) / scale; list = list " | " sprintf("%.7g", y[i]) }
           if (n > 1 && e[n] != 0 && e[n - 1] / e[n] > 1) order = sprintf("%.1f", log(e[n - 1] / e[n]) / log(2))
-          printf "| %s | %g | %.9g%s | %+.2g | %s |\n", q, t, target, list, 100 * e[n], order }'
+          printf "| %s |%s %.9g%s | %+.2g |%s\n", q, timed ? sprintf(" %g |", t) : "", target, list, 100 * e[n],
+            ordered ? sprintf(" %s |", order) : "" }'
       done
   done < <(awk -F, 'NR > 1 && !seen[$1]++ { print $1 "," $2 "," $3 }' "$folder/targets.csv")
 }
