@@ -1,5 +1,5 @@
 // The internal modes of a plate by each type of SLEPc's EPS, with one factor: columns solved, time, residual. The table of
-// docs/REDUCTION.md, "Eigenvalue solvers".
+// docs/PERFORMANCE.md, "Eigenvalue solvers".
 #include <cstdlib>
 #include <ctime>
 #include <exception>
