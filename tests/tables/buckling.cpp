@@ -77,9 +77,9 @@ Buckling loads of parts that are reduced to their ends or edges with m internal 
 S̄ + λ K_G becomes singular, with K_G = Σ y_j H_j and S̄ y the load. A further mode can only lower these loads. Half of the modes of slender beams belong to
 each plane. Plates and panels have 8 x 8 cells, and the translations of their edges are kept. "full" is the unreduced model of the same mesh.
 
-References: Euler; Haringx with shear, GA/2 (√(1 + 4 P_E/GA) − 1), for beams and solids; P_E/(1 + P_E/GA) for the box; Timoshenko and Gere 1961 (2.1 to 2.4,
-6.3, 9.2, 9.7) and Bulson 1970 for the strip and the square plates (4 under compression, 9.325 in shear). The shallow panel (R 20 b, t 0.01 b) has
-4 + E t b⁴/(4 π⁴ D R²) by Donnell's equations with one half wave.
+The references are Euler's loads, with shear where the table says so: after Haringx, GA/2 (√(1 + 4 P_E/GA) − 1), for beams and solids, P_E/(1 + P_E/GA) for
+the box. Strip and square plates (4 under compression, 9.325 in shear) follow Timoshenko and Gere 1961 (2.1 to 2.4, 6.3, 9.2, 9.7) and Bulson 1970. The
+shallow panel (R 20 b, t 0.01 b) has 4 + E t b⁴/(4 π⁴ D R²) by Donnell's equations with one half wave.
 
 | part | reference | m = 0 | 4 | 8 | 12 | full |
 | --- | --- | --: | --: | --: | --: | --: |

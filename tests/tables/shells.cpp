@@ -107,16 +107,15 @@ std::vector<Problem> straight_beam_problems() {
 
 Problem curved_beam_problem() {
   const std::vector<int> n{1, 4, 8, 16};
-  Problem problem{
-      "Curved beam",
-      "Displacement of the tip under unit loads. Radii 4.12 and 4.32, 90 degrees, t 0.1, E 1e7, nu 0.25. "
-      "Targets: in plane, the exact plane stress of a bar bent by a radial force at its end (Timoshenko and "
-      "Goodier, Theory of Elasticity, article 33); out of plane, [MH85] (read).",
-      meshes(n, 6, 1),
-      {},
-      "In plane, [MH85] prints 0.08734. This is 1.4 % below the exact 0.088566 and below beam theory, pi P "
-      "R^3/(4 E I) = 0.08853. Out of plane, beam theory without shear gives 0.5003, and torsion converges "
-      "slowly as in the straight beam."};
+  Problem problem{"Curved beam",
+                  "Displacement of the tip under unit loads. Radii 4.12 and 4.32, 90 degrees, t 0.1, E 1e7, nu 0.25. "
+                  "Target in plane: the exact plane stress of a bar bent by a radial force at its end (Timoshenko and "
+                  "Goodier, Theory of Elasticity, article 33). Target out of plane: [MH85] (read).",
+                  meshes(n, 6, 1),
+                  {},
+                  "In plane, [MH85] prints 0.08734. This is 1.4 % below the exact 0.088566 and below beam theory, pi P "
+                  "R^3/(4 E I) = 0.08853. Out of plane, beam theory without shear gives 0.5003, and torsion converges "
+                  "slowly as in the straight beam."};
   add_rows(problem, n,
            {{"in plane", 0.088566, [](const ShellMesh& m) { return curved_beam(m, TipLoad::in_plane); }},
             {"out of plane", 0.5022, [](const ShellMesh& m) { return curved_beam(m, TipLoad::out_of_plane); }}});
@@ -172,8 +171,8 @@ Problem simple_problem(Problem problem, const std::vector<int>& n, const Static&
 Problem slit_cylinder_problem() {
   Problem problem{
       "Slit cylinder under torque",
-      "Axial displacement of the slit, pi C, and circumferential displacement of the turned end, C L/R, with T "
-      "= 4 pi D (1 - nu) C/R; columns: cells around x along. R 300, L 900, t 3, E 3e6, nu 0.3, T 1000, slit "
+      "Axial displacement pi C of the slit and circumferential displacement C L/R of the turned end. The torque is "
+      "T = 4 pi D (1 - nu) C/R. Columns: cells around x along. R 300, L 900, t 3, E 3e6, nu 0.3, T 1000, slit "
       "along a generator. Targets: Morris, NAFEMS P12 (quoted by FinEtoolsFlexStructures, read), exact for a "
       "thin shell. The printed v = C x lacks 1/R.",
       meshes({1, 2, 4}, 16, 4),

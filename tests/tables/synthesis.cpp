@@ -147,10 +147,10 @@ std::string truss_table() {
   const Eigen::VectorXd as_nastran = testing::nastran_full_frequencies().segment(6, 20);
   const std::vector<double> full = elastic(nastran.at("full_model").get<std::vector<double>>());
   std::string text = R"(### Truss, frequencies
-Largest difference of the frequencies of a truss in two components (48 grids, 117 bars without shear, four boundary grids; pyYeti, BSD-3, commit
-034fb7b), one element per bar. `reducer` has the consistent mass. NASTRAN couples the mass of a bar along its axis by rho A L [5/12 1/12; 1/12 5/12] and
-has no rotary inertia about it; the rows "as NASTRAN" use that mass. Frequencies of NASTRAN were read (seven digits). Those of the independent
-program were computed.
+Largest difference of the frequencies of a truss in two components (48 grids, 117 bars without shear, four boundary grids; pyYeti, BSD-3, commit 034fb7b),
+one element per bar. `reducer` has the consistent mass. NASTRAN couples the mass of a bar along its axis by rho A L [5/12 1/12; 1/12 5/12] and has no
+rotary inertia about the axis. The rows "as NASTRAN" use that mass. Frequencies of NASTRAN were read (seven digits). Those of the independent program were
+computed.
 
 | component | modes | mass | compared with | largest difference [%] |
 | --- | --- | --- | --- | --: |
@@ -184,7 +184,7 @@ Laws synthesis_laws() {
             "A Craig-Bampton reduction has properties a) to e) exactly [CB68]; the bound f) is that of Elssel and "
             "Voss 2006. Twelve elastic modes of a free part with 0, 1, 4, 10, 20, 40 and all internal modes. Limits "
             "of a) to e): round-off. Limits of g) and h) (from memory): the estimate is right within a factor of 2, "
-            "frequencies within 1 %, MAC above 0.99 up to the cut-off divided by 1.5 to 2.",
+            "frequencies within 1 %, MAC above 0.99. They hold up to the cut-off divided by 1.5 to 2.",
             {{"a) squared frequencies below the full ones", frame, std::max(ritz.below_full, 0.0), 1e-10},
              {"a) growth when modes are added", frame, std::max(ritz.growth, 0.0), 1e-10},
              {"b) all modes kept: difference from the full model", frame, ritz.all_modes, 1e-9},
