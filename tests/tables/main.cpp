@@ -14,8 +14,8 @@ using namespace tisserand::tables;
 
 const char* const introduction = R"(# Verification of parts
 
-This page compares the elements and the reductions of `reducer` with exact and published results. `scripts/verification_tables` wrote it on {:%F} (40 s).
-The tests run the same problems on coarse meshes and fail beyond fixed limits.
+This page compares the elements and the reductions of `reducer` with exact and published results. The tests run the same problems on coarse meshes and
+fail beyond fixed limits. `scripts/verification_tables` wrote this page on {:%F} (one minute).
 
 Contents: [How to read the tables](#how-to-read-the-tables) · [Beams](#beams) · [Frequencies of plates and shells](#plates-and-shells-frequencies) ·
 [Statics of plates and shells](#plates-and-shells-statics) · [Component modes](#component-modes) · [Error of the mesh](#error-of-the-mesh) ·
