@@ -116,7 +116,8 @@ std::string counts(const std::vector<Judged>& judged) {
 
 /// The first of the warnings, or the error, without the name of the program.
 std::string first_message(const std::string& said) {
-  const std::string text = said.empty() ? "nothing" : said.substr(0, said.find("; "));
+  std::string text = said.empty() ? "nothing" : said.substr(0, said.find("; "));
+  while (text.ends_with(' ')) text.pop_back();
   return text.starts_with("mechanism: ") ? text.substr(11) : text;
 }
 
