@@ -146,52 +146,98 @@ split_scene() {
 }
 
 # benchmark_tables <folder with targets.csv>: runs every scene of the file with each value of `refine` and prints one table per scene: target, results,
-# error of the last result, and its order (log2 of the factor by which the error falls when the value is halved). Tables without a time or with one
-# result lack that column. Columns of targets.csv: scene file, with several analyses `scene:analysis`; the setting to vary and its values; quantity;
-# channel (with *: the last that matches), or `modes/2` for the second frequency; time; target; scale of the relative error; largest error that the
-# tests accept (empty: none); order that the tests expect (empty: none).
+# error of the last result, and its order (log2 of the factor by which the error falls when the value is halved). Scenes with one result each that
+# follow each other and have the same targets share a table. Tables without a time lack that column. Columns of targets.csv: scene file, with several
+# analyses `scene:analysis`; the setting to vary and its values; quantity; channel (with *: the last that matches), or `modes/2` for the second
+# frequency; time; target; scale of the relative error; largest error that the tests accept (empty: none); order that the tests expect (empty: none).
 benchmark_tables() {
-  local folder="$1" target scene analysis refine values value name
-  while IFS=, read -r target refine values; do
-    scene="${target%%:*}" analysis=""
-    [ "$scene" = "$target" ] || analysis="${target#*:}"
-    local names=()
-    for value in ${values:--}; do
-      name="${scene}${analysis:+_$analysis}_$value"
-      names+=("$name")
-      local settings=()
-      [ -z "$analysis" ] || settings+=(--analysis "$analysis")
-      [ "$value" = - ] || settings+=(--set "$refine=$value")
-      simulate "$out/$scene.scene.yaml" "$name" "${settings[@]}" || true
+  local folder="$1" group refine values target
+  while IFS=, read -r group refine values; do
+    local scenes titles=() timed
+    read -ra scenes <<<"$group"
+    for target in "${scenes[@]}"; do
+      run_refined "$target" "$refine" "$values"
+      titles+=("$(title_of "$folder" "$target")")
     done
-    local timed ordered=0
-    timed="$(awk -F, -v scene="$target" '$1 == scene && $6 != 0 { on = 1 } END { print on + 0 }' "$folder/targets.csv")"
-    [ "${#names[@]}" -lt 2 ] || ordered=1
-    printf '\n### %s\n%s\n\n| quantity |%s target | %s | error %% |%s\n| --- |%s --: | %s | --: |%s\n' \
-      "$(awk '$1 == "scene:" { sub(/^scene: */, ""); print }' "$folder/$scene.scene.yaml")${analysis:+, $analysis}" \
-      "$(awk '/^#/ { sub(/^# */, ""); print; next } { exit }' "$folder/$scene.scene.yaml")" \
-      "$([ "$timed" = 0 ] || printf ' time |')" "$([ -n "$values" ] && sed 's/ / | /g' <<<"$values" || printf 'result')" \
-      "$([ "$ordered" = 0 ] || printf ' order |')" "$([ "$timed" = 0 ] || printf ' --: |')" \
-      "$(sed 's/[^ ]*/--:/g; s/ / | /g' <<<"${values:-x}")" "$([ "$ordered" = 0 ] || printf ' --: |')"
-    awk -F, -v scene="$target" '$1 == scene { print $4 "," $5 "," $6 "," $7 "," $8 }' "$folder/targets.csv" |
-      while IFS=, read -r quantity channel time target scale; do
-        local results=()
-        for name in "${names[@]}"; do
-          if [ "${channel%%/*}" = modes ]; then
-            results+=("$(awk -v mode="${channel#*/}" '$1 == "no." { on = 1 } on && $1 == mode { print $2; exit }' "$out/$name.log")")
-            continue
-          fi
-          "$mechanism" export "$out/$name.results.h5" -c "$channel" -o "$out/channel.csv" >/dev/null
-          results+=("$(awk -F, -v t="$time" 'NR > 1 { d = $1 - t; if (d < 0) d = -d; if (NR == 2 || d < best) { best = d; y = $NF } }
-            END { printf "%.9g", y }' "$out/channel.csv")")
-        done
-        awk -v q="$quantity" -v t="$time" -v target="$target" -v scale="$scale" -v ours="${results[*]}" \
-          -v timed="$timed" -v ordered="$ordered" 'BEGIN {
-          n = split(ours, y, " ")
-          for (i = 1; i <= n; i++) { e[i] = (y[i] - target) / scale; list = list " | " sprintf("%.7g", y[i]) }
-          if (n > 1 && e[n] != 0 && e[n - 1] / e[n] > 1) order = sprintf("%.1f", log(e[n - 1] / e[n]) / log(2))
-          printf "| %s |%s %.9g%s | %+.2g |%s\n", q, timed ? sprintf(" %g |", t) : "", target, list, 100 * e[n],
-            ordered ? sprintf(" %s |", order) : "" }'
+    timed="$(awk -F, -v scene="${scenes[0]}" '$1 == scene && $6 != 0 { on = 1 } END { print on + 0 }' "$folder/targets.csv")"
+    printf '\n### %s\n' "$(printf '%s\n' "${titles[@]}" | awk 'NR == 1 { printf "%s", $0; head = $0; sub(/[^,]*$/, "", head) }
+      NR > 1 { printf ", %s", substr($0, 1, length(head)) == head ? substr($0, length(head) + 2) : $0 }')"
+    for target in "${scenes[@]}"; do
+      awk '/^#/ { sub(/^# */, ""); print; next } { exit }' "$folder/${target%%:*}.scene.yaml"
+    done
+    for target in "${scenes[@]}"; do rows_of "$folder" "$target" "$values"; done | benchmark_table "$timed" "$values" "${titles[@]}"
+  done < <(awk -F, 'NR > 1 { if (!seen[$1]++) order[++n] = $1; set[$1] = $2 "," $3; alike[$1] = alike[$1] $4 "," $6 "," $7 ";" }
+    END { for (i = 1; i <= n; i++) { s = order[i]
+      if (i > 1 && set[s] == "," && set[order[i - 1]] == "," && alike[s] == alike[order[i - 1]]) line = line " " s
+      else { if (i > 1) print line "," last; line = s; last = set[s] } } print line "," last }' "$folder/targets.csv")
+}
+
+# title_of <folder> <target>: the name of the scene, and its analysis if it has several
+title_of() {
+  printf '%s%s' "$(awk '$1 == "scene:" { sub(/^scene: */, ""); print }' "$1/${2%%:*}.scene.yaml")" "$([ "${2%%:*}" = "$2" ] || printf ', %s' "${2#*:}")"
+}
+
+# name_of_run <target> <value>
+name_of_run() { printf '%s_%s' "${1/:/_}" "$2"; }
+
+# run_refined <target> <refine> <values>: one run for each value, or one without
+run_refined() {
+  local value
+  for value in ${3:--}; do
+    local settings=()
+    [ "${1%%:*}" = "$1" ] || settings+=(--analysis "${1#*:}")
+    [ "$value" = - ] || settings+=(--set "$2=$value")
+    simulate "$out/${1%%:*}.scene.yaml" "$(name_of_run "$1" "$value")" "${settings[@]}" || true
+  done
+}
+
+# rows_of <folder> <target> <values>: quantity,time,target,scale,results of each value
+rows_of() {
+  awk -F, -v scene="$2" '$1 == scene { print $4 "," $5 "," $6 "," $7 "," $8 }' "$1/targets.csv" |
+    while IFS=, read -r quantity channel time target scale; do
+      local results=() value name
+      for value in ${3:--}; do
+        name="$(name_of_run "$2" "$value")"
+        if [ "${channel%%/*}" = modes ]; then
+          results+=("$(awk -v mode="${channel#*/}" '$1 == "no." { on = 1 } on && $1 == mode { print $2; exit }' "$out/$name.log")")
+          continue
+        fi
+        "$mechanism" export "$out/$name.results.h5" -c "$channel" -o "$out/channel.csv" >/dev/null
+        results+=("$(awk -F, -v t="$time" 'NR > 1 { d = $1 - t; if (d < 0) d = -d; if (NR == 2 || d < best) { best = d; y = $NF } }
+          END { printf "%.9g", y }' "$out/channel.csv")")
       done
-  done < <(awk -F, 'NR > 1 && !seen[$1]++ { print $1 "," $2 "," $3 }' "$folder/targets.csv")
+      printf '%s,%s,%s,%s,%s\n' "$quantity" "$time" "$target" "$scale" "${results[*]}"
+    done
+}
+
+# benchmark_table <timed> <values> <titles...>: the table of the rows on standard input. Several titles: the rows of each in turn, two columns each.
+benchmark_table() {
+  local timed="$1" values="$2"
+  shift 2
+  awk -F, -v timed="$timed" -v values="$values" -v titles="$(printf '%s;' "$@")" '
+    { row[++rows] = $0 }
+    END {
+      scenes = split(titles, title, ";") - 1
+      if (values != "") { heads = values; gsub(/ /, " | ", heads); heads = heads " | error % | order" }
+      else for (k = 1; k <= scenes; k++) {
+        sub(/^.*, /, "", title[k])
+        heads = heads (k > 1 ? " | " : "") (scenes > 1 ? title[k] : "result") " | error %"
+      }
+      head = "| quantity |" (timed ? " time |" : "") " target | " heads " |"
+      rule = head; gsub(/[^|]+/, " --: ", rule); sub(/--:/, "---", rule)
+      printf "\n%s\n%s\n", head, rule
+      each = rows / scenes
+      for (r = 1; r <= each; r++) {
+        for (k = 0; k < scenes; k++) {
+          split(row[r + k * each], cell, ","); n = split(cell[5], y, " ")
+          if (k == 0) text = sprintf("| %s |%s %.9g |", cell[1], timed ? sprintf(" %g |", cell[2]) : "", cell[3])
+          for (i = 1; i <= n; i++) { e[i] = (y[i] - cell[3]) / cell[4]; text = text sprintf(" %.7g |", y[i]) }
+          text = text sprintf(" %+.2g |", 100 * e[n])
+          order = ""
+          if (n > 1 && e[n] != 0 && e[n - 1] / e[n] > 1) order = sprintf("%.1f", log(e[n - 1] / e[n]) / log(2))
+          if (values != "") text = text sprintf(" %s |", order)
+        }
+        print text
+      }
+    }'
 }
