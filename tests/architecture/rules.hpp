@@ -65,6 +65,12 @@ std::vector<Violation> check_stories(const SourceTree& tree);
 /// No promises instead of code, no places of one machine, no typographic dashes and quotes, no stray blanks.
 std::vector<Violation> check_wording(const SourceTree& tree);
 
+/// Sentences of pages have at most 30 words; tables, code and formulas excepted.
+std::vector<Violation> check_sentences(const SourceTree& tree);
+
+/// Docstrings begin with a noun or a verb: none with "Of", "The same" or "As".
+std::vector<Violation> check_docstrings(const SourceTree& tree);
+
 /// Links of pages, and files that pages and comments name, exist; source keys such as [Car00] have a row in
 /// CONVENTIONS.md.
 std::vector<Violation> check_links(const SourceTree& tree);

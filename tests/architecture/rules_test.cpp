@@ -54,6 +54,8 @@ TEST_F(PlantedTree, IsCleanAtFirst) {
   EXPECT_EQ(to_text(check_stories(tree())), "");
   EXPECT_EQ(to_text(check_wording(tree())), "");
   EXPECT_EQ(to_text(check_links(tree())), "");
+  EXPECT_EQ(to_text(check_sentences(tree())), "");
+  EXPECT_EQ(to_text(check_docstrings(tree())), "");
 }
 
 struct Planted {
@@ -256,6 +258,23 @@ TEST_F(PlantedTree, FullRoomsAndLongStoriesAreFound) {
   EXPECT_EQ(to_text(check_stories(tree())), "");
   plant("mechanism/step/step.cpp", page + "\n");
   EXPECT_EQ(to_text(check_stories(tree())), "mechanism/step/step.cpp: 81 lines, a story has at most 80\n");
+}
+
+TEST_F(PlantedTree, LongSentencesAreFound) {
+  std::string words;
+  for (int i = 0; i < 29; ++i) words += "word" + std::string(i % 7 == 6 ? "\n" : " ");
+  plant("formats/PAGE.md", "# Title\n\nA " + words + ". Next " + words + ".\n\n| " + words + words + "|\n");
+  EXPECT_EQ(to_text(check_sentences(tree())), "");
+  plant("formats/PAGE.md", "# Title\n\n- One.\n- A `b c d` [two words](x.md) " + words + "\n");
+  EXPECT_THAT(to_text(check_sentences(tree())), HasSubstr("formats/PAGE.md:4: 33 words in a sentence, at most 30"));
+}
+
+TEST_F(PlantedTree, DocstringsWithoutNounAreFound) {
+  plant("common/a.hpp",
+        "#pragma once\n/// Of a beam.\nint f();\n/// Mass\n/// Of a beam.\nint g();\nint h;  ///< The same of h\n");
+  EXPECT_EQ(to_text(check_docstrings(tree())),
+            "common/a.hpp:2: a docstring begins with a noun or a verb\n"
+            "common/a.hpp:7: a docstring begins with a noun or a verb\n");
 }
 
 TEST_F(PlantedTree, WordingIsChecked) {

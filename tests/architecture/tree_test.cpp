@@ -41,6 +41,10 @@ TEST(Tree, StoriesFitOnAPage) { EXPECT_EQ(to_text(check_stories(this_tree())), "
 
 TEST(Tree, WordsAreKept) { EXPECT_EQ(to_text(check_wording(this_tree())), ""); }
 
+TEST(Tree, SentencesAreShort) { EXPECT_EQ(to_text(check_sentences(this_tree())), ""); }
+
+TEST(Tree, DocstringsBeginWithANoun) { EXPECT_EQ(to_text(check_docstrings(this_tree())), ""); }
+
 TEST(Tree, LinksLead) { EXPECT_EQ(to_text(check_links(this_tree())), ""); }
 
 }  // namespace
