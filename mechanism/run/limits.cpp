@@ -9,7 +9,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-constexpr double noted = 0.3, doubted = 0.5, refused = 0.7;  // rad; [SO] 6
+constexpr double noted = 0.3, doubted = 0.5, refused = 0.7;  // rad; docs/THEORY.md, section 8, Limits
 constexpr const char* remedy = "cut the part into several superelements";
 
 std::string lack_text(const RoadLack& lack, const Road& road, const std::string& unit) {

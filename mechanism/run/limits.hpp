@@ -12,7 +12,8 @@ namespace tisserand::mechanism {
 
 /// Largest angles of all superelements over the accepted states of a run. Of a cantilever of one body bent to a circle,
 /// turned by φ at its end (so that its nodes turn by φ/2 against the mean frame), the tip errs by 6.4e-5 of the length
-/// at φ = 0.4, 9.5e-4 at 0.8 and 4.3e-3 at 1.2 with second order; without, by 6.7e-3, 2.7e-2 and 5.9e-2 ([SO] 6).
+/// at φ = 0.4, 9.5e-4 at 0.8 and 4.3e-3 at 1.2 with second order; without, by 6.7e-3, 2.6e-2 and 5.9e-2
+/// (docs/MECHANISM_VERIFICATION.md, "Second order: error over angle and deflection").
 class FrameAngles {
  public:
   explicit FrameAngles(const Model& model) : seen_(model.superelements.size()) {}

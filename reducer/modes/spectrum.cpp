@@ -253,7 +253,7 @@ EigenSolver choose_solver(Eigen::Index size, int count, const formats::ModeSelec
     case formats::EigenSolverChoice::automatic:
       break;
   }
-  // Measured: all modes by LAPACK cost less than the iteration from two fifths of the spectrum on (docs/REDUCTION.md).
+  // All modes by LAPACK cost less than the iteration from two fifths of the spectrum on (docs/PERFORMANCE.md).
   const bool small = size <= 200 || (size <= 4000 && 5 * (count + 8) > 2 * size);
   if (small) return EigenSolver::lapack;
   return has_block_lanczos() ? EigenSolver::block_lanczos : EigenSolver::krylov_schur;

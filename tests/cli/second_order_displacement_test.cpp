@@ -99,8 +99,8 @@ class SecondOrderDisplacement : public ::testing::Test {
 };
 
 // Without it the middle is off along the clamp by 0.064 θ² (frame of the base). What is left along is an eightieth of
-// that at 0.1 rad (five thicknesses of deflection), and of third order: the run itself errs so (docs/SECOND_ORDER.md,
-// section 6).
+// that at 0.1 rad (five thicknesses of deflection), and of third order: the run itself errs so
+// (docs/MECHANISM_VERIFICATION.md, "Parts under load").
 TEST_F(SecondOrderDisplacement, OfACantileverIsThatOfTheArc) {
   reduce();
   for (const char* frame :

@@ -418,7 +418,7 @@ TEST(SecondOrderReduction, PartsThatCannotDeformHaveNone) {
   EXPECT_TRUE(reducer::wants_second_order(part, element));
 }
 
-// The shares are those of docs/SECOND_ORDER.md, section 6 (test DoubleCurvature).
+// The shares are those of docs/MECHANISM_VERIFICATION.md, "Parts under load" (test DoubleCurvature).
 TEST(SecondOrderReduction, NotesOfShellsSayFromWhichDeflectionOnTheyErr) {
   formats::Part part;
   Superelement element;

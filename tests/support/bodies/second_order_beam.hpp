@@ -26,7 +26,7 @@ struct BernoulliBeam {
 };
 BernoulliBeam bernoulli_beam(const SectionData& section, double length, int elements);
 
-/// K_G of the stress of w: [SO] 2.1, four Gauss points.
+/// K_G of the stress of w: THEORY (82), four Gauss points.
 Eigen::MatrixXd geometric_stiffness(const BernoulliBeam& beam, const Eigen::VectorXd& w);
 
 /// Reduced to the nodes `kept` (indices, of all elements + 1) and `modes`, the weights equal.
