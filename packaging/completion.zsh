@@ -1,5 +1,6 @@
 #compdef mechanism reducer
 # Completion of mechanism and reducer for zsh. It asks the one for bash, which asks the programs: three shells, one list.
+# bashcompinit would run the bash code in zsh, which has neither mapfile nor compopt.
 local engine="${${(%):-%x}:A:h:h:h}/bash-completion/completions/${words[1]:t}"
 local -a found
 found=("${(@f)$(command bash -c 'source "$1" && COMP_CWORD="$2" && shift 2 && COMP_WORDS=("$@") &&

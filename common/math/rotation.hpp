@@ -1,7 +1,7 @@
 // Rotations: skew matrices, exponential, logarithm and their tangents on SO(3), for every scalar that kernels use.
 //
 // Conventions (CONVENTIONS.md): R maps body axes to world axes; increments are material (right): δR = R skew(δΘ),
-// Ṙ = R skew(Ω). Source key [Car00] with the corrections of DECISIONS.md.
+// Ṙ = R skew(Ω). Source key [Car00] with the corrections of docs/THEORY.md, sections 3 to 5.
 #pragma once
 
 #include <cmath>

@@ -37,7 +37,7 @@ std::vector<Block> mode_blocks(const ResultsLayout& layout);
 
 /// Which nodes the selection layout.channels stores: all, or, where entries name single ones
 /// ("nodes/position/arm/tip"), the union of these; an entry means a node by either of its names. Throws Error for an
-/// entry that means none.
+/// entry that means none. One union for all datasets, because they share /nodes/name.
 std::vector<bool> chosen_nodes(const ResultsLayout& layout, const std::string& where);
 
 /// Finds out what is wrong with an entry of a selection, or nothing: {what, remedy}.

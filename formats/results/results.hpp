@@ -18,6 +18,7 @@ struct ResultsLayout {
   std::string producer;
   Units units;
   std::vector<std::string> nodes;
+  /// A second name, not a second column: columns would be stored twice and match every pattern twice.
   struct Alias {
     std::string name;  ///< "rod/end"
     int node = 0;      ///< the one of `nodes` that it means

@@ -42,6 +42,7 @@ struct Section {
   double warping_constant = 0.0;   ///< about the shear centre; for reports, no element uses it
   std::string shape = {};          ///< word of PART.md with which `sizes` made the constants; empty: by constants
   std::vector<double> sizes = {};  ///< in the order of the table in PART.md
+  /// EA, GA, EI and GJ stand for the constants, with E = G = 1. A made-up material would tie the rotary inertia to EI.
   bool by_stiffness = false;
   double mass_per_length = 0.0;   ///< of a section by stiffness, as the next two: rotary inertias per length
   double rotary_inertia_y = 0.0;  ///< about y: ∫ρ z² dA

@@ -17,7 +17,8 @@ namespace tisserand::mechanism {
 std::string name_of_direction(const Model& model, const State& state, const Eigen::VectorXd& xi,
                               Evaluation& evaluation);
 
-/// Throws Error that names what is free: flexible bodies, or joint coordinates that nothing drives.
+/// Throws Error that names what is free: flexible bodies, whose deformation no drive prescribes, or joint coordinates
+/// that nothing drives.
 void require_determined(const Model& model, const Mobility& mobility, const std::string& where, const State& state,
                         Workspace& workspace);
 

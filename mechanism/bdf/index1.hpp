@@ -39,7 +39,7 @@ class Index1 {
   [[nodiscard]] bool try_accelerate();
   /// The same; Error where it does not converge.
   void accelerate();
-  /// ẏ for the state that was loaded from y and accelerated.
+  /// ẏ for the state that was loaded from y and accelerated. ṗ = ½ Lᵀ Ω keeps |p|, without a constraint per node.
   void rates(const double* y, double* ydot) const;
   /// Positions, then velocities of the state onto the constraints, in the mass norm. False if it does not converge.
   bool project();

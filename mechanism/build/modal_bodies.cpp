@@ -148,6 +148,7 @@ std::string beyond_reference(const ReferenceModel& model, const MatrixXd& held) 
   return join(texts, ", ");
 }
 
+/// Both frequencies are Rayleigh-Ritz bounds in nested spaces, so their difference is no artefact.
 std::string too_stiff(const ReferenceModel& model, const MatrixXd& held, const HeldFrequencies& found,
                       const Units& units) {
   const double to_hertz = 1.0 / (2.0 * std::numbers::pi * model.units.time);

@@ -80,7 +80,8 @@ double cubic_share(double r) { return (12.0 / (pi * pi) - 1.0) * std::abs(r) / (
 
 /// What an axial force of r times the buckling load of a piece (tension positive) leaves out of the stiffness of a beam
 /// of n of them. All of it for one; the turning chords of n pieces carry it but for the part (π/n)²/12 that bends
-/// within the pieces, and tension stiffens the beam by n² r beside its own.
+/// within the pieces, and tension stiffens the beam by n² r beside its own. A limit on the force of each piece alone
+/// would report a four-bar of eight pieces at r = 0.25, which errs by 1 %.
 double missing_share(double r, int pieces) {
   if (pieces == 1) return std::abs(r);
   return pi * pi / 12.0 * std::abs(r) / (1.0 + pieces * pieces * std::max(0.0, r));

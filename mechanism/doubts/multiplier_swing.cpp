@@ -84,7 +84,8 @@ class MultiplierSwing : public Doubt {
 };
 
 /// Reactions that vibrate with flexible bodies which nothing damps. Where vibrations of few steps per period make the
-/// largest reactions, peaks depend on the step: its numerical damping and the phases of what excites them anew.
+/// largest reactions, peaks depend on the step: its numerical damping and the phases of what excites them anew. A
+/// driven parallelogram had 424 to 16 326 N with three steps, and 349 to 353 N with 5 % of damping.
 class ReactionVibration : public Doubt {
  public:
   explicit ReactionVibration(std::string body) : body_(std::move(body)) {}

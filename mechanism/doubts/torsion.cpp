@@ -20,7 +20,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using formats::InertiaOption;
 
-/// A tenth of a stiffness, as for axial forces (EN 1993-1-1, 5.2.1 (3)).
+/// A tenth of a stiffness, as for axial forces (EN 1993-1-1, 5.2.1 (3)). Two halves of a 10 m blade at 6 rad/s turn
+/// over from round-off within 40 s at 2.8 and 1.2 of their stiffness. At 0.84 and 0.28 they stay in their plane.
 constexpr double most_moment = 0.1;
 /// Of spins that are measured anew; between them the moments grow with the square of the spin.
 constexpr double growth = 1.5;

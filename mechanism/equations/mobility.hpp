@@ -27,7 +27,7 @@ struct Mobility {
   std::vector<std::string> locked;  ///< joints of loops that cannot move although nothing drives them
 };
 
-/// Rank of B by a rank-revealing QR (rotations scaled with the characteristic length; up to 400 rows dense, above
+/// Rank of B by a rank-revealing QR (rotations scaled with the characteristic length; up to 150 rows dense, above
 /// sparse), and that of B on the motions of rigid parts.
 Mobility count_mobility(const Model& model, const State& state, Evaluation& evaluation);
 

@@ -26,6 +26,7 @@ void accept(const Model& model, double step, const Evaluation& now, Dissipation&
 }  // namespace
 
 void settle(const Model& model, const Evaluation& now, State& state) {
+  // A length off by ε would be off by ε tan²(θ/2) after a step: beyond a quarter of a turn that grows without bound.
   auto Q = state.Q();
   for (Eigen::Index i = 0; i < Q.cols(); ++i) Q.col(i).normalize();
   auto frames = state.frames();

@@ -51,8 +51,8 @@ void make_all_parts(const Campaign& campaign, const std::vector<Cell>& cells);
 /// Runs a cell once more and reads its quantities, for files that need its history. Throws Error.
 std::vector<Series> histories_of(const Campaign& campaign, const Cell& cell);
 
-/// Runs what the journal lacks: one at a time where times count, else over the cores. Ends early when interrupted or
-/// when the budget of the whole is spent. Throws Error if a part cannot be made.
+/// Runs what the journal lacks: one at a time where times count, else over the cores. Ends early when interrupted.
+/// Throws Error if a part cannot be made.
 void run_cells(Campaign& campaign, const std::vector<Cell>& cells, const ReferenceHistories& reference);
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,5 @@
-// Planes, cylinders, cones, spheres and tori through points of a face: what `reducer groups` says of it.
+// Planes, cylinders, cones, spheres and tori through points of a face: what `reducer groups` says of it. One fit serves
+// CAD files, meshes and decks: gmsh knows no axes and calls many cylinders "BSpline surface".
 #pragma once
 
 #include <vector>

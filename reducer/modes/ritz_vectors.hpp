@@ -58,7 +58,7 @@ MomentSpace moment_space(const InternalProblem& problem, const BoundaryModes& bo
 /// modes v of the free part; with the static modes of the boundary and the inertia relief of the six rigid
 /// accelerations the space holds them and the residual flexibility exactly. Internal vectors: v_I − Ψ v_B and S_II⁻¹ X
 /// R_B, Rayleigh-Ritz. Rubin (and Craig-Chang) takes the whole mass, MacNeal that of rigid motions and kept modes
-/// alone, M̄ = M v vᵀ M.
+/// alone, M̄ = M v vᵀ M. The textbooks' matrices would invert the residual flexibility, which may be singular.
 InternalModes free_boundary_vectors(const InternalProblem& problem, const BoundaryModes& boundary,
                                     const formats::ModeSelection& selection);
 
