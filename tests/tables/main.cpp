@@ -19,7 +19,8 @@ fail beyond fixed limits. `scripts/verification_tables` wrote this page on {:%F}
 
 Contents: [How to read the tables](#how-to-read-the-tables) · [Beams](#beams) · [Frequencies of plates and shells](#plates-and-shells-frequencies) ·
 [Statics of plates and shells](#plates-and-shells-statics) · [Component modes](#component-modes) · [Error of the mesh](#error-of-the-mesh) ·
-[Buckling and preload](#buckling-and-preload) · [Recovered stress](#recovered-stress) · [Recovered displacement](#recovered-displacement)
+[Buckling and preload](#buckling-and-preload) · [Recovered stress](#recovered-stress) · [Recovered displacement](#recovered-displacement) ·
+[Recovered fields](#recovered-fields)
 
 ## How to read the tables
 
