@@ -136,7 +136,7 @@ std::vector<KeySet> integrator_key_sets() {
         plain<&IntegratorSpec::constraint_tolerance>(
             "constraint_tolerance", "positive",
             "largest violation of a constraint, relative to the characteristic length (its rate: to that length over "
-            "the step). Lower where a step moves little: 10 `tolerance` × step² × largest acceleration, down to "
+            "the step). Lower where a step moves little: 5 `tolerance` × step² × largest acceleration, down to "
             "round-off"),
         plain<&IntegratorSpec::max_iterations>("max_iterations", "count",
                                                "largest number of Newton iterations per step"),
