@@ -1,4 +1,4 @@
-// Numbers of a scene that look like slips of the pen or of units (the table "Numbers that are doubted" in SCENE.md).
+// Numbers of a scene that look like slips of the pen or of units (the table "Plausibility checks" in SCENE.md).
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Numbers of a part that hardly can be meant (PART.md, "Numbers that are doubted").
+// Numbers of a part that hardly can be meant (PART.md, "Plausibility checks").
 #pragma once
 
 #include <string>
