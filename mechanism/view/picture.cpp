@@ -10,9 +10,9 @@
 #include "common/base64.hpp"
 #include "common/error.hpp"
 #include "common/output_path.hpp"
-#include "common/program/picture_mark.hpp"
 #include "common/program/version.hpp"
 #include "common/text.hpp"
+#include "formats/page/picture_mark.hpp"
 #include "formats/results/results.hpp"
 #include "mechanism/view/browser.hpp"
 
@@ -159,7 +159,7 @@ std::string picture(const PictureRequest& request) {
     throw Error("nothing is to be seen in the picture: no body is in view", request.output,
                 "see --view, --zoom, --exaggerate, --follow and --hide; `mechanism view` shows where the bodies are");
   TISSERAND_ENSURE(png.starts_with("\x89PNG"), "the page gave {} bytes that are no PNG", png.size());
-  write_text_file(request.output, with_producer(png, producer("mechanism")));
+  write_text_file(request.output, formats::with_producer(png, producer("mechanism")));
   return fmt::format("picture: {} ({} x {} pixels, {:.0f} kB)\n", request.output, request.size[0], request.size[1],
                      1e-3 * static_cast<double>(png.size()));
 }

@@ -12,9 +12,9 @@
 #include "common/error.hpp"
 #include "common/gnuplot.hpp"
 #include "common/output_path.hpp"
-#include "common/program/picture_mark.hpp"
 #include "common/program/version.hpp"
 #include "common/text.hpp"
+#include "formats/page/picture_mark.hpp"
 #include "reducer/survey/labels.hpp"
 #include "reducer/survey/page.hpp"
 #include "reducer/survey/pieces.hpp"
@@ -172,8 +172,9 @@ void draw_picture(const Survey& survey, const std::vector<FacePiece>& pieces, co
   const std::array<std::string, 4> texts{
       title, "from the front, right and above", "from behind, left and below",
       missing.empty() ? "" : "hidden in both views, or too small: " + listed(missing)};
-  write_text_file(output, with_producer(gnuplot_picture(faces_script(panels, texts, output.ends_with(".svg")), output),
-                                        producer("reducer")));
+  write_text_file(output,
+                  formats::with_producer(gnuplot_picture(faces_script(panels, texts, output.ends_with(".svg")), output),
+                                         producer("reducer")));
 }
 
 }  // namespace

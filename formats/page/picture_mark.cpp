@@ -1,10 +1,10 @@
-#include "common/program/picture_mark.hpp"
+#include "formats/page/picture_mark.hpp"
 
 #include <cstdint>
 
 #include <zlib.h>
 
-namespace tisserand {
+namespace tisserand::formats {
 namespace {
 
 /// Big-endian bytes, as PNG has them.
@@ -42,4 +42,4 @@ std::string with_producer(std::string picture, const std::string& producer) {
   return picture;
 }
 
-}  // namespace tisserand
+}  // namespace tisserand::formats
