@@ -1,4 +1,4 @@
-// Three bytes are four letters of six bits each.
+// Encoder and decoder of Base64: three bytes become four letters of six bits each.
 #include "common/base64.hpp"
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Bytes as text (RFC 4648).
+// Base64: bytes written as text (RFC 4648).
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace tisserand {
 
 std::string base64(const std::string& bytes);
 
-/// Back, to the first character that is none of its letters.
+/// Bytes that the text encodes, up to the first character outside the alphabet.
 std::string base64_decoded(std::string_view text);
 
 }  // namespace tisserand

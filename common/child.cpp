@@ -1,4 +1,4 @@
-// Fork, exec, wait.
+// Starts a child process (fork, exec), waits for it and reads its output.
 #include "common/child.hpp"
 
 #include <fcntl.h>
@@ -36,7 +36,7 @@ struct FileCloser {
 };
 using TemporaryFile = std::unique_ptr<std::FILE, FileCloser>;
 
-/// Not inherited by other children that threads start meanwhile.
+/// Temporary file that other children, started meanwhile by other threads, do not inherit.
 TemporaryFile temporary_file(const std::string& program) {
   TemporaryFile file(std::tmpfile());
   if (!file || ::fcntl(fileno(file.get()), F_SETFD, FD_CLOEXEC) != 0)
@@ -53,7 +53,7 @@ std::string content(std::FILE* file, std::size_t most) {
   return text;
 }
 
-/// A descriptor that is closed in other children, out of the way of those that a child gets.
+/// Descriptor closed at exec. Its number is at least 10, so it does not collide with descriptors 0 to 4 of a child.
 class Descriptor {
  public:
   Descriptor() = default;
@@ -74,7 +74,7 @@ class Descriptor {
   int number_ = -1;
 };
 
-/// Both ends of what `talk` speaks through.
+/// Both ends of the socket that `talk` uses.
 struct Line {
   Descriptor own, child;
 };
@@ -87,7 +87,7 @@ void open_line(Line& line, const std::string& program) {
   line.child = Descriptor(ends[1]);
 }
 
-/// In the child: only calls that are safe between fork and exec of a program with threads.
+/// Turns the child into the program. Calls only functions that are safe between fork and exec with threads.
 [[noreturn]] void become(char* const* words, const std::array<int, 3>& streams, int line, int complaint, pid_t parent) {
   complaint = ::fcntl(complaint, F_DUPFD_CLOEXEC, 10);
   for (int k = 0; k < 3; ++k) ::dup2(streams[k], k);
@@ -118,7 +118,7 @@ pid_t start(const ChildRequest& request, const std::array<int, 3>& streams, int 
               number == ENOENT ? "install it, or name the folder that holds it on the PATH" : remedy_of_errno(number));
 }
 
-/// Waits until the child ends or must end; the latter is then asked for.
+/// Waits until the child ends. Terminates it if its time is over or the request stops it.
 ChildEnding watch(const ChildRequest& request, pid_t child) {
   const auto begin = Clock::now();
   const auto seconds = [&begin] { return std::chrono::duration<double>(Clock::now() - begin).count(); };

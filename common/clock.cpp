@@ -1,4 +1,4 @@
-// The steady clock of the library, and that of the system for processor time.
+// Reads the steady clock of the library and the processor time of the system.
 #include "common/clock.hpp"
 
 #include <chrono>

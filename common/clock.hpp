@@ -3,10 +3,10 @@
 
 namespace tisserand {
 
-/// Seconds since some instant, never set back.
+/// Seconds since a fixed instant; never decreases.
 double wall_clock();
 
-/// Seconds of the processor that this process has used, all threads together.
+/// Processor time of this process, summed over all threads [s].
 double processor_clock();
 
 }  // namespace tisserand

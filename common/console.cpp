@@ -1,4 +1,4 @@
-// Standard output of the programs.
+// Output and error messages on the terminal.
 #include "common/console.hpp"
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// Text forms of errors.
+// Text of single and merged errors.
 #include "common/error.hpp"
 
 #include <cstdio>
@@ -11,7 +11,7 @@ Error::Error(std::string what, std::string where, std::string remedy)
   if (!where_.empty()) text_ += where_ + ": ";
   text_ += message_;
   if (!remedy_.empty()) text_ += "; " + remedy_;
-  // what() ends at a byte 0.
+  // what() ends at the first zero byte.
   for (std::size_t at = text_.find('\0'); at != std::string::npos; at = text_.find('\0', at))
     text_.replace(at, 1, "\\x00");
 }

@@ -1,4 +1,4 @@
-// The one exception of Tisserand: a fault of the input or of the world, told to the user once in main().
+// The exception type of Tisserand: a fault of the input or the system, which main() reports once.
 #pragma once
 
 #include <exception>
@@ -9,8 +9,8 @@
 
 namespace tisserand {
 
-/// The user's fault or the world's: what is wrong (quantity and value), where (file:line:column, dataset, node) and
-/// what to do about it. Text form: "where: what; remedy".
+/// Fault of the input or the system: what is wrong (quantity and value), where (file:line:column, dataset, node) and
+/// how to correct it. Text: "where: what; remedy".
 class Error : public std::exception {
  public:
   Error(std::string what, std::string where, std::string remedy);
@@ -27,15 +27,15 @@ class Error : public std::exception {
   std::string text_;
 };
 
-/// Several errors of one input, reported in one go: the text is one line per error.
+/// One error that joins several errors of one input, one line each.
 Error merge_errors(const std::vector<Error>& errors);
 
-/// Our fault: prints the text with file and line and aborts. Use through TISSERAND_ENSURE.
+/// Reports a fault of the program: prints the text with file and line and aborts. Use it through TISSERAND_ENSURE.
 [[noreturn]] void ensure_failed(const char* condition, const char* file, int line, const std::string& values);
 
 }  // namespace tisserand
 
-/// An invariant of the program itself; `...` is a fmt format string with the values to print. On in every build.
+/// Checks an invariant of the program, in every build. `...` is a fmt format string with the values to print.
 #define TISSERAND_ENSURE(condition, ...)                                                      \
   do {                                                                                        \
     if (!(condition)) [[unlikely]]                                                            \

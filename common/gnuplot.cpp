@@ -1,4 +1,4 @@
-// A script on gnuplot's standard input, the picture from its standard output.
+// Sends a script to the standard input of gnuplot and reads the picture from its standard output.
 #include "common/gnuplot.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace tisserand {
 
 std::string gnuplot_quoted(const std::string& text) {
-  // gnuplot 5.4 takes '' for an apostrophe, but not at the beginning of a text, nor alone.
+  // gnuplot 5.4 reads '' as an apostrophe, except at the beginning of a string or alone.
   std::string quoted = "'";
   for (const char c : printable_line(text, 1000)) {
     if (c == '\'')

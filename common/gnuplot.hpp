@@ -5,16 +5,16 @@
 
 namespace tisserand {
 
-/// A gnuplot string in single quotes, in which nothing is expanded, joined with apostrophes; control characters become visible.
+/// String for gnuplot in single quotes, where it expands nothing. Control characters become visible.
 std::string gnuplot_quoted(const std::string& text);
 
-/// Range and ticks of a logarithmic `axis` (x or y) from `low` to `high`, both positive, as lines of a script: ticks at 1, 2
-/// and 5 times powers of ten where powers alone would be few.
+/// Lines of a script for the range and ticks of a logarithmic `axis` (x or y) from `low` to `high`, both positive.
+/// Ticks are at 1, 2 and 5 times powers of ten where powers alone would be few.
 std::string gnuplot_logarithmic_axis(const char* axis, double low, double high);
 
-/// The picture that gnuplot makes of `script`, whose terminal is pngcairo, svg or pdfcairo, with no output set: no name
-/// of a file reaches gnuplot, which would run "|command". `where`: what messages name. Throws Error: no gnuplot,
-/// gnuplot's own message, a picture that is cut short.
+/// Picture that gnuplot draws from `script` (terminal pngcairo, svg or pdfcairo, no output set). No file name reaches
+/// gnuplot, which would run "|command". `where` begins the messages. Throws Error if gnuplot is missing or fails, or
+/// if the picture is incomplete.
 std::string gnuplot_picture(const std::string& script, const std::string& where);
 
 }  // namespace tisserand

@@ -1,4 +1,4 @@
-// The handler wakes a thread by a pipe: it may take locks and write, a handler may not.
+// The signal handler wakes a thread through a pipe. That thread may take locks and write, a handler may not.
 #include "common/interrupts.hpp"
 
 #include <fcntl.h>
@@ -16,7 +16,7 @@ namespace tisserand {
 namespace {
 
 constexpr int exit_interrupted = 130;
-std::array<int, 2> ends{-1, -1};  // of the pipe
+std::array<int, 2> ends{-1, -1};  // ends of the pipe
 
 void wake(int /*signal*/) {
   const int before = errno;

@@ -1,4 +1,4 @@
-// Looks at the place of an output before the work for it begins.
+// Checks the path of an output before the work for it begins.
 #include "common/output_path.hpp"
 
 #include <unistd.h>
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view hdf5_signature{"\x89HDF\r\n\x1a\n", 8};
 
-/// Empty files and files that cannot be read are nobody's loss, or are reported when they are written.
+/// Whether `path` is a file other than HDF5. Empty and unreadable files do not count: writing reports the latter.
 bool is_of_another_kind(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string head(hdf5_signature.size(), '\0');
@@ -39,7 +39,7 @@ void require_folder(const std::string& path) {
               remedy_of_errno(number));
 }
 
-/// Endings of this project's files, where one stands for a kind.
+/// Endings of two parts, each of which marks one kind of file of this project.
 constexpr std::array<std::string_view, 8> own_endings{".superelement.h5",  ".companion.h5",    ".recovery.h5",
                                                       ".modal.h5",         ".checkpoint.h5",   ".results.h5",
                                                       ".certificate.json", ".certificate.html"};

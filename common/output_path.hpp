@@ -1,4 +1,4 @@
-// Between the command line and the work: whether a file may be written, asked before anything is computed or lost.
+// Checks of output paths from the command line, made before anything is computed or lost.
 #pragma once
 
 #include <string>
@@ -6,17 +6,17 @@
 
 namespace tisserand {
 
-/// Throws Error if `path` is empty, a folder, in a folder that is missing or not writable, one of the `inputs` of the
-/// same command, or has none of the `endings` (".csv", ".results.h5"). A name that ends in ".companion.h5" is that of
-/// a companion file, and does not count as ".h5". Where the output is HDF5,
-/// a device and an existing file of another kind are errors, too. Elsewhere "-" and devices are streams.
+/// Throws Error if `path` is empty, a folder, in a missing or unwritable folder, one of the `inputs` of the command,
+/// or has none of the `endings` (".csv", ".results.h5"). ".companion.h5" and the other double endings of this project
+/// do not count as ".h5". For HDF5 output, a device and an existing file of another kind are errors too. For other
+/// output, "-" and devices are streams.
 void require_output(const std::string& path, const std::vector<std::string>& endings,
                     const std::vector<std::string>& inputs);
 
-/// `path` without the first of these endings that it has and more than that; the whole path if it has none.
+/// `path` without the first of these endings that it has; the whole path if none fits or nothing would be left.
 std::string without_ending(const std::string& path, const std::vector<std::string>& endings);
 
-/// Whether text written to `path` goes through it rather than into it: -, /dev/stdout, a device, a pipe.
+/// Whether text for `path` is streamed instead of stored in a file: -, /dev/stdout, a device, a pipe.
 bool is_stream(const std::string& path);
 
 }  // namespace tisserand

@@ -1,4 +1,4 @@
-// Work on consecutive shares of a range, one share per thread: for loops over elements and nodes.
+// Loops over a range in consecutive shares, one share per thread.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 
 namespace tisserand {
 
-/// Cores of this machine, at most 16: more do not help loops bound by memory.
+/// Number of cores of this machine, at most 16: more do not speed up loops limited by memory.
 inline int core_count() { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 16); }
 
-/// The share of `count` items with which thread `share` of `shares` works.
+/// Consecutive part of `count` items that thread `share` of `shares` processes.
 struct Share {
   int first = 0;
   int end = 0;
@@ -21,8 +21,8 @@ inline Share share_of(int count, int share, int shares) {
   return {at(share), at(share + 1)};
 }
 
-/// work(k) for k = 0 ... threads − 1, each on a thread of its own; waits for all. The exception of the lowest k that
-/// threw one is thrown again.
+/// Runs work(k) for k = 0 ... threads − 1, each on its own thread, and waits for all. If several throw, the exception
+/// of the lowest k is rethrown.
 template <class Work>
 void on_threads(int threads, const Work& work) {
   std::vector<std::exception_ptr> failure(static_cast<std::size_t>(threads));
@@ -42,7 +42,7 @@ void on_threads(int threads, const Work& work) {
     if (f) std::rethrow_exception(f);
 }
 
-/// work(t, k) for all k below `count`, a share of them on each thread t.
+/// Runs work(t, k) for all k below `count`, where each thread t processes one share of them.
 template <class Work>
 void share_out(int count, int threads, const Work& work) {
   on_threads(threads, [&](int t) {

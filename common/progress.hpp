@@ -1,4 +1,4 @@
-// A line on standard error while something takes longer than a second.
+// A progress line on standard error for work that takes longer than a second.
 #pragma once
 
 #include <cstdio>
@@ -7,21 +7,21 @@
 
 namespace tisserand {
 
-/// Where progress goes and by which clock [s].
+/// Stream of the progress lines, and the clock that times them [s].
 struct ProgressOutput {
   std::FILE* stream;
-  bool terminal;  ///< one line rewritten ten times a second; else a line of its own every ten seconds
+  bool terminal;  ///< true: one line, redrawn ten times a second; false: a new line every ten seconds
   std::function<double()> clock;
 };
 
-/// Standard error and the steady clock.
+/// Output to standard error with the steady clock.
 ProgressOutput standard_progress();
 
-/// Silent during the first second. update() costs one look at the clock; call it at most every few microseconds.
+/// Progress display, silent in the first second. update() reads the clock: call it at most every few microseconds.
 ///   running: 42 %, t = 1.2 s, 3 s gone, 4 s to go
 class Progress {
  public:
-  /// `total` <= 0: unknown, no per cent.
+  /// `total` <= 0 means unknown: no percentage is shown.
   Progress(std::string name, double total);
   Progress(std::string name, double total, ProgressOutput output);
   ~Progress();
@@ -29,8 +29,8 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void update(double done, const std::string& text);
-  /// Removes the line from a terminal; says the time it took elsewhere, if anything was said before. What ends without
-  /// it is not done.
+  /// Removes the line from a terminal. In other streams, prints the elapsed time if a line was printed before. Without
+  /// this call the work does not count as done.
   void finish();
 
  private:

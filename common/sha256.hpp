@@ -1,4 +1,4 @@
-// SHA-256 of byte sequences: identity of superelements (content_id) and of inputs.
+// SHA-256 of byte sequences, which identifies superelements (content_id) and inputs.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace tisserand {
 
-/// Running SHA-256 (FIPS 180-4). add() in any pieces, then hex() once.
+/// Incremental SHA-256 (FIPS 180-4): add() any number of times, then hex() once.
 class Sha256 {
  public:
   Sha256();
@@ -16,7 +16,7 @@ class Sha256 {
   Sha256& operator=(const Sha256&) = delete;
 
   void add(const void* data, std::size_t bytes);
-  /// 64 lower-case hexadecimal digits; ends the computation.
+  /// 64 lower-case hexadecimal digits. Ends the computation.
   std::string hex();
 
  private:
@@ -27,7 +27,7 @@ class Sha256 {
 /// SHA-256 of a text, 64 lower-case hexadecimal digits.
 std::string sha256_hex(const std::string& bytes);
 
-/// The same of a file; empty if it is no file that can be read.
+/// SHA-256 of a file, 64 lower-case hexadecimal digits. Empty if the file cannot be read.
 std::string sha256_of_file(const std::string& path);
 
 }  // namespace tisserand

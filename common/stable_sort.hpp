@@ -10,9 +10,9 @@
 
 namespace tisserand {
 
-/// Sorts `list` (std::vector, std::array) in place by `compare` of `projection` of its elements; equal elements keep
-/// their order. It sorts indices: the temporary buffer of std::stable_sort in the library of GCC 12 is aligned to 16
-/// bytes only, which is undefined behaviour for elements that hold, say, an Eigen::Vector4d.
+/// Sorts `list` (std::vector, std::array) in place by `compare` of `projection` of its elements, stably. It sorts
+/// indices, because std::stable_sort of GCC 12 aligns its buffer to 16 bytes only. That is undefined behaviour for
+/// elements that hold, for example, an Eigen::Vector4d.
 template <typename List, typename Compare = std::less<>, typename Projection = std::identity>
 void sort_stably(List& list, Compare compare = {}, Projection projection = {}) {
   std::vector<std::size_t> order(list.size());

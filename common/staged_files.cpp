@@ -1,4 +1,4 @@
-// Temporary files that wait for one another.
+// Temporary files that are renamed together.
 #include "common/staged_files.hpp"
 
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// Files of one result that belong together: all are written and closed under temporary names, then take their own.
+// Publishes the files of one result together: all are written under temporary names, then renamed.
 #pragma once
 
 #include <string>
@@ -7,21 +7,21 @@
 
 namespace tisserand {
 
-/// A failure before publish() leaves the files of before; files take their names in the order in which they were added,
-/// so the one that names the others comes last.
+/// Group of files. If something fails before publish(), the old files stay. Files are renamed in the order of
+/// addition, so add the file that refers to the others last.
 class StagedFiles {
  public:
   StagedFiles() = default;
-  /// Removes what was not published.
+  /// Removes the files that were not published.
   ~StagedFiles();
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
-  /// Writes beside `path` until the data have reached the disk. Throws Error (no permission, disk full).
+  /// Writes a temporary file in the folder of `path` and waits for the disk. Throws Error (no permission, disk full).
   void add(const std::string& path, const std::string& contents);
-  /// Takes over a complete, closed file beside `path`.
+  /// Takes over a complete, closed temporary file in the folder of `path`.
   void adopt(const std::string& temporary, const std::string& path);
-  /// Renames all. Throws Error.
+  /// Renames all files. Throws Error.
   void publish();
 
  private:

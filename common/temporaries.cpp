@@ -1,4 +1,4 @@
-// One set for the process.
+// The set of temporary files of this process.
 #include "common/temporaries.hpp"
 
 #include <unistd.h>
@@ -15,7 +15,7 @@ struct Temporaries {
 };
 
 Temporaries& temporaries() {
-  static auto* const all = new Temporaries;  // outlives the threads that ask for it
+  static auto* const all = new Temporaries;  // never destroyed: threads may still use it at exit
   return *all;
 }
 
@@ -38,7 +38,7 @@ std::unique_lock<std::recursive_mutex> publishing() {
 }
 
 bool remove_temporaries() {
-  temporaries().mutex.lock();  // for good
+  temporaries().mutex.lock();  // never unlocked
   for (const std::string& name : temporaries().names) ::unlink(name.c_str());
   return temporaries().published;
 }

@@ -1,4 +1,4 @@
-// Files under temporary names, of which an interrupt leaves none.
+// List of temporary files, which an interrupt removes.
 #pragma once
 
 #include <mutex>
@@ -6,17 +6,17 @@
 
 namespace tisserand {
 
-/// Remembers the name of a file that is not complete. Does not return once remove_temporaries() was called.
+/// Registers an incomplete file. Blocks forever after remove_temporaries().
 void note_temporary(const std::string& name);
 
-/// Forgets a file that took its name or was removed.
+/// Removes a file from the list after it was renamed or deleted.
 void forget_temporary(const std::string& name);
 
-/// Held while files take their names: several that belong together under one lock. Counts as published from then on.
+/// Lock to hold while files are renamed; one lock covers files that belong together. Marks the process as published.
 std::unique_lock<std::recursive_mutex> publishing();
 
-/// Waits for files that are taking their names, and removes all others; none can be noted or published afterwards.
-/// Whether any was published before.
+/// Removes all temporary files, after renames in progress have ended, and blocks later ones. Returns whether any file
+/// was published before.
 bool remove_temporaries();
 
 }  // namespace tisserand

@@ -1,4 +1,4 @@
-// Edit distance, wildcards, and files written beside and renamed.
+// Edit distance, wildcards, printable text, and files that are written under a temporary name and renamed.
 #include "common/text.hpp"
 
 #include <fcntl.h>
@@ -24,7 +24,7 @@ namespace {
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
-/// Length and value of the UTF-8 sequence at the beginning, or length 0 where there is none.
+/// UTF-8 sequence at the beginning of a text: its length and value, or length 0 if it is invalid.
 struct Character {
   std::size_t length = 0;
   unsigned value = 0;
@@ -56,8 +56,7 @@ bool is_harmless(unsigned value) {
   throw Error(fmt::format("{}: {}", action, std::strerror(number)), path, remedy_of_errno(number));
 }
 
-/// The text with \xNN for what is no harmless character, cut after `most` bytes. In one line: ends of lines and tabs
-/// are blanks.
+/// The text with \xNN for unsafe characters, cut after `most` bytes. With `one_line`, line ends and tabs become blanks.
 std::string escaped(std::string_view text, bool one_line, std::size_t most) {
   std::string result;
   while (!text.empty()) {
@@ -79,7 +78,7 @@ std::string escaped(std::string_view text, bool one_line, std::size_t most) {
   return result;
 }
 
-/// The descriptor that a name such as /dev/stdout or /dev/fd/5 means, or -1.
+/// Own descriptor that a name such as /dev/stdout or /dev/fd/5 refers to, or -1.
 int own_stream(const std::string& path) {
   if (path == "-" || path == "/dev/stdout") return STDOUT_FILENO;
   if (path == "/dev/stderr") return STDERR_FILENO;
@@ -211,7 +210,7 @@ std::string temporary_beside(const std::string& path) {
 
 TextFile::TextFile(const std::string& path) : path_(path) {
   if (is_stream(path)) {
-    // Opened by its name, a file behind it would be written from its beginning: over what the shell's >> is to keep.
+    // Opening a file behind the stream by its name would write from its beginning, over what the shell's >> must keep.
     const int own = own_stream(path);
     file_ = own >= 0 ? ::fcntl(own, F_DUPFD_CLOEXEC, 0) : ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (file_ < 0) fail("cannot open", path_, errno);

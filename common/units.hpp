@@ -5,7 +5,7 @@
 
 namespace tisserand {
 
-/// factor = 0 means "consistent and unnamed" (all three are 0 then, or none is).
+/// Unit as a factor to SI with a label. Factor 0 means "consistent and unnamed": all three units are so, or none.
 struct Unit {
   double factor = 0.0;
   std::string label;
@@ -21,7 +21,7 @@ struct Units {
   static Units consistent() { return {}; }
 };
 
-/// The three factors with which numbers in `from` are multiplied to become numbers in `to`.
+/// Factors that convert lengths, masses and times from units `from` to units `to`.
 struct UnitConversion {
   double length = 1.0;
   double mass = 1.0;
@@ -30,22 +30,22 @@ struct UnitConversion {
   double force() const { return mass * length / (time * time); }
 };
 
-/// Throws Error if exactly one of the two is unnamed; `where` names the file that is converted.
+/// Conversion between two systems of units. Throws Error if exactly one is unnamed; `where` names the converted file.
 UnitConversion convert_units(const Units& from, const Units& to, const std::string& where);
 
-/// Units by label: length m mm cm km in ft; mass kg g t (tonne) lb slug; time s ms. Throws Error (with the known
-/// labels).
+/// Unit by its label: length m mm cm km in ft, mass kg g t (tonne) lb slug, time s ms. Throws Error that lists the
+/// known labels.
 Unit length_unit(const std::string& label);
 Unit mass_unit(const std::string& label);
 Unit time_unit(const std::string& label);
 
-/// For example "N" for SI, "t mm s^-2" otherwise, "" if unnamed: label of length^l mass^m time^t.
+/// Label of length^l mass^m time^t, for example "N" for SI and "t mm s^-2" otherwise. Empty if unnamed.
 std::string unit_label(const Units& units, int length, int mass, int time);
 
-/// The same of an energy: "J" for SI.
+/// Label of an energy, for example "J" for SI. Empty if unnamed.
 std::string energy_label(const Units& units);
 
-/// A label as it stands after a number: " N", or nothing for units without names.
+/// Label as it stands after a number, for example " N". Empty for unnamed units.
 std::string after_number(const std::string& label);
 
 }  // namespace tisserand

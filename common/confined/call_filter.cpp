@@ -1,4 +1,4 @@
-// Rules as a program of the kernel's packet filter, over struct seccomp_data.
+// Translates the rules to instructions of the kernel's packet filter, which reads struct seccomp_data.
 #include "common/confined/call_filter.hpp"
 
 #include <linux/audit.h>
@@ -52,7 +52,7 @@ CallFilter::CallFilter() {
 
 void CallFilter::load(std::uint32_t offset) { code_.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offset)); }
 
-/// Skips so many steps unless the last word loaded is the value.
+/// Skips `skip` instructions unless the word loaded last equals `value`.
 void CallFilter::unless_equal(std::uint32_t value, std::uint8_t skip) {
   code_.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 0, skip));
 }
@@ -67,7 +67,7 @@ void CallFilter::add(Action action, std::initializer_list<long> calls) {
 }
 
 void CallFilter::add(Action action, long call, const Condition& condition) {
-  // The two halves of an argument, the lower one first on both processors.
+  // An argument has two halves. The lower one comes first on both processors.
   const auto low = static_cast<std::uint32_t>(offsetof(seccomp_data, args) + 8 * condition.argument);
   const std::uint8_t upper_half = condition.wide ? 2 : 0;
   unless_equal(static_cast<std::uint32_t>(call), static_cast<std::uint8_t>(5 + upper_half));

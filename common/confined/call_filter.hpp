@@ -1,4 +1,4 @@
-// Which system calls this process may still make: seccomp, written without a library.
+// Restricts the system calls of this process by seccomp, without a library.
 #pragma once
 
 #include <linux/filter.h>
@@ -9,13 +9,13 @@
 
 namespace tisserand {
 
-/// A list of rules, the first of which that fits decides. What fits none is answered as by a kernel that does not know
-/// the call: libraries then do without.
+/// List of rules, of which the first that matches a call decides. Without a match the call fails as in a kernel that
+/// does not know it, so libraries use their fallback.
 class CallFilter {
  public:
   enum class Action : std::uint32_t { allow, kill_process, no_terminal };
 
-  /// (argument & mask) == value. `wide`: all 64 bits of it count, of others the lower 32.
+  /// Holds if (argument & mask) == value. `wide`: compares all 64 bits; otherwise the lower 32.
   struct Condition {
     unsigned argument = 0;
     std::uint32_t mask = 0;
@@ -27,7 +27,7 @@ class CallFilter {
   void add(Action action, std::initializer_list<long> calls);
   void add(Action action, long call, const Condition& condition);
 
-  /// From here on, in all threads and in what they start. False if the kernel, a container or the processor forbids it.
+  /// Activates the rules for all threads and children. False if the kernel, a container or the processor forbids it.
   [[nodiscard]] bool install() const;
 
  private:

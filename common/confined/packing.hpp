@@ -1,5 +1,5 @@
-// Bytes between two processes of one machine. What comes back may come from a process that a file has taken over, so
-// nothing of it is taken on trust.
+// Serialises data for another process on this machine. The reader checks everything, since a harmful file may have
+// taken control of the process that sent the bytes.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ class Packer {
 
 class Unpacker {
  public:
-  /// `made`: what the bytes are not if they do not fit, "what gmsh made of it is no mesh".
+  /// `made`: beginning of the error message if the bytes do not fit, for example "what gmsh made of it is no mesh".
   Unpacker(std::string_view bytes, const std::string& file, const char* made)
       : left_(bytes), file_(file), made_(made) {}
 
@@ -65,7 +65,7 @@ class Unpacker {
     const std::string what = text(), where = text(), remedy = text();
     return Error(what, where, remedy);
   }
-  /// A number of things of which each takes at least `least` bytes of what is left.
+  /// Reads a number of items, and checks that the remaining bytes can hold that many of `least` bytes each.
   std::size_t size(std::size_t least) {
     const auto count = value<std::size_t>();
     require(count <= left_.size() / least && count <= std::numeric_limits<int>::max(), "it is too short");

@@ -1,4 +1,4 @@
-// From a matrix to the blocks of its columns that are not zero.
+// Finds the blocks of columns of a matrix that are not zero.
 #include "common/math/block_columns.hpp"
 
 namespace tisserand::mechanism {

@@ -1,4 +1,4 @@
-// A constant matrix without its zeros, by columns, and its products with vectors of any scalar.
+// Sparse storage of a constant matrix by columns, and its products with vectors of any scalar.
 #pragma once
 
 #include <type_traits>
@@ -10,22 +10,22 @@
 
 namespace tisserand::mechanism {
 
-/// Rows 4 `first` to 4 (`first` + `blocks`) − 1 of one column.
+/// Run of non-zero blocks in one column: rows 4 `first` to 4 (`first` + `blocks`) − 1.
 struct ColumnRun {
   int column = 0;
   int first = 0, blocks = 0;
 };
 
-/// Columns in blocks of four rows, those that are all zero left out.
+/// Matrix as columns in blocks of four rows. Blocks of zeros are not stored.
 struct BlockColumns {
-  static constexpr int block = 4;  ///< rows, one register
+  static constexpr int block = 4;  ///< rows of a block, one register
 
-  int rows = 0;  ///< a multiple of `block`: rows of zeros fill the last one
+  int rows = 0;  ///< multiple of `block`; zeros fill the last block
   std::vector<ColumnRun> runs;
-  std::vector<double> entry;  ///< of each run in turn, `block` numbers for each of its blocks
+  std::vector<double> entry;  ///< entries of the runs in their order, `block` numbers per block
 };
 
-/// Entries up to `nothing` are left out.
+/// Block form of A. Entries with a magnitude up to `nothing` count as zero.
 BlockColumns block_columns(const Eigen::MatrixXd& A, double nothing);
 
 /// y += A x; y has the rows of A.

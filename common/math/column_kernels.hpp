@@ -1,5 +1,4 @@
-// Column operations on small dense matrices of fixed or free number of rows: the arithmetic of the superelement
-// tangent.
+// Column operations on small dense matrices with a fixed or free number of rows, used by the superelement tangent.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,8 +7,8 @@ namespace tisserand::mechanism {
 
 namespace column_kernels {
 
-/// Four doubles, the unit of all loops here (one register of AVX, two of SSE). A `typedef`, since clang ignores the
-/// alignment of 8 in an alias declaration and then uses aligned moves.
+/// Four doubles, the unit of all loops here (one register of AVX, two of SSE). It is a `typedef`, because clang ignores
+/// the alignment of 8 in an alias declaration and then uses aligned moves.
 typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
 
 inline const Four& load(const double* p) { return *reinterpret_cast<const Four*>(p); }
@@ -17,8 +16,8 @@ inline void store(double* p, const Four& v) { *reinterpret_cast<Four*>(p) = v; }
 
 enum class Write { assign, add };
 
-/// out (rows x 3) = or += in (rows x 3) B; `rows` is the leading dimension of both. Rows: their number, or
-/// Eigen::Dynamic.
+/// Computes out (rows x 3) = or += in (rows x 3) B. The number of rows is the leading dimension of both. `Rows` is
+/// this number, or Eigen::Dynamic.
 template <int Rows, Write write>
 inline void multiply3(const double* in, const Eigen::Matrix3d& B, int free_rows, double* out) {
   const int rows = Rows == Eigen::Dynamic ? free_rows : Rows;
@@ -40,7 +39,7 @@ inline void multiply3(const double* in, const Eigen::Matrix3d& B, int free_rows,
   }
 }
 
-/// out = inᵀ, both rows x rows; in and out differ.
+/// Computes out = inᵀ. Both are rows x rows and must not overlap.
 template <int Rows>
 inline void transpose(const double* in, int free_rows, double* out) {
   const int rows = Rows == Eigen::Dynamic ? free_rows : Rows;
@@ -63,7 +62,7 @@ inline void transpose(const double* in, int free_rows, double* out) {
     for (int i = j < blocked ? blocked : 0; i < rows; ++i) out[i * rows + j] = in[j * rows + i];
 }
 
-/// y += A x with A (Rows x columns, Rows a multiple of 2): two sums run side by side to hide latency.
+/// Computes y += A x with A (Rows x columns, Rows a multiple of 2). Two independent sums hide latency.
 template <int Rows>
 inline void multiply_add_fixed(const double* A, Eigen::Index columns, const double* x, double* y) {
   using Column = Eigen::Matrix<double, Rows, 1>;

@@ -8,7 +8,7 @@
 
 namespace tisserand {
 
-/// value + derivative ε, ε² = 0: exact directional derivatives of the kernels that are templates on their scalar.
+/// Dual number value + derivative ε with ε² = 0. Kernels that are templates on the scalar get exact derivatives by it.
 struct Dual {
   double value = 0.0;
   double derivative = 0.0;
@@ -62,7 +62,7 @@ inline Dual exp(const Dual& a) {
   const double e = std::exp(a.value);
   return {e, e * a.derivative};
 }
-/// For a > 0.
+/// Power of a dual number, for a > 0.
 inline Dual pow(const Dual& a, double exponent) {
   const double power = std::pow(a.value, exponent);
   return {power, exponent * power / a.value * a.derivative};
@@ -80,7 +80,7 @@ inline long double real_part(long double a) { return a; }
 inline double atan2_scalar(double y, double x) { return std::atan2(y, x); }
 inline long double atan2_scalar(long double y, long double x) { return std::atan2(y, x); }
 inline Dual atan2_scalar(const Dual& y, const Dual& x) { return atan2(y, x); }
-/// Valid for the small imaginary parts of a complex step: atan2 of the real parts plus its first derivative.
+/// atan2 for the small imaginary parts of a complex step: atan2 of the real parts plus its first derivative.
 inline std::complex<double> atan2_scalar(const std::complex<double>& y, const std::complex<double>& x) {
   const double n = x.real() * x.real() + y.real() * y.real();
   return {std::atan2(y.real(), x.real()), (x.real() * y.imag() - y.real() * x.imag()) / n};

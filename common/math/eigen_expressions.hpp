@@ -1,5 +1,5 @@
-// Expressions of Eigen that most files use. The precompiled header of clang includes this file, so that their classes
-// are instantiated once. No file needs to include it.
+// Expressions of Eigen that most files use. The precompiled header of clang includes this file, so that they are
+// instantiated once. No file needs to include it.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -9,7 +9,7 @@
 
 namespace tisserand::internal {
 
-/// Names each expression; nobody calls it.
+/// Contains each expression once. It is never called.
 inline double name_eigen_expressions(Eigen::MatrixXd& A, Eigen::VectorXd& v, Eigen::Matrix3d& R, Eigen::Vector3d& p,
                                      Eigen::Matrix<double, 6, 6>& K, Eigen::Matrix<double, 6, 1>& w,
                                      Eigen::Quaterniond& q) {

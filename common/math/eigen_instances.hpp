@@ -1,8 +1,7 @@
-// Eigen's costly templates for real matrices of any size, compiled once (eigen_instances.cpp): products,
-// factorisations.
+// Explicit instances of Eigen's costly templates for real matrices of any size: products, factorisations.
 //
 // No file needs to include this. The precompiled headers bring it to every file (tisserand_precompile in
-// cmake/Warnings.cmake); without them each file instantiates what it uses, with the same results and seconds more.
+// cmake/Warnings.cmake). Without them each file instantiates what it uses: same results, longer compilation.
 #pragma once
 
 #include <Eigen/Cholesky>

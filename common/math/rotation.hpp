@@ -92,8 +92,8 @@ Mat3<S> inverse_tangent_so3(const Vec3<S>& psi) {
   return Mat3<S>::Identity() + 0.5 * P + f.e * (P * P);
 }
 
-/// Unit quaternion [w, x, y, z] of a rotation matrix by the largest of four pivots (Shepperd 1978): no loss of digits
-/// at any angle. Works for complex and dual scalars (the pivot is chosen by real parts).
+/// Unit quaternion [w, x, y, z] of a rotation matrix by the largest of four pivots (Shepperd 1978), which loses no
+/// digits at any angle. Real parts choose the pivot of complex and dual scalars.
 template <class S>
 Eigen::Matrix<S, 4, 1> quaternion_wxyz(const Mat3<S>& R) {
   using std::sqrt;
@@ -125,7 +125,7 @@ Eigen::Matrix<S, 4, 1> quaternion_wxyz(const Mat3<S>& R) {
   return q;
 }
 
-/// Rotation vector ψ with exp(ψ~) = R and |ψ| ≤ π. Accurate at every angle (through the quaternion).
+/// Rotation vector ψ with exp(ψ~) = R and |ψ| ≤ π, accurate at every angle (through the quaternion).
 template <class S>
 Vec3<S> log_so3(const Mat3<S>& R) {
   using std::sqrt;

@@ -1,4 +1,4 @@
-// A reserve, and handlers of signals that look whether memory is left.
+// A reserve of memory, and signal handlers that check whether memory is left.
 #include "common/memory/short_memory.hpp"
 
 #include <sys/mman.h>
@@ -17,7 +17,7 @@ namespace tisserand {
 namespace {
 
 #if defined(TISSERAND_SANITIZED)
-constexpr bool own_handlers = false;  // sanitizers have handlers and an allocator of their own
+constexpr bool own_handlers = false;  // sanitizers have their own handlers and allocator
 #else
 constexpr bool own_handlers = true;
 #endif
@@ -27,7 +27,7 @@ const char* name_of_program = "";
 pid_t own_process = 0;
 std::terminate_handler former_terminate = std::abort;
 
-/// Called by `operator new`, which then tries once more.
+/// Frees the reserve. `operator new` calls it and then tries again.
 void give_reserve_back() {
   if (reserve == nullptr) throw std::bad_alloc();
   std::free(reserve);
@@ -44,7 +44,7 @@ bool are_left(std::size_t bytes) {
 void put(const char* text) { [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, std::strlen(text)); }
 
 [[noreturn]] void end_without_memory() {
-  if (::getpid() == own_process) (void)remove_temporaries();  // not those of the parent of a child that reads
+  if (::getpid() == own_process) (void)remove_temporaries();  // a forked reader must keep its parent's files
   put(name_of_program);
   put(": out of memory; raise the limit (`ulimit -v`), close other programs, or make the model smaller\n");
   ::_exit(1);
@@ -56,12 +56,12 @@ void on_crash(int signal) {
   (void)::raise(signal);
 }
 
-/// Libraries in C that get no memory when they begin end the program without a word, by exit(-1).
+/// Exit handler. Some C libraries end the program silently by exit(-1) if they get no memory when they start.
 void on_end(int status, void* /*unused*/) {
   if ((status & 0xff) == 0xff && !is_memory_left()) end_without_memory();
 }
 
-/// An exception where none may leave: in destructors of a library.
+/// Terminate handler, for an exception in a destructor of a library, for example.
 void on_terminate() {
   try {
     if (std::current_exception()) throw;
@@ -79,7 +79,7 @@ void require_addresses(std::size_t bytes) {
   while (!are_left(bytes)) give_reserve_back();
 }
 
-bool is_memory_left() { return are_left(std::size_t{64} << 20U); }  // libraries that they open, stacks of threads
+bool is_memory_left() { return are_left(std::size_t{64} << 20U); }  // for libraries loaded later and stacks of threads
 
 void report_short_memory(const char* program) {
   if (!own_handlers) return;
@@ -89,7 +89,7 @@ void report_short_memory(const char* program) {
   std::set_new_handler(give_reserve_back);
   ::on_exit(on_end, nullptr);
   former_terminate = std::set_terminate(on_terminate);
-  static std::array<char, std::size_t{64} << 10U> stack;  // of the handlers: the own one may be at its end
+  static std::array<char, std::size_t{64} << 10U> stack;  // for the handlers: the normal stack may be full
   stack_t alternative{};
   alternative.ss_sp = stack.data();
   alternative.ss_size = stack.size();

@@ -1,21 +1,20 @@
-// What a program does where memory ends.
+// Behaviour of a program that runs out of memory.
 #pragma once
 
 #include <cstddef>
 
 namespace tisserand {
 
-/// Keeps 8 MB back, which the first failed allocation of C++ code sets free, so that the error finds memory for its
-/// message and files are closed. A crash of a library that got no memory, or a stack that cannot grow, is reported as
-/// such: "mechanism: out of memory", exit status 1, no temporary files. Other crashes are as before.
-/// `program` must stay.
+/// Keeps a reserve of 8 MB, which the first failed C++ allocation frees, so that the error can be printed and files
+/// closed. If memory is short, a crash is reported as "mechanism: out of memory" with exit status 1, and temporary
+/// files are removed. Other crashes are unchanged. `program` must stay valid.
 void report_short_memory(const char* program);
 
-/// Throws std::bad_alloc if `bytes` of addresses cannot be had, not even with that reserve: before a library begins that
-/// ends the program, or crashes, where it gets no memory.
+/// Throws std::bad_alloc if `bytes` of address space are not available even with the reserve. Call it before a library
+/// starts that ends the program, or crashes, when it gets no memory.
 void require_addresses(std::size_t bytes);
 
-/// Whether the process may have 64 MB more of addresses.
+/// Whether 64 MB more of address space are available to the process.
 bool is_memory_left();
 
 }  // namespace tisserand

@@ -1,6 +1,6 @@
-// The first code of each program: ends it with a message where the processor lacks what the program was compiled for,
-// in place of a crash by an illegal instruction. Compiled for plain x86-64, without the standard library, so that no
-// function in it is shared with units that use more.
+// The first code of each program: if the processor lacks a feature that the program was compiled for, it prints a
+// message instead of crashing by an illegal instruction. It is compiled for plain x86-64 without the standard library,
+// so that it shares no function with units that need more.
 #include "common/processor/requirements.hpp"
 
 #if defined(__x86_64__)
@@ -16,7 +16,7 @@ unsigned answer(const Feature& feature) {
   return feature.in == 'a' ? a : feature.in == 'b' ? b : feature.in == 'c' ? c : d;
 }
 
-/// XCR0: the registers that the kernel saves when it switches between programs; 0 where it cannot be asked.
+/// XCR0: registers that the kernel saves when it switches between programs; 0 if it cannot be read.
 unsigned saved_state() {
   unsigned a = 0, b = 0, c = 0, d = 0;
   if (__get_cpuid(1, &a, &b, &c, &d) == 0 || (c & bit_OSXSAVE) == 0) return 0;
@@ -70,7 +70,7 @@ void check(int argc, char** argv, char**) {
   _exit(1);
 }
 
-/// Runs before the constructors of the program and of its shared libraries.
+/// Calls check() before the constructors of the program and of its shared libraries.
 [[gnu::section(".preinit_array"), gnu::used]] void (*const first)(int, char**, char**) = check;
 
 }  // namespace

@@ -1,12 +1,12 @@
-// Compiled with the flags of the program: which features those flags let the compiler use. Data only, no code.
+// Processor features that the flags of the program let the compiler use. Compiled with these flags; data only, no code.
 #include "common/processor/requirements.hpp"
 
 namespace tisserand::processor {
 
 const char built_for[] = TISSERAND_BUILT_FOR;
 
-/// Features that compilers use by themselves; bits from the Intel and AMD manuals (as in <cpuid.h>). Not listed: features
-/// that only intrinsics reach (AES, SHA, RDRAND), and prefetches, which older processors ignore.
+/// Features that compilers use by themselves, with bits from the Intel and AMD manuals (as in <cpuid.h>). Features
+/// reached by intrinsics only (AES, SHA, RDRAND) and prefetches, which older processors ignore, are not listed.
 constexpr Feature required_features[] = {
 #ifdef __SSE3__
     {"SSE3", 1, 0, 'c', 0, State::none},

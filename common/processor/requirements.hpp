@@ -1,12 +1,12 @@
-// What the compiler was allowed to use: data of requirements.cpp, read by check.cpp before anything else runs.
+// Processor features that the compiler was allowed to use. check.cpp reads them before anything else runs.
 #pragma once
 
 namespace tisserand::processor {
 
-/// Registers of the system that hold a feature's numbers; the kernel must save them (bits of XCR0).
+/// Register state that a feature needs and the kernel must save (bits of XCR0).
 enum class State : unsigned { none = 0, avx = 0x6, avx512 = 0xe6 };
 
-/// One bit of cpuid that must be set, for example AVX2: leaf 7, subleaf 0, register b, bit 5.
+/// One bit of cpuid that must be set. Example AVX2: leaf 7, subleaf 0, register b, bit 5.
 struct Feature {
   char name[16];
   unsigned leaf;

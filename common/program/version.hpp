@@ -1,4 +1,4 @@
-// Program and version, as `--version` prints and every written file names them.
+// Program name and version, as `--version` prints and every written file stores them.
 #pragma once
 
 #include <string>
@@ -12,10 +12,10 @@ std::string version();
 /// Producer of a file, "Tisserand reducer 0.2.0". `program`: reducer or mechanism.
 std::string producer(std::string_view program);
 
-/// Element of the head of an HTML page that names its producer.
+/// HTML head element that names the producer of the page.
 std::string generator_tag(std::string_view program);
 
-/// Lines that `--version` prints: version, commit, compiler, libraries. Each program has its own (cmake/Version.cmake).
+/// Output of `--version`: version, commit, compiler, libraries. Each program links its own (cmake/Version.cmake).
 std::string version_text();
 
 }  // namespace tisserand

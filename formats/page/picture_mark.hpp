@@ -1,12 +1,12 @@
-// The producer of a picture, inside its file.
+// Writes the name of the producing program into picture files.
 #pragma once
 
 #include <string>
 
 namespace tisserand::formats {
 
-/// `picture` with its producer: the text "Software" of a PNG file, a comment in SVG and PDF, the line %%Creator of EPS.
-/// Another kind of file, or one without the place for it, stays as it is.
+/// `picture` with its producer: text "Software" in PNG, a comment in SVG and PDF, the line %%Creator in EPS. Other
+/// files, and files without the place for it, are returned unchanged.
 std::string with_producer(std::string picture, const std::string& producer);
 
 }  // namespace tisserand::formats
