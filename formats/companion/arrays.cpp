@@ -1,4 +1,4 @@
-// Symmetric matrices in and out of HDF5; sizes are compared before memory is taken.
+// Symmetric matrices to and from HDF5. Sizes are checked before memory is allocated.
 #include "formats/companion/arrays.hpp"
 
 #include <algorithm>
@@ -18,13 +18,13 @@ void unpack(const double* values, Eigen::Index n, Eigen::MatrixXd& matrix) {
     for (Eigen::Index l = k; l < n; ++l) matrix(k, l) = matrix(l, k) = *values++;
 }
 
-/// One of the ways in which matrices may lie in a dataset, in words of messages.
+/// One accepted shape of a dataset of matrices, with its description for messages.
 struct Form {
   hdf5::Shape shape;
   const char* words;
 };
 
-/// Reads matrices n x n that lie in one of these forms: upper triangles, if the last axis is shorter than n².
+/// Reads n x n matrices stored in one of these forms: upper triangles if the last axis is shorter than n².
 void read_matrices(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n,
                    const std::vector<Form>& forms, std::span<Eigen::MatrixXd> matrices) {
   const hdf5::Shape found = file.info(dataset).shape;

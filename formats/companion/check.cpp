@@ -1,4 +1,4 @@
-// check(): everything that COMPANION.md demands of the contents of a companion, in the order of that page.
+// check(): all rules of COMPANION.md for the contents of a companion, in the order of that page.
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -15,24 +15,24 @@
 namespace tisserand::formats {
 namespace {
 
-constexpr double symmetry_accepted = 1e-9;     // of scaled entries, as of S̄ and M̄
+constexpr double symmetry_accepted = 1e-9;     // symmetry of scaled entries, as for S̄ and M̄
 constexpr double rigid_accepted = 1e-8;        // stress of rigid motions: round-off of a stress of the size E
-constexpr double largest_of_stiffness = 1e14;  // H and Λ² in scaled coordinates beside s/l, s/l²: above, no numbers
-constexpr double trapped_accepted = 1e-6;      // of Λ on rigid motions: round-off of products with S̄
-constexpr double gram_accepted = 1e-9;         // of scaled eigenvalues
-constexpr double integral_accepted = 1e-6;     // of mass, S0, S1 against M̄, as of the rigid mass of superelements
-constexpr double weight_accepted = 1e-9;       // of sums of weights
-constexpr double largest_usable = 1e100;       // products of three such values stay finite
+constexpr double largest_of_stiffness = 1e14;  // limit of H and Λ² in scaled coordinates, relative to s/l and s/l²
+constexpr double trapped_accepted = 1e-6;      // Λ on rigid motions: round-off of products with S̄
+constexpr double gram_accepted = 1e-9;         // negative scaled eigenvalues
+constexpr double integral_accepted = 1e-6;     // mass, S0, S1 compared with M̄, as the rigid mass of superelements
+constexpr double weight_accepted = 1e-9;       // sum of weights
+constexpr double largest_usable = 1e100;       // limit of entries: products of three stay finite
 constexpr const char* other_program = "let the program that made the superelement write the companion again";
 
-/// One companion under check, with what its messages and its scales need.
+/// Companion under check, with file name and scales.
 struct Inspection {
   const Companion& companion;
   const Superelement& superelement;
   const std::string& file;
   ScaledMatrices scales;
-  Eigen::VectorXd mass_row;   ///< 1/l for rotations, internal coordinates as of M̄
-  Eigen::VectorXd force_row;  ///< the same of S̄
+  Eigen::VectorXd mass_row;   ///< scales of rows by M̄: 1/l for rotations
+  Eigen::VectorXd force_row;  ///< scales of rows by S̄
 
   std::string dataset(const std::string& name) const { return file.empty() ? name : file + ": " + name; }
   Eigen::Index size() const { return superelement.size(); }
@@ -85,7 +85,7 @@ void check_symmetric(const Inspection& at, const std::string& dataset, const Eig
               at.dataset(dataset), other_program);
 }
 
-/// W_k + W_kᵀ = 0.
+/// Checks W_k + W_kᵀ = 0.
 void check_relative_turns(const Inspection& at) {
   const Companion& c = at.companion;
   if (!c.has_relative_turns()) return;
@@ -105,7 +105,7 @@ void check_relative_turns(const Inspection& at) {
   }
 }
 
-/// α of nodes with translations, sum 1, and the point that they give.
+/// Checks the weights α (nodes with translations, sum 1) and the reference point that they give.
 void check_weights(const Inspection& at) {
   const Companion& c = at.companion;
   const Superelement& element = at.superelement;
@@ -131,7 +131,7 @@ void check_weights(const Inspection& at) {
                 at.dataset("/frame/reference_point"), "write the weighted mean of the positions of the nodes");
 }
 
-/// mass, S0 and S1 are those of M̄: R_Tᵀ M̄ R.
+/// Checks mass, S0 and S1 against R_Tᵀ M̄ R.
 void check_integrals(const Inspection& at) {
   const Companion& c = at.companion;
   const RigidProperties rigid = rigid_properties(at.superelement);
@@ -156,7 +156,7 @@ void check_integrals(const Inspection& at) {
                                 row_text(at.superelement, l)));
 }
 
-/// H R = Σ_j R_ja H_j = 0: rigid motions have no stress.
+/// Checks H R = Σ_j R_ja H_j = 0: rigid motions cause no stress.
 void check_rigid_stress(const Inspection& at) {
   const RigidStress stress = rigid_stress(at.companion, at.superelement);
   if (!(stress.largest <= largest_of_stiffness * stress.stiffness))
@@ -172,7 +172,7 @@ void check_rigid_stress(const Inspection& at) {
               at.dataset("/H"), other_program);
 }
 
-/// Λ_b R = 0: a body that turns traps nothing.
+/// Checks Λ_b R = 0: rigid motions trap no membrane stress.
 void check_trapped(const Inspection& at) {
   const Eigen::MatrixXd R = scaled_rigid_motions(at.superelement, at.force_row, at.scales.length);
   for (std::size_t b = 0; b < at.companion.Lambda.size(); ++b) {
@@ -194,8 +194,8 @@ void check_trapped(const Inspection& at) {
   }
 }
 
-/// [M̄ Ω_k C_k; . Ω_j Ω_k E_jk] is the Gram matrix of the velocities Φ ẏ + Ω × Φ y: positive semidefinite for every Ω.
-/// E holds the part of its pairs that is symmetric in jk, so Ω is one of 13 directions: axes and diagonals of a cube.
+/// Checks that [M̄ Ω_k C_k; . Ω_j Ω_k E_jk], the Gram matrix of the velocities Φ ẏ + Ω × Φ y, is positive semidefinite.
+/// E holds the part symmetric in jk. Tested directions of Ω: the 13 axes and diagonals of a cube.
 void check_gram(const Inspection& at) {
   const Companion& c = at.companion;
   const Eigen::Index n = at.size();

@@ -1,4 +1,4 @@
-// Companions between memory and *.companion.h5, with the identity of their content.
+// Reads and writes *.companion.h5 files, and computes the identity of their content.
 #include "formats/companion/companion.hpp"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ std::uint64_t length_of(const hdf5::InputFile& file, const std::string& dataset,
       fmt::format("{}: {}", file.path(), dataset), "compare the file with formats/COMPANION.md");
 }
 
-/// Number of coordinates: the columns of /S1.
+/// Number of coordinates: columns of /S1.
 std::uint64_t coordinates_of(const hdf5::InputFile& file) {
   const hdf5::Shape shape = file.info("/S1").shape;
   if (shape.size() == 2 && shape[0] == 3 && shape[1] >= 1 && shape[1] <= max_companion_size) return shape[1];
@@ -109,10 +109,10 @@ void read_load_cases(const hdf5::InputFile& file, Companion& c) {
   }
 }
 
-/// All that is taken from the file, before any rule of check().
+/// Contents of a file before check().
 struct UncheckedCompanion {
   Companion companion;
-  std::string stated_id;  ///< empty: none
+  std::string stated_id;  ///< empty: no identity stated
 };
 
 UncheckedCompanion read_unchecked_companion(const std::string& path) {
@@ -181,7 +181,7 @@ void write_load_cases(const hdf5::Output& out, const Companion& c) {
   }
 }
 
-/// Adds what is there to a sum, with its number of values in front.
+/// Hash over values and texts. Each list of values is preceded by its length.
 class Identity {
  public:
   void add(const double* values, std::size_t count) {

@@ -1,4 +1,4 @@
-// Identities between the arrays of companions.
+// Operations on companions, by identities between their arrays.
 #include "formats/companion/operations.hpp"
 
 #include <cmath>
@@ -14,7 +14,7 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-/// Applies `change` to every matrix over coordinates but H that is there.
+/// Applies `change` to every existing matrix over coordinates except H.
 template <class Change>
 void for_each_matrix(Companion& c, const Change& change) {
   if (c.has_second_order()) {
@@ -29,12 +29,12 @@ void for_each_matrix(Companion& c, const Change& change) {
     if (load.stiffness.size() > 0) change(load.stiffness);
 }
 
-/// Left and right by diag(row), in place.
+/// Multiplies left and right by diag(row), in place.
 void scale_rows(const Eigen::VectorXd& row, MatrixXd& matrix) {
   matrix = (row.asDiagonal() * matrix * row.asDiagonal()).eval();
 }
 
-/// y_k -> row_k y_k' for every index over coordinates.
+/// Substitutes y_k = row_k y_k' in every index over coordinates.
 void scale_coordinates(Companion& c, const Eigen::VectorXd& row) {
   for_each_matrix(c, [&](MatrixXd& matrix) { scale_rows(row, matrix); });
   for (std::size_t j = 0; j < c.H.size(); ++j) {
@@ -53,7 +53,7 @@ void drop_modes(Companion& c, const MatrixXd& mass, const MatrixXd& R, const std
   TISSERAND_ENSURE(static_cast<Index>(rows.size()) == omega_squared.size(), "{} rows, {} eigenvalues", rows.size(),
                    omega_squared.size());
   const MatrixXd MR = mass * R;
-  std::array<MatrixXd, 3> CR;  // n x 3: C_kᵀ R_R
+  std::array<MatrixXd, 3> CR;  // C_kᵀ R_R, n x 3
   if (c.has_second_order())
     for (int k = 0; k < 3; ++k) CR[k] = c.C[k].transpose() * R.rightCols<3>();
   std::vector<bool> dropped(static_cast<std::size_t>(mass.rows()), false);

@@ -1,4 +1,4 @@
-// Attributes of companion files.
+// Reads the attributes that identify a companion file.
 #include "formats/companion/owner.hpp"
 
 #include "common/error.hpp"

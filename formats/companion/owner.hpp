@@ -1,4 +1,4 @@
-// Whose companion a file is, before anything of it is used.
+// Identification of a companion file, before its data are used.
 #pragma once
 
 #include <optional>
@@ -6,13 +6,13 @@
 
 namespace tisserand::formats {
 
-/// What a companion file says of itself.
+/// Attributes of a companion file: who wrote it, and for which superelement.
 struct CompanionOwner {
   std::string producer;
   std::string superelement;  ///< content_id
 };
 
-/// By the attributes of the file alone; none where it is no companion file that can be read.
+/// Owner by the attributes of the file alone. Empty if it is not a readable companion file.
 std::optional<CompanionOwner> companion_owner(const std::string& path);
 
 }  // namespace tisserand::formats

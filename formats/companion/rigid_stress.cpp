@@ -1,4 +1,4 @@
-// Sums of H over rigid motions, and their removal.
+// Sums of H over rigid motions, and their removal from H.
 #include "formats/companion/rigid_stress.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 
 constexpr double removed_of_largest = 1e-4, removed_of_stiffness = 1e-6;
 
-/// Σ_j R_ja D_j H_j of the six motions a, in the coordinates of the file; R scaled.
+/// Σ_j R_ja D_j H_j of the six motions a, in the coordinates of the file. R is scaled.
 std::array<MatrixXd, 6> sums(const Companion& companion, const MatrixXd& R, const Eigen::VectorXd& row) {
   const Index n = R.rows();
   std::array<MatrixXd, 6> sum;

@@ -1,4 +1,4 @@
-// What companion files of former versions lack: the second order of rotary inertia.
+// Second order of rotary inertia that companion files of former versions lack.
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -14,12 +14,12 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// A part, and how its internal coordinates follow: S_II y₂ = −½ yᵀ H_i y − S_IB y₂.
+/// Part whose internal coordinates follow statically: S_II y₂ = −½ yᵀ H_i y − S_IB y₂.
 struct TurningPart {
   const Companion& companion;
   const Superelement& element;
   MatrixXd R;                   ///< rigid motions about the reference point
-  std::vector<Index> internal;  ///< rows
+  std::vector<Index> internal;  ///< their rows
   Eigen::LDLT<MatrixXd> S_II;
 };
 
@@ -31,7 +31,7 @@ TurningPart turning_part(const Companion& c, const Superelement& element) {
   return part;
 }
 
-/// Second order of the coordinates of the part turned by a unit angle about an axis: ½ θ x (θ x X) of nodes.
+/// Second order of the coordinates of the part turned by a unit angle about an axis: ½ θ x (θ x X) at nodes.
 VectorXd second_order_of_turn(const TurningPart& part, int axis) {
   const Vector3d theta = Vector3d::Unit(axis);
   const VectorXd y = part.R.col(3 + axis);
@@ -49,7 +49,7 @@ VectorXd second_order_of_turn(const TurningPart& part, int axis) {
     force[static_cast<Index>(i)] =
         -0.5 * y.dot(part.companion.H[static_cast<std::size_t>(row)] * y) - part.element.stiffness.row(row).dot(second);
   }
-  second(part.internal) = VectorXd(part.S_II.solve(force));  // Eigen 3.4 solves wrongly into rows by index
+  second(part.internal) = VectorXd(part.S_II.solve(force));  // Eigen 3.4 solves wrongly into rows selected by index
   return second;
 }
 
@@ -67,7 +67,7 @@ MissingTurns missing_turns(const Companion& c, const Superelement& element) {
       const Vector3d Omega = Vector3d::Unit(spin), theta = Vector3d::Unit(axis), moved = Omega.cross(theta);
       const double found = 0.5 * y.dot((c.E[pair] + c.T[pair]) * y) + part.R.col(3 + spin).dot(c.C[spin] * second);
       const double exact = 0.5 * moved.dot(J0 * moved) + 0.5 * (J0 * Omega).dot(theta.cross(theta.cross(Omega)));
-      missing.inertia[spin] += found - exact;  // half of what is missing, about each of two axes
+      missing.inertia[spin] += found - exact;  // half of the missing inertia, about each of two axes
     }
   }
   for (int k = 0; k < 3; ++k) missing.share[k] = J0(k, k) > 0.0 ? missing.inertia[k] / J0(k, k) : 0.0;

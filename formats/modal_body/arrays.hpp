@@ -1,4 +1,4 @@
-// The arrays of numbers of a modal body file, in one list for its reader, its writer and its checks.
+// List of the numerical arrays of a modal body file, shared by its reader, writer and checks.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace tisserand::formats {
 
-/// Columns of blocks 3 x 3, 9 numbers each column by column in memory; the file holds them row by row.
+/// Array of 3 x 3 blocks. A column has 9 numbers per block, column by column in memory and row by row in the file.
 template <class Array>
 struct Blocks {
   Array& array;
@@ -18,7 +18,7 @@ struct ModalSizes {
   std::uint64_t n, m, f;  ///< nodes, modes, components of the residual
 };
 
-/// visit(dataset, shape, meaning of the shape, array) for each of them.
+/// Calls visit(dataset, shape, meaning of the shape, array) for each array.
 template <class Body, class Visit>
 void for_each_array(Body& body, const ModalSizes& sizes, const Visit& visit) {
   const auto [n, m, f] = sizes;

@@ -1,4 +1,4 @@
-// check(): everything that MODAL_BODY.md demands of the contents of a modal body, in the order of that page.
+// check(): all rules of MODAL_BODY.md for the contents of a modal body, in the order of that page.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -21,10 +21,10 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double integral_tolerance = 1e-10;  // of sums over the nodes, relative to the largest term of their kind
-constexpr double reference_tolerance = 1e-8;  // of reference conditions: what an eigenvalue problem leaves
-constexpr double normal_tolerance = 1e-9;     // of XᵀM X = 1
-constexpr double singular_tolerance = 1e-8;   // of the matrix of the reference conditions
+constexpr double integral_tolerance = 1e-10;  // sums over the nodes, relative to the largest term of their kind
+constexpr double reference_tolerance = 1e-8;  // reference conditions: accuracy of an eigenvalue solver
+constexpr double normal_tolerance = 1e-9;     // XᵀM X = 1
+constexpr double singular_tolerance = 1e-8;   // matrix of the reference conditions
 constexpr double largest_value = 1e100;
 
 struct FilePlace {
@@ -38,7 +38,7 @@ Eigen::Map<const Matrix3d> block(const double* blocks, Index j) { return Eigen::
 
 Vector3d vee(const Matrix3d& P) { return {P(1, 2) - P(2, 1), P(2, 0) - P(0, 2), P(0, 1) - P(1, 0)}; }
 
-/// Largest distance of a node from the frame, 1 if that is 0.
+/// Largest distance of a node from the origin of the frame, or 1 if it is 0.
 double length_of(const ModalBody& body) {
   const double length = body.node_position.rows() > 0 ? body.node_position.rowwise().norm().maxCoeff() : 0.0;
   return length > 0.0 ? length : 1.0;
@@ -111,7 +111,7 @@ void check_all_finite(const ModalBody& b, const FilePlace& place) {
                "divide it by its length");
 }
 
-/// Symmetric and positive semidefinite, up to round-off.
+/// Whether the matrix is symmetric and positive semidefinite, up to round-off.
 bool is_inertia(const Matrix3d& inertia) {
   const double size = inertia.cwiseAbs().maxCoeff();
   if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > 1e-12 * size) return false;
@@ -142,7 +142,7 @@ void check_modes(const ModalBody& b, const FilePlace& place) {
   }
 }
 
-/// The 6 x 6 matrix of the rigid motions at the reference conditions, lengths divided by that of the body.
+/// Smallest by largest singular value of the 6 x 6 rigid motions at the reference conditions, lengths over `length`.
 double reference_condition(const ModalBody& b, double length) {
   Eigen::MatrixXd rows(6, 6);
   for (Index i = 0; i < 6; ++i) {
@@ -190,7 +190,7 @@ void check_node_reference(const ModalBody& b, const FilePlace& place) {
   }
 }
 
-/// Both sums of a mean axis are zero: Σ m Xd, and Σ m x × Xd + μ Xt.
+/// Checks the mean axis conditions: Σ m Xd = 0 and Σ m x × Xd + μ Xt = 0.
 void check_mean_axis(const ModalBody& b, const FilePlace& place) {
   const double unit = std::sqrt(b.integrals.mass), length = length_of(b);
   for (Index j = 0; j < b.modes(); ++j) {
@@ -232,7 +232,7 @@ void check_integrals(const ModalBody& b, const FilePlace& place, std::vector<std
     }
 }
 
-/// Stored integrals against the sums over the nodes, and modes against the masses.
+/// Checks stored integrals against the sums over the nodes, and modes against the masses.
 void check_against_nodes(const ModalBody& b, const FilePlace& place) {
   const ModalIntegrals sums = integrals_of(b);
   const ModalIntegrals& s = b.integrals;
@@ -266,7 +266,7 @@ void check_against_nodes(const ModalBody& b, const FilePlace& place) {
                    "normalise the modes with the masses and inertias of the nodes");
 }
 
-/// Indices, sizes, symmetry.
+/// Checks indices, sizes and symmetry of the residual.
 void check_residual(const ModalBody& body, const FilePlace& place) {
   const ModalResidual& r = body.residual;
   const char* const remedy = "write the answers of formats/MODAL_BODY.md";

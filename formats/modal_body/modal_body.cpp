@@ -1,4 +1,4 @@
-// Modal bodies between memory and *.modal.h5.
+// Reads and writes *.modal.h5 files.
 #include "formats/modal_body/modal_body.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr hdf5::FileKind kind{"tisserand-modal-body", "modal body file",
                               "write the body again with a program of the same major version"};
 constexpr std::uint64_t max_nodes = 100'000, max_modes = 500, max_values = 30'000'000, max_residual = 5000;
 
-/// Length of a dataset before memory is taken; `rank`: of the dataset.
+/// Length of a one-dimensional dataset, checked against `limit` before memory is allocated.
 std::uint64_t bounded_extent(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t limit,
                              const std::string& meaning) {
   const hdf5::Shape shape = file.info(dataset).shape;
@@ -48,7 +48,7 @@ std::vector<double> read_values(const hdf5::InputFile& file, const std::string& 
   return values;
 }
 
-// From the values of a file, row by row, to an array of that shape, and back.
+// Conversion between the values of a file, row by row, and an array of that shape.
 template <class Matrix>
 void take(const double* values, Index rows, Index columns, Matrix& matrix) {
   matrix = Eigen::Map<const RowMajor>(values, rows, columns);

@@ -11,7 +11,7 @@
 
 namespace tisserand::formats {
 
-/// Sums over all nodes k of the body: masses m, inertias μ, positions x, rows Xd and Xt (3 x m) of the modes.
+/// Inertia integrals as sums over all nodes: masses m, inertias μ, positions x, rows Xd and Xt (3 x m) of the modes.
 struct ModalIntegrals {
   double mass = 0.0;                               ///< Σ m
   Eigen::Vector3d c0 = Eigen::Vector3d::Zero();    ///< Σ m x
@@ -25,8 +25,8 @@ struct ModalIntegrals {
 
 enum class ModalReference { nodes, mean_axis };
 
-/// What the modes leave out of the static answers to forces of size 1 at components of some nodes, f of them: w = K⁺ f
-/// − Φ ω⁻² Φᵀ f on the reference.
+/// Residual of the modes: static answers w = K⁺ f − Φ ω⁻² Φᵀ f, on the reference, to f unit forces at components of
+/// some nodes.
 struct ModalResidual {
   std::vector<int> node;        ///< f: rows of node_name
   std::vector<int> component;   ///< f: 0-2 translations, 3-5 rotations, axes of the body frame
@@ -35,14 +35,14 @@ struct ModalResidual {
   Eigen::MatrixXd coupling;     ///< 6 x f: Rᵀ M w of the rigid motions about the origin of the frame
 };
 
-/// n nodes, m modes. Vectors in axes of the body frame; modes are mass-normalised: w has the unit √mass length.
+/// Modal body with n nodes and m modes. Vectors in axes of the body frame. Modes are mass-normalised (√mass length).
 struct ModalBody {
   std::string name;
   std::string producer;  ///< program and version
   Units units;
   Eigen::Vector3d frame_position = Eigen::Vector3d::Zero();      ///< body frame in the part frame
   Eigen::Vector4d frame_orientation = Eigen::Vector4d::Unit(0);  ///< w x y z
-  bool all_nodes = true;  ///< every node with mass is here; else only some, and the integrals are taken as they are
+  bool all_nodes = true;  ///< true: all nodes with mass are listed; false: only some, and the integrals are not checked
   ModalReference reference = ModalReference::nodes;
   std::vector<int> reference_node;       ///< 6 for ModalReference::nodes
   std::vector<int> reference_component;  ///< 0-2 translations, 3-5 rotations
@@ -55,19 +55,18 @@ struct ModalBody {
   Eigen::VectorXd omega2;                                   ///< m, ascending
   Eigen::VectorXd zeta;                                     ///< m, ratios of critical damping
   ModalIntegrals integrals;
-  ModalResidual residual;  ///< since version 1.1; without components: the file has none
+  ModalResidual residual;  ///< since version 1.1; without components if the file has none
 
   Eigen::Index modes() const { return omega2.size(); }
 };
 
-/// SHA-256 (hex) of modes and nodes: what recovery and results files name it by.
+/// SHA-256 (hex) of modes and nodes, by which recovery and results files refer to the body.
 std::string content_id(const ModalBody& body);
 
-/// The sums over the nodes that are there.
+/// Integrals computed from the listed nodes.
 ModalIntegrals integrals_of(const ModalBody& body);
 
-/// All that MODAL_BODY.md demands; returns warnings, whole sentences. `where` is the file name in messages. Throws
-/// Error.
+/// Checks all rules of MODAL_BODY.md and returns warnings as sentences. `where`: file name in messages. Throws Error.
 std::vector<std::string> check(const ModalBody& body, const std::string& where);
 
 struct LoadedModalBody {
@@ -75,13 +74,13 @@ struct LoadedModalBody {
   std::vector<std::string> warnings;
 };
 
-/// Reads and checks. Throws Error naming dataset, indices, value and meaning.
+/// Reads and checks a file. Throws Error that names dataset, indices, value and meaning.
 LoadedModalBody read_modal_body(const std::string& path);
 
 /// Checks and returns the bytes of the file.
 std::string modal_body_image(const std::string& path, const ModalBody& body);
 
-/// The same, written beside and renamed.
+/// Checks, writes the file under a temporary name and renames it.
 void write_modal_body(const std::string& path, const ModalBody& body);
 
 }  // namespace tisserand::formats
