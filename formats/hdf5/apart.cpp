@@ -1,4 +1,4 @@
-// The child: fork, door, requests. Small messages go through a socket, answers through memory that both share.
+// The reading child: fork, sandbox, requests. Small messages use a socket, answers use shared memory.
 #include "formats/hdf5/apart.hpp"
 
 #include <fcntl.h>
@@ -31,17 +31,17 @@ namespace {
 
 constexpr double least_processor_seconds = 2.0, least_wall_seconds = 30.0;
 constexpr double bytes_per_processor_second = 20e6;  // a tenth of what HDF5 reads and unpacks in a second
-constexpr double bytes_per_wall_second = 1e6;        // a slow disk at the other end of a network
-constexpr std::uint64_t window_bytes = 1u << 20;     // of the shared memory; it stays in the processor's cache
+constexpr double bytes_per_wall_second = 1e6;        // a slow disk behind a network
+constexpr std::uint64_t window_bytes = 1u << 20;     // of the shared memory; fits the processor's cache
 constexpr std::uint64_t most_text = 1u << 28, most_complaint = 1u << 16, longest_request = 1u << 17;
 constexpr int socket_of_child = 3;
-constexpr timeval glance{0, 200'000};  // how often the parent looks at a child that computes
+constexpr timeval glance{0, 200'000};  // interval at which the parent checks a computing child
 
 constexpr char asks = 0, opens_closed = 1, opens_any = 2;
 
 enum class Answer : std::uint64_t { values, complaint, opening_unconfined };
 
-/// What goes before an answer, whose first piece is in the window by then.
+/// Header sent before each piece of an answer, which is then in the window.
 struct Head {
   Answer answer = Answer::values;
   std::uint64_t bytes = 0;
@@ -49,7 +49,7 @@ struct Head {
 
 // --- the child -----------------------------------------------------------------------------------------------------
 
-/// Room for an answer: the window if it fits in there, so that HDF5 reads right into it.
+/// Memory for an answer: the window if it fits, so that HDF5 reads directly into it.
 class Room {
  public:
   explicit Room(char* window) : window_(window) {}
@@ -61,7 +61,7 @@ class Room {
   }
   void put(const std::string& bytes) { std::memcpy(take(bytes.size()), bytes.data(), bytes.size()); }
 
-  /// Piece by piece, each when the parent has asked for it.
+  /// Sends the answer in pieces of one window, each on request of the parent.
   void send(Answer answer) {
     for (std::uint64_t done = 0; done == 0 || done < bytes_; done += window_bytes) {
       char next = 0;
@@ -79,7 +79,7 @@ class Room {
   std::uint64_t bytes_ = 0;
 };
 
-/// No descriptors but the socket, no core file, the end together with the parent, no handlers of ours for crashes.
+/// Prepares the child: no descriptors except the socket, no core file, death with the parent, default crash handlers.
 void leave_the_parent(int socket, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(0);
@@ -92,19 +92,19 @@ void leave_the_parent(int socket, pid_t parent) {
   ::closefrom(socket_of_child + 1);
 }
 
-/// Reading what is open, computing, answering, giving up.
+/// Sandbox: allows only reading of open files, computing, answering and exit. False if it cannot be installed.
 bool close_door() {
   using enum CallFilter::Action;
   CallFilter filter;
   filter.add(allow, {SYS_read, SYS_write, SYS_pread64, SYS_munmap, SYS_brk, SYS_mremap, SYS_madvise, SYS_mprotect,
                      SYS_futex, SYS_clock_gettime, SYS_sched_yield, SYS_getpid, SYS_gettid, SYS_sysinfo,
-                     SYS_sigaltstack,  // of sanitizers, before they throw
+                     SYS_sigaltstack,  // sanitizers call it before they throw
                      SYS_rt_sigprocmask, SYS_rt_sigreturn, SYS_restart_syscall, SYS_exit, SYS_exit_group});
   filter.add(allow, SYS_mmap, {3, MAP_TYPE, MAP_PRIVATE, false});
   return filter.install();
 }
 
-/// Exit status of a child without memory, the same as that of the programs (report_short_memory).
+/// Exit status of a child without memory, equal to that of the programs (report_short_memory).
 constexpr int left_without_memory = 1;
 
 std::string pack_complaint(const Error& error) {
@@ -114,7 +114,7 @@ std::string pack_complaint(const Error& error) {
   return to.bytes;
 }
 
-/// Runs `work`, which fills the room, and sends what is in there or what it threw.
+/// Runs `work`, which fills the room, and sends the result or the error that it threw.
 template <class Work>
 void send_result(Room& room, const Work& work) {
   Answer answer = Answer::complaint;
@@ -128,7 +128,7 @@ void send_result(Room& room, const Work& work) {
   room.send(answer);
 }
 
-/// The files of the child, opened before the door closes, read when they are asked for.
+/// File of the child, opened before the sandbox starts and read on request.
 struct ServedFile {
   explicit ServedFile(const std::string& path) {
     try {
@@ -137,7 +137,7 @@ struct ServedFile {
       failure = error;
     }
   }
-  /// Opens it with HDF5 if that has not been done.
+  /// The HDF5 container of the file, opened at the first call.
   const Container& open(Completeness completeness) {
     if (failure) throw Error(*failure);
     if (!container) container.emplace(*file, completeness);
@@ -224,7 +224,7 @@ Place place_in(std::string& text, const std::string& path) {
   };
 }
 
-/// A request is the number of a file, what to do, and the question.
+/// Bytes of a request: index of a file, action, question.
 std::string bytes_of(std::size_t file, char act, const std::string& question) {
   Packer to;
   to.value(file);
@@ -238,12 +238,12 @@ std::weak_ptr<Apart> together;
 
 struct Apart::Impl {
   std::vector<std::string> paths;
-  std::string path;  ///< of the file in question
+  std::string path;  ///< file of the current request
   ReadingLimits limits;
   pid_t child = -1;
   int socket = -1;
   char* window = nullptr;
-  int status = 0;  ///< of the child, once it has ended
+  int status = 0;  ///< exit status of the child
 
   void end();
   [[noreturn]] void give_up();
@@ -298,7 +298,7 @@ void Apart::Impl::give_up() {
   throw Error("is an HDF5 file, but so damaged that HDF5 cannot read it", path, "write or copy the file again");
 }
 
-/// Waits for the child. Nothing of what it sends is taken on trust.
+/// Waits for the next header from the child. The parent trusts nothing that the child sends.
 Head Apart::Impl::next_head() {
   const auto begin = std::chrono::steady_clock::now();
   std::optional<double> computed;

@@ -1,4 +1,4 @@
-// Reading of untrusted HDF5 files: open, look, compare with what is expected, and only then allocate and read.
+// Reads untrusted HDF5 files: inspects and checks each object before memory is allocated for its data.
 #include "formats/hdf5/container.hpp"
 
 #include <fcntl.h>
@@ -79,7 +79,7 @@ std::uint64_t value_count(const Shape& shape) {
   return count;
 }
 
-/// The text of a fixed-length field without its padding.
+/// Text of a fixed-length field without its padding.
 std::string strip_padding(const char* text, std::size_t size, H5T_str_t padding) {
   std::size_t length = ::strnlen(text, size);
   if (padding == H5T_STR_SPACEPAD)
@@ -87,7 +87,7 @@ std::string strip_padding(const char* text, std::size_t size, H5T_str_t padding)
   return std::string(text, length);
 }
 
-/// Bytes that the values themselves take in the file: Fletcher's checksum adds four to each chunk.
+/// Stored bytes of the values alone. Fletcher's checksum adds four bytes to each chunk.
 std::uint64_t without_checksums(Id creation, std::uint64_t stored, std::size_t element) {
   std::vector<hsize_t> chunk(H5S_MAX_RANK);
   const int rank = H5Pget_chunk(creation, H5S_MAX_RANK, chunk.data());
@@ -103,7 +103,7 @@ bool has_only_checksums(Id creation) {
          H5Pget_filter2(creation, 0, &flags, &values, nullptr, 0, nullptr, nullptr) == H5Z_FILTER_FLETCHER32;
 }
 
-/// Values of a dataset over time: rows [start[0], start[0] + count[0]) and a box of each.
+/// Block of a dataset over time: rows [start[0], start[0] + count[0]) and a box within each row.
 struct Selection {
   std::vector<hsize_t> start, count;
   hsize_t values() const { return value_count(Shape(count.begin(), count.end())); }
@@ -122,8 +122,8 @@ bool read_selection(const Source& source, const Selection& selection, Id transfe
          H5Dread(source.dataset, source.type, memory.id(), source.space, transfer, values) >= 0;
 }
 
-/// The chunk in which the rows end is written again and again while a run goes on. Where its writer was met, or killed,
-/// amid that, the rows are there but their checksum is not yet: this chunk is then read without, the others with it.
+/// Reads rows while their writer may still run, or was killed. The writer rewrites the chunk of the last rows
+/// repeatedly, so its checksum may be outdated: this chunk is read without it, the others with it.
 bool read_beside_writer(const Source& source, const Selection& selection, char* values) {
   const Handle creation(H5Dget_create_plist(source.dataset), H5Pclose), transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
   std::vector<hsize_t> chunk(H5S_MAX_RANK);
@@ -163,8 +163,7 @@ herr_t find_errno(unsigned, const H5E_error2_t* entry, void* number) {
   return 0;
 }
 
-/// The number of the system's error behind the HDF5 call that just failed, or 0. HDF5 may lack memory for its own
-/// report.
+/// System error number of the HDF5 call that just failed, or 0. ENOMEM also if HDF5 lacks memory for its own report.
 int number_of_last_error() {
   const int last = errno;
   int number = 0;
@@ -172,7 +171,7 @@ int number_of_last_error() {
   return number == 0 && last == ENOMEM ? last : number;
 }
 
-/// The problem of the HDF5 call that just failed. Sizes of a damaged file can ask for any memory.
+/// Problem of the HDF5 call that just failed. Damaged sizes can request any amount of memory.
 Problem last_problem(const std::string& action, const std::string& remedy) {
   if (number_of_last_error() == ENOMEM)
     return {action + ": no memory for it", remedy + "; where memory is short, raise the limit (`ulimit -v`)"};
@@ -180,7 +179,7 @@ Problem last_problem(const std::string& action, const std::string& remedy) {
   return {error.message(), error.remedy()};
 }
 
-/// Why the data of a dataset cannot be had.
+/// Reason why the data of a dataset are unavailable; empty if they are available.
 Problem storage_problem(Id creation, Id type, Id space) {
   if (H5Pget_external_count(creation) > 0 || H5Pget_layout(creation) == H5D_VIRTUAL)
     return {"its data are stored in another file", "store the data in the file itself"};
@@ -226,7 +225,7 @@ Id memory_type(ValuesRequest::Type type) {
                                                 : H5T_NATIVE_INT64;
 }
 
-/// Whether the signature stands where it may: at 0 or a power of two from 512 on.
+/// Whether the HDF5 signature is at a permitted position: 0 or a power of two from 512 on.
 bool has_signature(const OpenFile& file) {
   char bytes[8] = {};
   for (off_t at = 0; ::pread(file.descriptor(), bytes, sizeof bytes, at) == sizeof bytes; at = at == 0 ? 512 : 2 * at)
@@ -255,8 +254,8 @@ int Handle::reset() {
 }
 
 void silence() {
-  require_addresses(std::size_t{4} << 20U);  // HDF5 crashes, or ends the program, where it cannot begin
-  // HDF5's own closing at exit crashes on files whose last write failed; ours are closed by their owners.
+  require_addresses(std::size_t{4} << 20U);  // HDF5 crashes or exits if it cannot initialise
+  // HDF5's own closing at exit crashes on files whose last write failed. Our files are closed by their owners.
   [[maybe_unused]] static const herr_t once = H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
@@ -298,7 +297,7 @@ Container::Container(const OpenFile& file, Completeness completeness) : path_(fi
   if (!file_.valid() && completeness == Completeness::any) {
     closed_properly_ = false;
     file_ = Handle(H5Fopen(name, H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.id()), H5Fclose);
-    // The writer was killed after it had left the mode that readers may share.
+    // The writer was killed after it had left the mode for concurrent readers.
     const hbool_t clear = true;
     if (!file_.valid()) H5Pset(access.id(), "clear_status_flags", &clear);
     if (!file_.valid()) file_ = Handle(H5Fopen(name, H5F_ACC_RDWR, access.id()), H5Fclose);
@@ -455,7 +454,7 @@ void Container::read(const ValuesRequest& request, const Place& room) const {
   if (request.part == ValuesRequest::Part::all) {
     if (H5Sget_simple_extent_npoints(space.id()) != static_cast<hssize_t>(request.values)) throw unexpected();
     const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
-    // HDF5 would zero a megabyte before each conversion, however few the integers are.
+    // HDF5 would clear a megabyte before each conversion, even for few integers.
     if (request.type == ValuesRequest::Type::int64) H5Pset_buffer(transfer.id(), conversion_bytes, nullptr, nullptr);
     if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, transfer.id(), room(request.values * H5Tget_size(type))) < 0)
       throw last_error("cannot be read", place(request.dataset), damaged_values);

@@ -1,5 +1,4 @@
-// The file as HDF5 sees it. HDF5 1.10 can be led astray by a damaged or crafted file, so this is used only in the
-// process of apart.hpp.
+// A file as HDF5 reads it. A damaged or crafted file can exploit HDF5 1.10, so only the process of apart.hpp uses this.
 #pragma once
 
 #include <memory>
@@ -12,8 +11,8 @@
 
 namespace tisserand::formats::hdf5 {
 
-/// An ordinary file, open for reading, before anything of it is read. Throws Error: no such file, no permission, a
-/// folder, no bytes.
+/// An ordinary file opened for reading, before anything is read. Throws Error: no such file, no permission, a folder,
+/// no bytes.
 class OpenFile {
  public:
   explicit OpenFile(const std::string& path);
@@ -32,21 +31,21 @@ class OpenFile {
 
 class Container {
  public:
-  /// Throws Error: not HDF5, cut short, not closed properly. The file stays open as long as this lives.
+  /// Throws Error: not HDF5, cut short, not closed properly. `file` must outlive this object.
   Container(const OpenFile& file, Completeness completeness);
 
   const std::string& path() const { return path_; }
   bool closed_properly() const { return closed_properly_; }
   ObjectEntry describe(const std::string& object) const;
-  /// Whether a dataset cannot grow and has no more than so many bytes (texts of variable length: no more references).
+  /// Whether a dataset cannot grow and has at most `bytes` bytes (texts of variable length: bytes of references).
   bool is_fixed_and_below(const std::string& dataset, std::uint64_t bytes) const;
-  // Both throw Error, also if there are not as many as expected.
+  // Both throw Error, also if the number of values differs from the expected one.
   std::vector<std::string> read_texts(const std::string& dataset, std::uint64_t count) const;
   void read(const ValuesRequest& request, const Place& place) const;
 
  private:
   std::string place(const std::string& object) const;
-  /// The dataset stays open until another one is asked for.
+  /// The open dataset `name`. It stays open until another one is requested.
   Id dataset(const std::string& name) const;
   void describe_attributes(Id object, ObjectEntry& entry) const;
   AttributeEntry describe_attribute(Id object, const std::string& name) const;

@@ -1,4 +1,4 @@
-// A driver of HDF5's virtual file layer: reads by pread(), writes into memory.
+// A driver of HDF5's virtual file layer that reads by pread() and writes into memory.
 #include "formats/hdf5/descriptor_driver.hpp"
 
 #include <hdf5.h>
@@ -15,13 +15,13 @@ namespace tisserand::formats::hdf5 {
 namespace {
 
 struct OpenedFile {
-  H5FD_t head{};  ///< HDF5's own, in front
+  H5FD_t head{};  ///< HDF5's base part; must be first
   int descriptor = -1;
   haddr_t end_of_addresses = 0, end_of_file = 0;
-  std::vector<std::pair<haddr_t, std::string>> written;  ///< pieces over the file, the last one on top
+  std::vector<std::pair<haddr_t, std::string>> written;  ///< written pieces, later ones override earlier ones
 };
 
-/// What the next H5Fopen() opens.
+/// File that the next H5Fopen() opens.
 OpenedFile next_file;
 
 OpenedFile& opened(H5FD_t* file) { return *reinterpret_cast<OpenedFile*>(file); }
@@ -34,7 +34,7 @@ herr_t close_driver(H5FD_t* file) {
   return 0;
 }
 
-/// As HDF5's own driver of ordinary files.
+/// Reports the features of HDF5's driver of ordinary files.
 herr_t query_driver(const H5FD_t*, unsigned long* flags) {
   if (flags != nullptr)
     *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
@@ -50,7 +50,7 @@ herr_t set_end_of_addresses(H5FD_t* file, H5FD_mem_t, haddr_t address) {
   return 0;
 }
 
-/// Zeros behind the end of the file, as HDF5's own driver.
+/// Reads bytes. Beyond the end of the file they are zero, as in HDF5's own driver.
 herr_t read_driver(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, void* buffer) {
   char* to = static_cast<char*>(buffer);
   std::size_t done = 0;
@@ -74,7 +74,7 @@ herr_t write_driver(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_
   return 0;
 }
 
-// HDF5 looks for the mark of a writer in files of drivers that can lock, and there only.
+// HDF5 checks the mark of a writer only if the driver can lock files.
 herr_t lock_driver(H5FD_t*, hbool_t) { return 0; }
 herr_t unlock_driver(H5FD_t*) { return 0; }
 

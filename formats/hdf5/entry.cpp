@@ -1,4 +1,4 @@
-// Requests and answers between a program and the process that reads for it.
+// Requests and answers between a program and its reading process.
 #include "formats/hdf5/entry.hpp"
 
 #include <deque>
@@ -24,7 +24,7 @@ Problem unpack_problem(Unpacker& from) {
   return problem;
 }
 
-/// One of an enumeration whose last member is `last`.
+/// Reads a value of an enumeration whose last member is `last`.
 template <class T>
 T unpack_choice(Unpacker& from, T last) {
   const auto value = from.value<std::uint8_t>();
@@ -92,7 +92,7 @@ std::string packed_texts(const std::vector<std::string>& texts) {
   return to.bytes;
 }
 
-/// All values of a small dataset that cannot grow, so that files which are read whole take one request; else nothing.
+/// All values of a small dataset that cannot grow, which saves a request; empty for other datasets.
 std::string whole_of(const Container& container, const ObjectEntry& entry) {
   const DatasetInfo& info = entry.info;
   std::uint64_t count = 1;
@@ -117,7 +117,7 @@ std::string whole_of(const Container& container, const ObjectEntry& entry) {
             return whole.data();
           });
   } catch (const Error&) {
-    return "";  // met again where it is asked for
+    return "";  // reported when the values are requested
   }
   return whole.size() <= 16 * most_small_values ? whole : "";
 }

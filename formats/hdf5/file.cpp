@@ -1,4 +1,4 @@
-// Reading of untrusted HDF5 files: ask what is there, compare it with what is expected, and only then take memory.
+// Reads untrusted HDF5 files: asks for descriptions and checks them before memory is allocated.
 #include "formats/hdf5/file.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ constexpr const char* no_answer = "what HDF5 made of it is no answer";
 
 Unpacker unpack(const std::string& bytes, const std::string& path) { return {bytes, path, no_answer}; }
 
-/// Whether the list of a group says that there is no such member.
+/// Whether the complete list of the group lacks this member.
 bool denies(const ObjectEntry& group, const std::string& member) {
   return group.state == ObjectState::group && group.problem.message.empty() && group.members.size() < max_members &&
          std::ranges::find(group.members, member) == group.members.end();

@@ -1,4 +1,4 @@
-// Format, version and units at the head of a file.
+// Reads, checks and writes format, version and units of a file.
 #include "formats/hdf5/head.hpp"
 
 #include <charconv>
@@ -40,7 +40,7 @@ void check_unit(const Units& units, const Unit& unit, const std::string& name, U
   try {
     known = find(unit.label);
   } catch (const Error&) {
-    return;  // labels of other units are free
+    return;  // unknown labels are allowed
   }
   if (std::abs(known.factor - unit.factor) > 1e-9 * known.factor)
     throw Error(
@@ -52,7 +52,7 @@ struct Version {
   int major = -1, minor = -1;
 };
 
-/// Negative numbers: not major.minor.
+/// Version major.minor; negative numbers if the text is not of this form.
 Version parse_version(const std::string& text) {
   Version version;
   const char* end = text.data() + text.size();

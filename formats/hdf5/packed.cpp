@@ -1,4 +1,4 @@
-// Chunks of rows behind shuffle, deflate and Fletcher's checksum, which vouches for the compressed bytes.
+// Chunks of rows with shuffle, deflate and Fletcher's checksum over the compressed bytes.
 #include "formats/hdf5/packed.hpp"
 
 #include <hdf5.h>
@@ -13,9 +13,9 @@ namespace tisserand::formats::hdf5 {
 namespace {
 
 constexpr const char* packed_remedy = "free some space, or choose another place for the file";
-constexpr unsigned packed_deflate_level = 1;  // higher ones take three times the time for a hundredth of the size
+constexpr unsigned packed_deflate_level = 1;  // higher levels take three times as long and save 1 %
 
-/// The box of rows [first, first + count) of `space`, selected; its number of values.
+/// Selects rows [first, first + count) of `space` and returns the number of their values.
 hsize_t select_rows(Id space, std::uint64_t first, std::uint64_t count) {
   std::vector<hsize_t> start(H5S_MAX_RANK, 0), extent(H5S_MAX_RANK, 0);
   const int rank = H5Sget_simple_extent_dims(space, extent.data(), nullptr);
@@ -31,12 +31,12 @@ hsize_t select_rows(Id space, std::uint64_t first, std::uint64_t count) {
 OutputFile::OutputFile(const std::string& path) : path_(path), temporary_(temporary_beside(path)) {
   silence();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  // From 1.10 on the index of the chunks has a checksum too: a flipped bit there let chunks vanish.
+  // Since format 1.10 the index of the chunks has a checksum too. Before, a flipped bit there could make chunks vanish.
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_LATEST);
   H5Pset_file_locking(access.id(), false, true);
   H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
   H5Pset_obj_track_times(creation.id(), false);
-  // Exclusive: a link that somebody has put in the place of the temporary file is not followed.
+  // Exclusive creation does not follow a link that somebody has put in place of the temporary file.
   file_ = Handle(H5Fcreate(temporary_.c_str(), H5F_ACC_EXCL, creation.id(), access.id()), H5Fclose);
   if (file_.valid()) return;
   const Error error = last_error("cannot create the file", path, packed_remedy);

@@ -1,4 +1,4 @@
-// Large arrays of 32-bit numbers in files on the disk: chunked, compressed, with checksums, read and written by rows.
+// Large arrays of 32-bit numbers in files on disk: chunked, compressed, with checksums, read and written by rows.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace tisserand::formats::hdf5 {
 
-/// A file that grows beside its name and takes it in publish(); without that, nothing is left.
+/// File written under a temporary name until publish(). Without publish() nothing is left.
 class OutputFile {
  public:
   explicit OutputFile(const std::string& path);
@@ -17,7 +17,7 @@ class OutputFile {
 
   Output output() const { return {file_.id(), path_, Packing::fast}; }
   const std::string& path() const { return path_; }
-  /// Closes the complete file under its temporary name, which is returned; the caller renames or removes it.
+  /// Closes the complete file and returns its temporary name. The caller renames or removes it.
   std::string stage();
   void publish();
 
@@ -26,13 +26,13 @@ class OutputFile {
   Handle file_;
 };
 
-/// A dataset of 32-bit floats whose chunks hold `chunk` rows each.
+/// Creates a dataset of 32-bit floats with `chunk` rows per chunk.
 Handle create_packed(const Output& out, const std::string& dataset, const Shape& shape, std::uint64_t chunk);
-/// Rows [first, first + count) of it.
+/// Writes its rows [first, first + count).
 void write_packed_rows(const Handle& dataset, std::uint64_t first, std::uint64_t count, const float* values,
                        const std::string& where);
 
-/// Closes the dataset, whose last values go to the disk only now. Throws Error if they do not.
+/// Closes the dataset, which writes its last values to the disk. Throws Error if that fails.
 void close_packed(Handle& handle, const std::string& dataset, const std::string& where);
 
 }  // namespace tisserand::formats::hdf5

@@ -1,4 +1,4 @@
-// References through a conversion of our own, and the global heap: "HDF5 File Format Specification", III.E.
+// Reads references by a registered type conversion, and the global heap by its specification (HDF5 File Format, III.E).
 #include "formats/hdf5/variable_texts.hpp"
 
 #include <hdf5.h>
@@ -14,7 +14,7 @@ namespace tisserand::formats::hdf5 {
 namespace {
 
 constexpr std::uint64_t most_collection = 1u << 27;
-constexpr std::uint64_t other_reference_bytes = 8;  // the length before the address, the index behind it
+constexpr std::uint64_t other_reference_bytes = 8;  // length before the address, index after it
 
 [[noreturn]] void refuse_texts(const std::string& what, const std::string& where) {
   throw Error(what, where, "the file is damaged, or made to do harm: do not use it");
@@ -22,7 +22,7 @@ constexpr std::uint64_t other_reference_bytes = 8;  // the length before the add
 
 std::uint64_t rounded_up(std::uint64_t size) { return (size + 7) / 8 * 8; }
 
-/// HDF5 gives the bytes of references to whoever converts them to bytes without a meaning.
+/// Conversion that keeps the bytes of references. HDF5 calls it for conversions to an opaque type.
 herr_t keep_references(hid_t from, hid_t to, H5T_cdata_t* data, std::size_t, std::size_t, std::size_t, void*, void*,
                        hid_t) {
   data->need_bkg = H5T_BKG_NO;

@@ -1,5 +1,5 @@
-// Texts of variable length, read without HDF5: it copies as many bytes as the heap of a crafted file says, over what
-// lies behind a buffer of the length that the reference says (1.10.8, H5HG_read).
+// Reads texts of variable length without HDF5. HDF5 1.10.8 (H5HG_read) copies as many bytes as the heap says into a
+// buffer of the length that the reference says, so a crafted file can overflow it.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ namespace tisserand::formats::hdf5 {
 
 class VariableTexts {
  public:
-  /// `descriptor` is the file whose HDF5 identifier is `file`.
+  /// `descriptor` is the open file that HDF5 knows as `file`.
   VariableTexts(int descriptor, Id file);
 
-  /// `count` texts, each cut off at its first byte 0, which `read` puts into a buffer as elements of a type: of
-  /// references, as the file holds them. Throws Error at `where`: a reference that does not fit what it refers to,
-  /// altogether more than `most` bytes.
+  /// `count` texts, each cut off at its first zero byte. `read` fills a buffer with the references of the file, as
+  /// elements of `type`. Throws Error at `where` if a reference does not match its text, or if all texts exceed `most`
+  /// bytes.
   std::vector<std::string> read(std::uint64_t count, std::uint64_t most, const std::string& where,
                                 const std::function<bool(Id type, void* references)>& read);
 
@@ -32,7 +32,7 @@ class VariableTexts {
   std::uint64_t number(const char* bytes, std::uint64_t size) const;
 
   int descriptor_;
-  std::uint64_t address_bytes_ = 8, length_bytes_ = 8, begin_ = 0;  ///< of this file
+  std::uint64_t address_bytes_ = 8, length_bytes_ = 8, begin_ = 0;  ///< sizes and start of this file
   std::uint64_t loaded_ = 0;                                        ///< address of the collection below; 0: none
   std::string collection_;
   std::vector<Item> items_;

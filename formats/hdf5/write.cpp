@@ -1,4 +1,4 @@
-// Writing of HDF5 objects, and files that are composed in memory so that the disk sees them whole or not at all.
+// Writes HDF5 objects, and composes files in memory so that they appear on disk complete or not at all.
 #include <hdf5.h>
 
 #include <algorithm>
@@ -13,14 +13,14 @@ namespace tisserand::formats::hdf5 {
 namespace {
 
 constexpr const char* remedy = "free some space, or choose another place for the file";
-constexpr std::uint64_t compact_bytes = 4096;         // of datasets whose values stand in their header
-constexpr std::uint64_t compact_text_bytes = 60'000;  // of one string; HDF5 allows 64 KiB of a header's message
-// By Packing. Chunks, roughly, fit the cache of a dataset. Higher levels than 4 take longer for hardly less, and 4
-// takes three times the time of 1 for a hundredth of the size.
+constexpr std::uint64_t compact_bytes = 4096;         // limit of datasets stored in their header
+constexpr std::uint64_t compact_text_bytes = 60'000;  // limit of one string; HDF5 limits a header message to 64 KiB
+// Values by Packing. A chunk roughly fits the cache of a dataset. Deflate levels above 4 take longer and save almost
+// nothing. Level 4 takes three times as long as level 1 and saves 1 %.
 constexpr std::uint64_t chunk_bytes[] = {256u << 10, 256u << 10, 1u << 20};
 constexpr unsigned deflate_level[] = {0, 4, 1};
 
-/// Zero-padded UTF-8 of `size` bytes.
+/// Type of zero-padded UTF-8 text of `size` bytes.
 Handle text_type(std::size_t size) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type.id(), std::max<std::size_t>(size, 1));
@@ -29,7 +29,7 @@ Handle text_type(std::size_t size) {
   return type;
 }
 
-/// Values in memory, and their type there and in the file.
+/// Values in memory, with their types in memory and in the file.
 struct Values {
   Id file_type = -1, memory_type = -1;
   const void* data = nullptr;
@@ -49,8 +49,8 @@ void write_one(const Output& out, const std::string& object, const std::string& 
     throw last_error(fmt::format("cannot write attribute '{}' of {}", name, object), out.where, remedy);
 }
 
-/// How values are stored so that damaged ones cannot be read as others: a few in the dataset's header, whose checksum
-/// HDF5 keeps, others in chunks with Fletcher's. A scalar cannot be in chunks: a longer text bears none.
+/// Chooses a storage with checksums, so that damaged values are detected: small datasets in their header, others in
+/// chunks with Fletcher's checksum. A scalar cannot have chunks, so a longer text has no checksum.
 void set_checked_storage(Id creation, Id space, Id file_type, Packing packing) {
   const int rank = H5Sget_simple_extent_ndims(space);
   const auto count = static_cast<std::uint64_t>(H5Sget_simple_extent_npoints(space));
@@ -73,8 +73,9 @@ void set_checked_storage(Id creation, Id space, Id file_type, Packing packing) {
   H5Pset_fletcher32(creation);
 }
 
-/// Creates and writes; no times are stored, so that equal contents give equal bytes. The last values may go to the
-/// disk only when the dataset is closed.
+/// Creates and writes a dataset. No times are stored, so that equal contents give equal bytes. The last values may
+/// reach
+/// the disk only when the dataset is closed.
 void write_values(const Output& out, const std::string& dataset, const Handle& space, const Values& values) {
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.id(), false);
@@ -93,7 +94,7 @@ Handle simple_space(const Shape& shape) {
   return Handle(H5Screate_simple(count_of(extent), extent.data(), nullptr), H5Sclose);
 }
 
-/// Where the bytes of a file in memory go when it is closed, as many as it takes; null: nowhere.
+/// Destination of the bytes of a file in memory when it is closed, up to its size; null: none.
 thread_local std::string* closed_image = nullptr;
 
 void* resize_image(void* bytes, std::size_t size, H5FD_file_image_op_t, void*) { return std::realloc(bytes, size); }
@@ -117,7 +118,7 @@ void create_groups(Id file, const std::string& dataset) {
 }
 
 void write_attribute(const Output& out, const std::string& object, const std::string& name, const std::string& value) {
-  const Handle type = text_type(value.size());  // of an empty one: its closing zero
+  const Handle type = text_type(value.size());  // an empty value needs its closing zero
   write_one(out, object, name, {type.id(), type.id(), value.c_str()});
 }
 
@@ -161,11 +162,10 @@ Handle create_in_memory(const std::string& where) {
   callbacks.image_realloc = resize_image;
   callbacks.image_free = free_image;
   H5Pset_file_image_callbacks(access.id(), &callbacks);
-  H5Pset_meta_block_size(access.id(), 0);  // no space in advance, which would be left over at the end
+  H5Pset_meta_block_size(access.id(), 0);  // no space reserved in advance, which would remain at the end
   H5Pset_small_data_block_size(access.id(), 0);
   H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
-  // From 1.8 on headers, and so names, attributes and small datasets, have checksums; every program of today reads
-  // them.
+  // Since format 1.8 headers (names, attributes, small datasets) have checksums. All current programs read them.
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_LATEST);
   H5Pset_obj_track_times(creation.id(), false);
   Handle file(H5Fcreate("memory", H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
@@ -174,7 +174,7 @@ Handle create_in_memory(const std::string& where) {
 }
 
 std::string file_image(Handle file, const std::string& where) {
-  // H5Fget_file_image() would spoil the checksum of the superblock: it clears the mark of the writer behind its back.
+  // H5Fget_file_image() would spoil the superblock's checksum, because it clears the mark of the writer afterwards.
   const bool flushed = H5Fflush(file.id(), H5F_SCOPE_GLOBAL) >= 0;
   const ssize_t size = H5Fget_file_image(file.id(), nullptr, 0);
   std::string image(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');

@@ -1,4 +1,4 @@
-// Data: what a scene may say of each kind of joint.
+// Table of the kinds of joints and of the keys that a scene may give for each.
 #include "formats/joints/joint_kinds.hpp"
 
 #include "common/error.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array<double, 3> y_reversed{1.0, -1.0, 1.0}, all_reversed{-1.0, -1.0, -1.0};
 
-// Surfaces in contact, by what their friction needs: a radius where they turn, an arm where they take moments.
+// Contact surfaces by what their friction needs: a radius if they turn, an arm if they take moments.
 constexpr FrictionKeys slides{true, false, false}, slides_and_takes_moments{true, false, true};
 constexpr FrictionKeys turns{true, true, false}, turns_and_takes_moments{true, true, true};
 

@@ -1,5 +1,5 @@
-// The kinds of joints as scene.yaml knows them: one row with all that a scene may say of a kind. What a kind means in
-// equations is the affair of the mechanism. Where a new kind goes is told in mechanism/MAP.md.
+// The kinds of joints in scene.yaml: one row with all that a scene may give for a kind. The equations of a kind are in
+// the mechanism. mechanism/MAP.md explains where to add a new kind.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace tisserand::formats {
 
-/// In the order of the rows.
+/// Kinds of joints, in the order of the rows.
 enum class JointKind {
   fixed,
   revolute,
@@ -29,26 +29,26 @@ enum class JointKind {
   generic
 };
 
-/// The key of the scene that a kind takes beyond those of all joints.
+/// Additional key that a kind of joint takes in the scene.
 enum class JointKey {
   none,
-  hold,    ///< the directions that are held; required
+  hold,    ///< held directions; required
   pitch,   ///< advance per turn; required
-  length,  ///< the distance that is kept
+  length,  ///< constant distance
 };
 std::string_view joint_key_word(JointKey key);
 
-/// What the axes of the markers are to a joint.
+/// Meaning of the marker axes for a joint.
 enum class JointAxes {
-  required,  ///< z matters, so that the scene must give `axis` or the orientation of a marker
-  optional,  ///< those of the world where the scene gives none
+  required,  ///< z matters, so the scene must give `axis` or the orientation of a marker
+  optional,  ///< world axes if the scene gives none
   unused
 };
 
-/// What friction in a joint of some kind needs and may have. Kinds without a contact surface have no friction.
+/// Data that friction in a kind of joint needs or accepts. Kinds without a contact surface have no friction.
 struct FrictionKeys {
   bool has_friction = false;
-  bool radius = false;  ///< of the contact, for parts of the slip that are turns
+  bool radius = false;  ///< contact radius, for sliding by rotation
   bool arm = false;     ///< the joint takes moments that press its surfaces together
 };
 
@@ -64,33 +64,34 @@ struct CoordinateNames {
   constexpr const std::string_view* end() const { return names.data() + count; }
 };
 
-/// One kind. Its word, meaning, equations and coordinates are also those of the table in SCENE.md, word for word.
+/// One kind of joint. Its word, meaning, equations and coordinates appear word for word in the table of SCENE.md.
 struct JointKindRow {
   JointKind kind = JointKind::fixed;
-  std::string_view word;          ///< after `type`: the name of the enumerator
-  std::string_view holds;         ///< what it holds
-  int equations = 0;              ///< 0: as many as directions are named in `hold`
-  CoordinateNames coordinates{};  ///< what it lets move and the scene may name; with `hold`: where that is free
+  std::string_view word;          ///< value of `type`: the name of the enumerator
+  std::string_view holds;         ///< motions that it holds
+  int equations = 0;              ///< number of equations; 0: number of directions named in `hold`
+  CoordinateNames coordinates{};  ///< free coordinates that the scene may name; with `hold`: where free
   JointAxes axes = JointAxes::required;
   JointKey key = JointKey::none;
   FrictionKeys friction{};
-  /// The diagonal F, of determinant −1, by which axes of markers follow a mirror G: rotations R become G R F. A
-  /// displacement along axis i then changes sign with F_i and an angle about it with −F_i. Chosen so that angles keep
-  /// their signs, and displacements along x and y; also those along z where there is no angle.
+  /// Diagonal F, of determinant −1, of the marker axes under a mirror G: rotations R become G R F. Displacements along
+  /// axis i change sign with F_i, angles with −F_i. Angles and displacements along x and y keep their signs, those
+  /// along
+  /// z only if there is no angle.
   std::array<double, 3> mirrored_axes{1.0, 1.0, -1.0};
 };
 
 /// All kinds, in the order of the enum.
 std::span<const JointKindRow> joint_kinds();
 const JointKindRow& joint_kind(JointKind kind);
-/// The row of that word, or null.
+/// Row of that word, or null.
 const JointKindRow* find_joint_kind(std::string_view word);
 
-/// The word of a kind in scene.yaml.
+/// Word of a kind in scene.yaml.
 std::string joint_word(JointKind kind);
 
-/// What stands among the joints but couples two coordinates of them: change of the second = value of `key` × change of
-/// the first.
+/// Relation listed among the joints that couples two of their coordinates: change of the second = value of `key` ×
+/// change of the first.
 struct GearKindRow {
   std::string_view word;
   std::string_view key;
