@@ -75,9 +75,8 @@ struct JointKindRow {
   JointKey key = JointKey::none;
   FrictionKeys friction{};
   /// Diagonal F, of determinant −1, of the marker axes under a mirror G: rotations R become G R F. Displacements along
-  /// axis i change sign with F_i, angles with −F_i. Angles and displacements along x and y keep their signs, those
-  /// along
-  /// z only if there is no angle.
+  /// axis i change sign with F_i, angles with −F_i. Angles and displacements along x and y keep their signs. So do
+  /// displacements along z if there is no angle.
   std::array<double, 3> mirrored_axes{1.0, 1.0, -1.0};
 };
 

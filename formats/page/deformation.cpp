@@ -1,4 +1,4 @@
-// Singular vectors by the two Gram matrices, which are as small as the number of coordinates.
+// Computes singular vectors from the two Gram matrices, which are as small as the number of coordinates.
 #include "formats/page/deformation.hpp"
 
 #include <algorithm>
@@ -13,13 +13,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// U and A with modes amplitudesᵀ = U Aᵀ, columns of U orthonormal, those of A orthogonal and descending.
+/// Factors of modes amplitudesᵀ = U Aᵀ. Columns of U are orthonormal, those of A orthogonal and descending.
 struct Singular {
   MatrixXd U;  ///< 3 V x r
   MatrixXd A;  ///< T x r
 };
 
-/// With ΦᵀΦ = Q D Qᵀ and S = D^½ Qᵀ the singular vectors of Φ Yᵀ are those of S Yᵀ, turned by Φ Q D^-½.
+/// Singular vectors of Φ Yᵀ. With ΦᵀΦ = Q D Qᵀ and S = D^½ Qᵀ they are those of S Yᵀ, mapped by Φ Q D^-½.
 Singular singular_vectors(const Deformation& d) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(d.modes.transpose() * d.modes);
   const VectorXd D = gram.eigenvalues();
@@ -35,7 +35,7 @@ Singular singular_vectors(const Deformation& d) {
   return {d.modes * (Q * root.cwiseInverse().asDiagonal() * W), M * W};
 }
 
-/// Largest norm of the displacement of any vertex: of X Yᵀ, 3 V x T, block by block.
+/// Largest displacement of any vertex at any instant, from X Yᵀ (3 V x T), computed in blocks.
 double largest_displacement(const MatrixXd& X, const MatrixXd& Y) {
   constexpr Index block = 768;
   double largest = 0.0;
@@ -49,7 +49,7 @@ double largest_displacement(const MatrixXd& X, const MatrixXd& Y) {
   return std::sqrt(largest);
 }
 
-/// At most so many vertices, evenly chosen: for the search, not for what is stated.
+/// Rows of at most about 2000 vertices, evenly chosen. They speed up the search; stated errors use all vertices.
 MatrixXd sample(const MatrixXd& X) {
   constexpr Index most = 2000;
   const Index vertices = X.rows() / 3, step = std::max<Index>(1, vertices / most), count = (vertices + step - 1) / step;
@@ -58,7 +58,7 @@ MatrixXd sample(const MatrixXd& X) {
   return chosen;
 }
 
-/// The fewest vectors that leave out no more than `tolerance`.
+/// Smallest number of vectors for which the rest is at most `tolerance`.
 Index enough(const MatrixXd& U, const MatrixXd& A, double tolerance) {
   Index low = 0, high = A.cols();  // high is enough, low - 1 is not
   while (low < high) {
@@ -71,7 +71,7 @@ Index enough(const MatrixXd& U, const MatrixXd& A, double tolerance) {
   return low;
 }
 
-/// The first k vectors in steps that add no more than `tolerance` together, and the error of what is stored then.
+/// Stores the first k vectors in steps that add at most `tolerance` in total, and the resulting error.
 void store(const Deformation& d, const Singular& s, Index k, double tolerance, FewModes& few) {
   const Index vertices = s.U.rows() / 3;
   few.modes.resize(k * vertices, 3);
@@ -81,7 +81,7 @@ void store(const Deformation& d, const Singular& s, Index k, double tolerance, F
   for (Index j = 0; j < k; ++j) {
     constexpr double largest_integer = 32767.0;
     const double reach = std::max(s.A.col(j).cwiseAbs().maxCoeff(), 1e-300), size = s.U.col(j).cwiseAbs().maxCoeff();
-    // Each component is off by half a step at most, so a vertex by sqrt(3)/2 steps.
+    // Each component has an error of at most half a step, so a vertex at most sqrt(3)/2 steps.
     const double wanted = tolerance / (reach * static_cast<double>(k) * std::sqrt(0.75));
     few.step[j] = std::max(wanted, size / largest_integer);
     for (Index v = 0; v < vertices; ++v)
@@ -111,7 +111,7 @@ FewModes few_modes(const Deformation& deformation, double relative, double size)
   if (!(few.largest > 1e-9 * size)) return few;
   const Singular s = singular_vectors(deformation);
   const double tolerance = relative * few.largest;
-  constexpr double share_of_steps = 0.2;  // of the error that may come from integers
+  constexpr double share_of_steps = 0.2;  // of the error, allowed for rounding to integers
   Index k = enough(sample(s.U), s.A, 0.7 * tolerance);
   for (; k <= s.A.cols(); ++k) {
     store(deformation, s, k, share_of_steps * tolerance, few);

@@ -1,4 +1,4 @@
-// Surfaces and units as objects of the header.
+// Writes surfaces and units as objects of the header.
 #include "formats/page/header_parts.hpp"
 
 #include <Eigen/Geometry>
@@ -17,7 +17,7 @@ std::vector<std::uint32_t> flat(const auto& faces) {
 
 std::vector<std::uint32_t> flat(const std::vector<int>& numbers) { return {numbers.begin(), numbers.end()}; }
 
-/// Modes of displacement, and of stress where the vertices have three rows each.
+/// Adds modes of displacement. If vertices have three rows each, adds modes of stress too.
 void add_deformation(const PageShape& shape, const FewModes& few, PageBlocks& blocks, Json& json) {
   const Eigen::Index vertices = shape.surface.size(), rows = few.modes.rows() / few.count();
   if (rows == vertices) {

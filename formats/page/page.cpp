@@ -1,10 +1,10 @@
-// From header and blocks to HTML.
+// Composes the HTML page from header and blocks.
 #include "formats/page/page.hpp"
 
 #include "common/base64.hpp"
 #include "common/error.hpp"
 
-// The bundle is a part of the program's read-only data: no compiler has to parse it.
+// The bundle is read-only data of the program, so the compiler need not parse it.
 __asm__(
     ".section .rodata\n"
     "tisserand_viewer_begin:\n"

@@ -1,4 +1,4 @@
-// The page itself: the bundle of the viewer with header and blocks put in.
+// The HTML page: the bundle of the viewer with header and blocks inserted.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace tisserand::formats {
 
-/// The viewer as it was built from web/ (dist/view.html); data take the place of one line of it.
+/// Viewer built from web/ (dist/view.html). Data replace one line of it.
 std::string_view viewer_bundle();
 
-/// JSON without characters that could end the element it stands in, or the line of a script.
+/// Text of JSON without characters that could end the HTML element or the script line around it.
 std::string header_text(const Json& header);
 
-/// `bundle` with its line `<!-- tisserand-data -->` replaced. A bundle without that line is a fault of the program.
+/// `bundle` with its line `<!-- tisserand-data -->` replaced by the data. Without this line the program aborts.
 std::string page_text(std::string_view bundle, Json header, const PageBlocks& blocks);
 
 }  // namespace tisserand::formats

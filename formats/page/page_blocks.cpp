@@ -1,4 +1,4 @@
-// Differences between rows and byte planes, then zlib.
+// Packs numbers as differences between rows in byte planes, compressed by zlib.
 #include "formats/page/page_blocks.hpp"
 
 #include <zlib.h>
@@ -13,10 +13,10 @@ namespace tisserand::formats {
 namespace {
 
 constexpr double largest_word = 32767.0;
-constexpr double round_off = 1e-9;  // numbers that are as near to one another are one
+constexpr double round_off = 1e-9;  // columns of a smaller relative range count as constant
 
-/// Differences to the row before, then the first bytes of all words, the second ones, ...: what changes slowly becomes
-/// long runs of zeros.
+/// Bytes of the differences between rows: first the low bytes of all words, then the next ones, and so on. Slow changes
+/// become long runs of zeros.
 template <class Word>
 std::string packed(const std::vector<Word>& words, int columns) {
   const std::size_t n = words.size(), step = static_cast<std::size_t>(columns);
@@ -47,7 +47,7 @@ struct Range {
   double middle = 0.0, step = 1.0;
 };
 
-/// All rows, or the first if all are the same.
+/// All rows, or only the first if all are equal.
 PageRows moving_rows(const PageRows& values) {
   const bool moves = (values.rowwise() - values.row(0)).cwiseAbs().maxCoeff() > 0.0;
   return moves ? values : PageRows(values.topRows(1));

@@ -1,4 +1,4 @@
-// Faces, and beams as their sections at both ends.
+// Visible surface of a mesh: faces of shells and solids, and beams drawn by their end sections.
 #include "formats/page/skin.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// Triangles of shells and solids.
+/// Adds the triangles of shells and solids.
 void add_faces(const Recovery& recovery, Skin& skin) {
   std::vector<int> vertex(recovery.nodes(), -1);
   for (Index t = 0; t < recovery.triangle.cols(); ++t) {
@@ -36,7 +36,7 @@ void add_faces(const Recovery& recovery, Skin& skin) {
   }
 }
 
-/// Each beam as its sections at both ends.
+/// Adds each beam as its sections at both ends.
 void add_beams(const Recovery& recovery, Skin& skin) {
   for (int e = 0; e < recovery.beams(); ++e) {
     const int* nodes = recovery.elements.node.data() + recovery.elements.first[e];
@@ -44,7 +44,7 @@ void add_beams(const Recovery& recovery, Skin& skin) {
     for (int end = 0; end < 2; ++end) outlines[end] = &recovery.sections[recovery.beam_section[2 * e + end]].outline;
     first = outlines[0];
     if (outlines[1]->size() != first->size()) outlines[1] = first;
-    if (first->size() < 3) {  // a line
+    if (first->size() < 3) {  // drawn as a line
       const int at = skin.surface.size();
       skin.surface.lines.push_back({at, at + 1});
       skin.line_element.push_back(e);
@@ -71,7 +71,7 @@ void add_beams(const Recovery& recovery, Skin& skin) {
 
 enum class Fields { coordinates, loads, second_order };
 
-/// Fields of coordinates, of loads, or of shapes of second order.
+/// Source of fields: of coordinates, of loads, or of second-order shapes.
 struct FieldSource {
   const RecoveryReader& reader;
   Fields fields = Fields::coordinates;
@@ -133,14 +133,14 @@ MatrixXd shapes_of(const FieldSource& source, const std::vector<SkinCarrier>& ca
   return shapes;
 }
 
-/// xx yy zz xy yz zx of s a aᵀ.
+/// Stress tensor s a aᵀ of a unit stress, as [xx yy zz xy yz zx].
 Vector6 uniaxial(const Vector3d& a) {
   Vector6 tensor;
   tensor << a.cwiseAbs2(), a.x() * a.y(), a.y() * a.z(), a.z() * a.x();
   return tensor;
 }
 
-/// Columns for xx, yy, xy of a sheet with axes a, b.
+/// Tensors of the unit stresses xx, yy, xy of a sheet with axes a, b, one per column.
 Eigen::Matrix<double, 6, 3> plane(const Vector3d& a, const Vector3d& b) {
   Eigen::Matrix<double, 6, 3> tensors;
   tensors << uniaxial(a), uniaxial(b), (uniaxial(a + b) - uniaxial(a) - uniaxial(b));
@@ -158,7 +158,7 @@ Eigen::Matrix<double, 1, 6> normal_stress(const RecoverySection& section, const 
   return row;
 }
 
-/// Items of a field, in whole chunks: visit(first, rows).
+/// Calls visit(first, rows) for the items of a field, in whole chunks.
 template <class Visit>
 void each_chunk(const FieldSource& source, RecoveryField field, Visit visit) {
   const Recovery& recovery = source.reader.recovery();

@@ -1,4 +1,4 @@
-// Solids as triangles.
+// Triangulates the solids of a scene.
 #include "formats/page/surface.hpp"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ Surface box(const Vector3d& size) {
   return surface;
 }
 
-/// Circles of the given radii about a polyline; the plane at a corner halves the angle.
+/// Tube of circles with the given radii along a polyline. The plane at a corner bisects the angle.
 Surface tube(const std::vector<Vector3d>& points, const std::vector<double>& radii) {
   Surface surface = swept_faces(count_of(points), around);
   Vector3d y = (points[1] - points[0]).unitOrthogonal();
@@ -72,7 +72,7 @@ Surface tube(const std::vector<Vector3d>& points, const std::vector<double>& rad
   return surface;
 }
 
-/// Of a part, in lengths of the scene.
+/// Surface of a part, in lengths of the scene.
 Surface of_recovery(const ShapeSpec& shape) {
   const RecoveryReader reader(shape.file);
   Surface surface = skin_of(reader.recovery()).surface;
@@ -118,7 +118,7 @@ Surface sphere(const Vector3d& center, double radius) {
     radii.push_back(radius * std::sin(angle));
   }
   Surface surface = tube(points, radii);
-  surface.triangles.resize(2 * around * (rings - 1));  // poles in place of flat ends
+  surface.triangles.resize(2 * around * (rings - 1));  // poles instead of flat ends
   const int south = surface.size(), north = south + 1, last = (rings - 1) * around;
   surface.vertices.push_back(center - Vector3d(0.0, 0.0, radius));
   surface.vertices.push_back(center + Vector3d(0.0, 0.0, radius));
@@ -159,7 +159,7 @@ Outline outline_of(const Section& s, double fallback) {
     const Vector2d centroid = area_moments(polygon).centroid;
     for (const Vector2d& corner : polygon.outer) outline.emplace_back(corner - centroid);
   } else if (s.second_moment_y > 0.0 && s.second_moment_z > 0.0 && s.area > 0.0) {
-    // A rectangle w x h has the radii of gyration w/sqrt(12) and h/sqrt(12); by stiffness they are those of EI and EA.
+    // A rectangle w x h has the radii of gyration w/sqrt(12), h/sqrt(12). By stiffness they follow from EI and EA.
     outline = rectangle(std::sqrt(12.0 * s.second_moment_z / s.area), std::sqrt(12.0 * s.second_moment_y / s.area));
   } else {
     const double radius = s.area > 0.0 && !s.by_stiffness ? std::sqrt(s.area / std::numbers::pi) : fallback;

@@ -1,4 +1,4 @@
-// Triangles and lines in body axes: solids of a scene, tubes and swept sections, thinning.
+// Triangles and lines in body axes: solids of a scene, tubes, swept sections, thinning.
 #pragma once
 
 #include <array>
@@ -18,40 +18,40 @@ struct Surface {
   std::vector<std::array<int, 2>> lines;
 
   int size() const { return count_of(vertices); }
-  /// Appends another one.
+  /// Appends another surface.
   void add(const Surface& other);
 };
 
-/// The solid in the part frame. Of a file: its triangles, read now. Throws Error (formats/surface).
+/// Surface of a solid in the part frame. A file is read now. Throws Error (formats/surface).
 Surface surface_of(const ShapeSpec& shape);
 
 Surface sphere(const Eigen::Vector3d& center, double radius);
 
-/// Corners (y, z), counter-clockwise seen against x.
+/// Corners (y, z) of a contour, counter-clockwise seen against x.
 using Outline = std::vector<Eigen::Vector2d>;
 
-/// The outer contour of a section by its shape and sizes about the axis of the beam; of others an ellipse or rectangle
-/// with the same area and, as far as that goes, the same ratio of second moments. A section by stiffness, whose area is
-/// unknown, gets `fallback` as its radius.
+/// Outer contour of a section about the axis of the beam. General sections become a rectangle with the same radii of
+/// gyration or, if these are unknown, a circle with the same area. A section by stiffness without them becomes a circle
+/// of radius `fallback`.
 Outline outline_of(const Section& section, double fallback);
 
-/// Stations of one outline each, `corners` vertices per station in order: side faces between neighbours, and both ends
-/// closed. Vertices are left to the caller.
+/// Side faces between neighbouring stations of one outline each, with both ends closed. `corners` vertices per station,
+/// in order. The caller sets the vertices.
 Surface swept_faces(int stations, int corners);
 
-/// Lines that join points into one tree of least length.
+/// Lines that connect the points to one tree of least length.
 std::vector<std::array<int, 2>> least_tree(const std::vector<Eigen::Vector3d>& points);
 
-/// Which vertices stay, and the faces between them.
+/// Vertices that remain, and the faces between them.
 struct Thinned {
-  std::vector<int> kept;  ///< of the old vertices
+  std::vector<int> kept;  ///< indices of the old vertices
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::array<int, 2>> lines;
 };
 
-/// Vertex clustering (Rossignac and Borrel, Multi-resolution 3D approximations for rendering complex scenes, 1993): the
-/// vertices in one cell of a cubic grid become the one nearest to their mean. The finest grid that keeps at most
-/// `most`. Faces that lose a corner vanish, doubles too.
+/// Surface thinned by vertex clustering (Rossignac and Borrel, Multi-resolution 3D approximations for rendering complex
+/// scenes, 1993). Vertices in a cell of a cubic grid merge to the one nearest to their mean. The grid is the finest
+/// that keeps at most `most`. Faces that lose a corner and duplicates vanish.
 Thinned thinned(const Surface& surface, int most);
 
 }  // namespace tisserand::formats

@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Number of the cluster of each vertex, and how many there are.
+/// Cluster index of each vertex, and the number of clusters.
 struct Clusters {
   std::vector<int> of;
   int count = 0;
@@ -37,7 +37,7 @@ Clusters clusters_of(const std::vector<Vector3d>& vertices, const Eigen::Aligned
   return clusters;
 }
 
-/// The vertex of each cluster nearest to the mean of the cluster.
+/// Vertex nearest to the mean of each cluster.
 std::vector<int> middle_vertices(const std::vector<Vector3d>& vertices, const Clusters& clusters) {
   std::vector<Vector3d> mean(clusters.count, Vector3d::Zero());
   std::vector<int> size(clusters.count, 0), middle(clusters.count, -1);
@@ -54,7 +54,7 @@ std::vector<int> middle_vertices(const std::vector<Vector3d>& vertices, const Cl
   return middle;
 }
 
-/// Faces between clusters, each once, without those that lost a corner.
+/// Faces between clusters, each once, without degenerate ones.
 template <std::size_t N>
 std::vector<std::array<int, N>> faces_between(const std::vector<std::array<int, N>>& faces, const Clusters& clusters) {
   std::vector<std::array<int, N>> kept;
@@ -80,7 +80,7 @@ Thinned thinned(const Surface& surface, int most) {
   Eigen::AlignedBox3d box;
   for (const Vector3d& vertex : surface.vertices) box.extend(vertex);
   const double extent = std::max(box.diagonal().maxCoeff(), std::numeric_limits<double>::min());
-  double coarse = 2.0 * extent, fine = extent / (1 << 19);  // coarse keeps few enough: one
+  double coarse = 2.0 * extent, fine = extent / (1 << 19);  // `coarse` keeps one vertex, few enough
   for (int k = 0; k < 40 && coarse > 1.02 * fine; ++k) {
     const double cell = std::sqrt(coarse * fine);
     (clusters_of(surface.vertices, box, cell).count <= most ? coarse : fine) = cell;

@@ -1,4 +1,4 @@
-// Rules of RECOVERY.md: every index points to something, every number is finite.
+// Checks the rules of RECOVERY.md: every index is valid, every number is finite.
 #include <algorithm>
 #include <limits>
 #include <set>
@@ -41,13 +41,13 @@ class Inspector {
       if (!(std::abs(values[i]) < largest_number))
         fail(dataset, fmt::format("entry {} is {}, expected a number below {:g}", i, values[i], largest_number));
   }
-  /// Orthonormal and right-handed.
+  /// Checks that axes are orthonormal and right-handed.
   void axes(const std::string& dataset, const std::vector<Eigen::Matrix3d>& axes) const {
     for (std::size_t i = 0; i < axes.size(); ++i)
       if (!axes[i].allFinite() || !axes[i].isUnitary(1e-6) || axes[i].determinant() < 0.0)
         fail(dataset, fmt::format("entry {} is no set of right-handed orthonormal axes", i));
   }
-  /// One after another, from 0 to `end`.
+  /// Checks that offsets ascend from 0 to `end`.
   void offsets(const std::string& dataset, const std::vector<int>& values, std::size_t groups, std::size_t end) const {
     size(dataset, values.size(), groups + 1, "one more than groups");
     if (values.front() != 0 || !std::is_sorted(values.begin(), values.end()) ||
@@ -181,7 +181,7 @@ void check_loads(const Recovery& r, const Inspector& inspect) {
   inspect.size("/loads/boundary_stiffness", static_cast<std::size_t>(loads.boundary_stiffness.size()),
                boundary * boundary, "coordinates of the boundary, squared");
   inspect.finite("/loads/boundary_stiffness", loads.boundary_stiffness.data(), boundary * boundary);
-  // Readers take the first coordinates for those of the boundary.
+  // Readers take the first coordinates as those of the boundary.
   for (std::size_t k = 0; k < boundary; ++k)
     if (r.dof_node[k] < 0) inspect.fail("/dof/node", fmt::format("entry {} is internal before one of the boundary", k));
 }

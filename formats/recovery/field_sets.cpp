@@ -1,4 +1,4 @@
-// Names and shapes.
+// Names and shapes of the fields of a recovery file.
 #include "formats/recovery/field_sets.hpp"
 
 #include "common/error.hpp"
@@ -6,7 +6,7 @@
 namespace tisserand::formats {
 namespace {
 
-/// Below the groups of shapes and stresses, of inertia loads and of applied loads.
+/// Name of a field within the groups of shapes and stresses, of inertia loads and of applied loads.
 std::string name_of(RecoveryField field) {
   switch (field) {
     case RecoveryField::translation:

@@ -1,4 +1,4 @@
-// The datasets of a recovery file that are as long as the mesh: names, shapes, chunks.
+// The datasets of a recovery file whose length is that of the mesh: names, shapes, chunks.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@ namespace tisserand::formats {
 
 inline constexpr const char* recovery_format = "tisserand-recovery";
 
-/// A field per coordinate, or per load: items x width x columns.
+/// Dataset of a field per coordinate or per load: items x width x columns.
 struct FieldSet {
   std::string dataset;
   int items, width, columns;
-  int chunk;  ///< items that are written together
+  int chunk;  ///< number of items that are written together
 
   hdf5::Shape shape() const {
     return {static_cast<std::uint64_t>(items), static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(columns)};
@@ -24,14 +24,14 @@ struct FieldSet {
 FieldSet of_coordinates(const Recovery& recovery, RecoveryField field);
 FieldSet of_loads(const Recovery& recovery, RecoveryField field);
 FieldSet of_forces(const Recovery& recovery, NodalForce force);
-/// `field`: translation or rotation.
+/// Dataset of second-order shapes. `field`: translation or rotation.
 FieldSet of_second_order(const Recovery& recovery, RecoveryField field);
 
-/// The same of applied loads (RecoveryLoads::applied); `force`: load_force or load_moment.
+/// Datasets of applied loads (RecoveryLoads::applied). `force`: load_force or load_moment.
 FieldSet of_applied(const Recovery& recovery, RecoveryField field);
 FieldSet of_applied_forces(const Recovery& recovery, NodalForce force);
 
-/// All of a file: of coordinates, of shapes of second order, of inertia loads, of forces on nodes, of applied loads.
+/// All datasets of a file: coordinates, second-order shapes, inertia loads, forces on nodes, applied loads.
 std::vector<FieldSet> field_sets(const Recovery& recovery);
 
 }  // namespace tisserand::formats

@@ -1,4 +1,4 @@
-// Recovery files from disk: tables at once, fields by blocks.
+// Reads recovery files: tables at once, fields in blocks.
 #include <algorithm>
 #include <limits>
 
@@ -15,10 +15,10 @@ using Numbers = std::vector<double>;
 constexpr hdf5::FileKind recovery_kind{recovery_format, "recovery file",
                                        "give a *.recovery.h5 file, as `reducer run` writes it with `recovery: yes`",
                                        "reduce the part again with a program of the same major version"};
-constexpr std::uint64_t most_entries = 200'000'000;  // of a table; bounds memory before it is taken
-constexpr std::uint64_t most_applied = 10'000;       // loads
+constexpr std::uint64_t most_entries = 200'000'000;  // limit of a table's entries, checked before allocation
+constexpr std::uint64_t most_applied = 10'000;       // limit of loads
 
-/// Tables of a file; every length is looked at before memory is taken.
+/// Tables of a file. Every length is checked before memory is allocated.
 class Tables {
  public:
   explicit Tables(const hdf5::InputFile& file) : file_(file) {}
@@ -62,7 +62,7 @@ class Tables {
   }
 
  private:
-  /// The shape is looked at before memory is taken.
+  /// Number of values of a shape, checked before memory is allocated.
   std::size_t count(const std::string& dataset, const hdf5::Shape& shape) const {
     const hdf5::Shape found = file_.info(dataset).shape;
     if (found != shape)
@@ -116,7 +116,7 @@ void read_mesh(const Tables& tables, Recovery& r) {
   r.triangle_element = tables.integers("/surface/element");
 }
 
-/// Applied loads; their share behind that of the twelve.
+/// Reads applied loads. Their share follows that of the twelve inertia loads.
 void read_applied(const Tables& tables, std::uint64_t coordinates, RecoveryLoads& loads) {
   const std::vector<std::string> cases = tables.texts("/applied/load_case"), nodes = tables.texts("/applied/node");
   const std::uint64_t count = cases.size();
@@ -152,7 +152,7 @@ RecoveryLoads read_loads_table(const Tables& tables, std::uint64_t coordinates) 
   return loads;
 }
 
-/// Symmetric matrices, of each the entries (k, l) with k ≤ l row by row.
+/// Reads symmetric matrices, stored as entries (k, l) with k ≤ l, row by row.
 std::vector<Eigen::MatrixXd> read_forms(const Tables& tables, const std::string& dataset, std::uint64_t coordinates) {
   const Numbers values = tables.numbers(dataset, {tables.length(dataset), coordinates * (coordinates + 1) / 2});
   const auto n = static_cast<Eigen::Index>(coordinates);
@@ -234,7 +234,7 @@ struct RecoveryReader::Impl {
                      set.dataset);
     return read_field(file, set, first, count);
   }
-  /// Columns of the inertia loads, then those of the applied loads.
+  /// Columns of the inertia loads, followed by those of the applied loads.
   FieldRows read_loads(const FieldSet& inertia, const FieldSet& applied, int first, int count) const {
     FieldRows rows(static_cast<Eigen::Index>(inertia.width) * count, inertia.columns + applied.columns);
     rows.leftCols(inertia.columns) = read(inertia, first, count);

@@ -1,4 +1,4 @@
-// From frames of results to loads on what the basis of a superelement leaves out.
+// Computes the loads that the basis of a superelement misses, from the frames in the results.
 #include "formats/recovery/load_factors.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using Eigen::Matrix3Xd;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-/// Three columns of a dataset over time, 3 x T; without columns where they are not stored.
+/// Three columns of a dataset over time, 3 x T; no columns if they are not stored.
 Matrix3Xd vectors_of(const ResultsReader& results, const std::string& dataset, const std::vector<std::size_t>& rows,
                      std::size_t row) {
   const MatrixXd all = results.read_dataset(dataset, rows);
@@ -22,7 +22,7 @@ Matrix3Xd vectors_of(const ResultsReader& results, const std::string& dataset, c
   return all.middleCols<3>(first).transpose();
 }
 
-/// Names that the results have of the body: load cases, or nodes of a modal body; `first`: of them in the whole list.
+/// Names of the body's load cases, or of its nodes if modal. `first`: index of the first one in the whole list.
 std::vector<std::string> names_of(const ResultsLayout& layout, const LoadedBody& body, std::size_t& first) {
   const std::vector<int>& offset = body.is_modal ? layout.modal_node_offset : layout.load_case_offset;
   const std::vector<std::string>& names = body.is_modal ? layout.modal_nodes : layout.load_cases;
@@ -31,7 +31,7 @@ std::vector<std::string> names_of(const ResultsLayout& layout, const LoadedBody&
   return {names.begin() + offset[body.row], names.begin() + offset[body.row + 1]};
 }
 
-/// Factor of a force or moment on the mirrored body in the scene, which makes it that on the part in units of its file;
+/// Factor that converts a force or moment on the mirrored body in the scene to one on the part in units of its file.
 /// `component`: AppliedLoad::component.
 double force_to_file(const LoadedBody& body, int component) {
   const UnitConversion& to = body.to_scene;
@@ -39,7 +39,7 @@ double force_to_file(const LoadedBody& body, int component) {
   return sign / (to.force() * (component < 3 ? 1.0 : to.length));
 }
 
-/// Factors of applied loads: load cases as they are, forces on nodes in units of the file.
+/// Sets the factors of applied loads: load cases unchanged, forces on nodes in units of the file.
 void set_applied(const std::vector<AppliedLoad>& applied, const ResultsReader& results,
                  const std::vector<std::size_t>& rows, const LoadedBody& body, MatrixXd& factor) {
   factor.bottomRows(static_cast<Index>(applied.size())).setZero();

@@ -1,4 +1,4 @@
-// What a recovery file holds in words: sizes of its fields, its name, the superelement it belongs to.
+// Sizes of the fields of a recovery file, its name, and its superelement.
 #include "formats/recovery/recovery.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Quadratic forms at instants.
+// Evaluates quadratic forms at instants.
 #include "formats/recovery/second_order.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What second order adds to the displacements of a recovery file: quadratic forms of the coordinates, one for each
-// shape (formats/RECOVERY.md, second-order displacement).
+// Second-order displacement in a recovery file: a quadratic form of the coordinates for each shape
+// (formats/RECOVERY.md, second-order displacement).
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace tisserand::formats {
 
-/// u₂ = Σ_r s_r ½ yᵀ C_r y with the shapes s_r; an internal coordinate k that a body leaves out moves by ½ yᵀ C_k y.
+/// Forms of u₂ = Σ_r s_r ½ yᵀ C_r y with the shapes s_r. A dropped internal coordinate k moves by ½ yᵀ C_k y.
 struct SecondOrderForms {
   std::vector<Eigen::MatrixXd> of_shape;       ///< C_r, n x n each, symmetric
   std::vector<Eigen::MatrixXd> of_coordinate;  ///< C_k
@@ -19,22 +19,22 @@ struct SecondOrderForms {
   int shapes() const { return count_of(of_shape); }
 };
 
-/// What is said where a body with stiffening has a recovery file without it.
+/// Note for a body with stiffening whose recovery file has no second order.
 inline constexpr const char* no_second_order_note =
     "the recovery file has no displacement of second order (it was written before version 1.3): between the boundary "
     "nodes "
     "the foreshortening of bent parts is spread as a push would spread it; reduce the part again with `recovery: yes`";
 
-/// ½ yᵀ C y of every form and instant: forms x T. `y`: n x T.
+/// Values ½ yᵀ C y of every form and instant: forms x T. `y`: n x T.
 Eigen::MatrixXd second_order_amplitudes(const std::vector<Eigen::MatrixXd>& forms, const Eigen::MatrixXd& y);
 
-/// Amplitudes of the shapes, shapes x T, at instants that are `stiffened` (T; 1 or 0), zero at others. Adds what second
-/// order moves to the coordinates `left_out` of y, those that the body does not have. `y`: n x T, of the part in the
-/// units of the file.
+/// Amplitudes of the shapes, shapes x T, zero except at `stiffened` instants (T; 1 or 0). Adds the second-order motion
+/// of
+/// the coordinates `left_out` to y: the body lacks these coordinates. `y`: n x T, of the part in the units of the file.
 Eigen::MatrixXd add_second_order(const SecondOrderForms& forms, const Eigen::RowVectorXd& stiffened,
                                  const std::vector<Eigen::Index>& left_out, Eigen::MatrixXd& y);
 
-/// 1 of instants at which the body had its stiffening: y with the strain of second order differs from y.
+/// 1 for instants at which the body had its stiffening: y with the second-order strain differs from y.
 Eigen::RowVectorXd stiffened_instants(const Eigen::MatrixXd& y, const Eigen::MatrixXd& y_strain);
 
 }  // namespace tisserand::formats

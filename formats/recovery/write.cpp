@@ -1,4 +1,4 @@
-// Recovery files to disk: tables at once, fields by blocks.
+// Writes recovery files: tables at once, fields in blocks.
 #include <algorithm>
 
 #include "common/error.hpp"
@@ -19,7 +19,7 @@ std::vector<double> rows_of(const std::vector<Eigen::Matrix3d>& axes) {
   return values;
 }
 
-/// The oldest version that knows all that is in the file.
+/// Oldest version that supports all contents of the file.
 const char* version_of(const Recovery& r) {
   if (r.second_order || (r.loads && !r.loads->applied.empty())) return "1.3";
   if (!r.node_number.empty() || (r.loads && r.loads->has_forces())) return "1.2";
@@ -169,7 +169,7 @@ struct RecoveryWriter::Impl {
     }
   }
 
-  /// Columns of the inertia loads, then those of the applied loads.
+  /// Appends the columns of the inertia loads, then those of the applied loads.
   void append_loads(const FieldSet& inertia, const FieldSet& applied, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
     TISSERAND_ENSURE(rows.cols() == inertia.columns + applied.columns, "{} columns for {}", rows.cols(),
                      inertia.dataset);
@@ -204,7 +204,7 @@ void RecoveryWriter::append_loads(RecoveryField field, const Eigen::Ref<const Ei
 }
 
 void RecoveryWriter::append_forces(NodalForce force, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-  if (rows.cols() == 0) return;  // of no modes
+  if (rows.cols() == 0) return;  // no modes
   const FieldSet set = of_forces(impl_->head, force);
   if (force == NodalForce::load_force || force == NodalForce::load_moment)
     impl_->append_loads(set, of_applied_forces(impl_->head, force), rows);
@@ -213,7 +213,7 @@ void RecoveryWriter::append_forces(NodalForce force, const Eigen::Ref<const Eige
 }
 
 void RecoveryWriter::append_second_order(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-  if (rows.cols() == 0) return;  // of no shapes
+  if (rows.cols() == 0) return;  // no shapes
   impl_->append(impl_->of(of_second_order(impl_->head, field)), rows);
 }
 
