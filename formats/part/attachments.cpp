@@ -1,4 +1,4 @@
-// Beams, point masses, springs, spiders and boundary nodes of part.yaml.
+// Reads beams, point masses, springs, spiders and boundary nodes of part.yaml.
 
 #include "formats/part/reader.hpp"
 #include "formats/yaml/fields.hpp"
@@ -22,7 +22,7 @@ void read_division(const MapReader& map, BeamLine& beam) {
   }
 }
 
-/// From ends and division, or on groups of lines.
+/// Reads a beam: its ends and division, or groups of lines.
 void read_line(const MapReader& map, BeamLine& beam, const Part& part) {
   if (const YamlNode* on = map.find("on")) {
     beam.on = read_texts(map.context(), *on, "on");
@@ -53,7 +53,7 @@ void read_ends(const MapReader& map, BeamLine& beam) {
   }
 }
 
-/// Six numbers of the diagonal or six rows.
+/// Reads a 6 x 6 stiffness: six numbers of the diagonal, or six rows.
 Eigen::Matrix<double, 6, 6> read_stiffness(const Context& context, const YamlNode& node) {
   Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
   const auto fail = [&](const YamlNode& part, std::size_t count) {
@@ -76,7 +76,7 @@ Eigen::Matrix<double, 6, 6> read_stiffness(const Context& context, const YamlNod
   return stiffness;
 }
 
-/// Names of groups or numbers of nodes, one or a list.
+/// Reads names of groups or numbers of nodes, one or a list.
 void read_legs(const MapReader& map, SpiderLine& spider) {
   const YamlNode* on = map.require("on");
   if (on == nullptr) return;
@@ -105,7 +105,7 @@ void keep(BoundaryNode& boundary, std::size_t kind) {
   boundary.rotations = kind != 1;
 }
 
-/// `tip: all`, or `tip: {near: [..], keep: translations}`.
+/// Reads `tip: all`, or `tip: {near: [..], keep: translations}`.
 BoundaryNode read_boundary_entry(const Context& context, const YamlNode& entry, const Part& part) {
   const std::vector<std::string> kinds{"all", "translations", "rotations"};
   BoundaryNode boundary{entry.key, entry.key, true, true, context.entry};
@@ -124,7 +124,7 @@ BoundaryNode read_boundary_entry(const Context& context, const YamlNode& entry, 
   return boundary;
 }
 
-/// `mean_axis`, a place, or `{left: [x, y, z, rx], right: [y, z]}`.
+/// Reads `mean_axis`, a place, or `{left: [x, y, z, rx], right: [y, z]}`.
 std::vector<ModalBodyRequest::Held> read_reference(const MapReader& map) {
   const YamlNode* node = map.require("reference");
   if (node == nullptr) return {};

@@ -1,4 +1,4 @@
-// Findings of a part: names, references, signs, and geometry of lines.
+// Checks a part: names, references, signs, and geometry of lines.
 #include "formats/part/check.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace tisserand::formats {
 namespace {
 
-/// Nothing for nodes of a mesh file, spiders and names that do not exist.
+/// Position of a place. Empty for nodes of a mesh file, spiders and unknown names.
 std::optional<Eigen::Vector3d> position_of(const Part& part, const Place& place) {
   if (place.kind == PlaceKind::position) return place.position;
   if (place.kind != PlaceKind::name) return std::nullopt;
@@ -64,7 +64,7 @@ void check_section_of_beam(const Part& part, const BeamLine& beam, const Subject
   if (!beam.from_offset.allFinite() || !beam.to_offset.allFinite()) subject.add("offset", "offsets must be finite");
 }
 
-/// Length, arc and division of a line between two places whose positions are known.
+/// Checks length, arc and division of a line between two places of known position.
 void check_line_of_beam(const Part& part, const BeamLine& beam, const Subject& subject) {
   if (beam.elements < 0) subject.add("elements", fmt::format("elements {} must be 1 or more", beam.elements));
   if (beam.elements == 0) subject.positive("size", beam.size);

@@ -1,4 +1,4 @@
-// What is wrong with a part that can be read.
+// Checks of a part that has been read.
 #pragma once
 
 #include <string>
@@ -9,22 +9,22 @@
 
 namespace tisserand::formats {
 
-/// The names that references may use.
+/// Names that references may use.
 struct PartNames {
-  std::vector<std::string> materials;  ///< isotropic ones
+  std::vector<std::string> materials;  ///< isotropic materials
   std::vector<std::string> layers;     ///< all materials
   std::vector<std::string> sections;
   std::vector<std::string> places;  ///< points, then spiders
-  std::vector<std::string> groups;  ///< of the part file: defined ones, patches and their edges
+  std::vector<std::string> groups;  ///< groups of the part file: defined ones, patches and their edges
 };
 
-/// All findings; check(part) throws them.
+/// All faults of a part. check(part) throws them.
 Faults find_faults(const Part& part);
 
-/// Edges of a patch that are groups: "deck/edge1", "tube/start", ...
+/// Edge groups of a patch: "deck/edge1", "tube/start", ...
 std::vector<std::string> edge_groups(const ShellPatch& patch);
 
-/// Pieces of find_faults: patches, layouts, shells, solids; mesh file and groups; springs and spiders; supports and
+/// Pieces of find_faults(): patches, layouts, shells, solids; mesh file and groups; springs and spiders; supports,
 /// load cases.
 void check_shells(const Part& part, const PartNames& names, Faults& faults);
 void check_mesh_and_groups(const Part& part, const PartNames& names, Faults& faults);
@@ -32,7 +32,7 @@ void check_attachments(const Part& part, const PartNames& names, Faults& faults)
 void check_loads(const Part& part, PartNames names, Faults& faults);
 void check_place(const Part& part, const PartNames& names, const Place& place, const std::string& key,
                  const Subject& subject);
-/// Names of groups: known ones, or any if a mesh file may bring them.
+/// Checks names of groups. They must be known, unless a mesh file may define them.
 void check_group_names(const Part& part, const PartNames& names, const std::vector<std::string>& on,
                        const std::string& key, const Subject& subject);
 

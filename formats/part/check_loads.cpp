@@ -1,4 +1,4 @@
-// Findings of supports and load cases.
+// Checks supports and load cases.
 #include <cmath>
 
 #include "formats/part/check.hpp"
@@ -7,7 +7,7 @@
 namespace tisserand::formats {
 namespace {
 
-/// Place of a load or support: it must be a node that is there, so no centroid.
+/// Checks the place of a load or support. It must be an existing node, so it cannot be a centroid.
 void check_loaded_place(const Part& part, const PartNames& names, const Place& place, const Subject& subject) {
   if (place.kind == PlaceKind::centroid) {
     subject.add("at", "a centroid has no node of the part",
@@ -15,7 +15,7 @@ void check_loaded_place(const Part& part, const PartNames& names, const Place& p
     return;
   }
   const bool deck_boundary = part.boundary.empty() && !part.mesh.file.empty();
-  if (place.kind == PlaceKind::name && deck_boundary) return;  // its nodes may be meant: known with the mesh
+  if (place.kind == PlaceKind::name && deck_boundary) return;  // may name a deck's node, known with the mesh
   check_place(part, names, place, "at", subject);
 }
 
@@ -25,7 +25,7 @@ void check_support(const Part& part, const PartNames& names, const Support& supp
     faults.add(support.where, "directions", subject.name + " holds nothing", "name directions: [x, y, z], or all");
   if (support.on.empty()) return check_loaded_place(part, names, support.at, subject);
   PartNames known = names;
-  if (support.on.size() == 1 && support.on[0] == support.name)  // a place may have been meant
+  if (support.on.size() == 1 && support.on[0] == support.name)  // the name may mean a place
     known.groups.insert(known.groups.end(), names.places.begin(), names.places.end());
   check_group_names(part, known, support.on, "on", subject);
 }

@@ -1,4 +1,4 @@
-// Findings of a part's mesh file, groups, places, masses, springs and spiders.
+// Checks a part's mesh file, groups, places, masses, springs and spiders.
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -12,7 +12,7 @@ namespace {
 
 bool is_positive(double value) { return value > 0.0 && std::isfinite(value); }
 
-/// "face 3", "edge 12", "volume 1", "all".
+/// Whether the text names entities: "face 3", "edge 12", "volume 1", "all".
 bool names_entities(const std::string& text) {
   return text == "all" || text.starts_with("face ") || text.starts_with("edge ") || text.starts_with("volume ");
 }
@@ -50,7 +50,7 @@ void check_stiffness(const SpringLine& spring, const Subject& subject) {
   const double largest = K.cwiseAbs().maxCoeff();
   if (!(largest > 0.0)) return fail("stiffness is zero", "give a positive stiffness, or remove the spring");
   if ((K - K.transpose()).cwiseAbs().maxCoeff() > 1e-9 * largest) return fail("stiffness is not symmetric", "");
-  // Scaled to unit diagonal, since translations and rotations differ in units.
+  // Scaled to unit diagonal, since translations and rotations have different units.
   Eigen::Matrix<double, 6, 1> d = K.diagonal();
   if ((d.array() < 0.0).any()) return fail("a stiffness is negative", "");
   for (int i = 0; i < 6; ++i) d[i] = d[i] > 0.0 ? 1.0 / std::sqrt(d[i]) : 0.0;

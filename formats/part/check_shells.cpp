@@ -1,4 +1,4 @@
-// Findings of a part's materials, plates, discs, cylinders, extrusions, shells and solids.
+// Checks a part's materials, plates, discs, cylinders, extrusions, shells and solids.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@
 namespace tisserand::formats {
 namespace {
 
-/// Positive constants, and a positive definite plane stress stiffness: nu12² < E1/E2.
+/// Checks for positive constants and a positive definite plane stress stiffness: nu12² < E1/E2.
 void check_orthotropic(const OrthotropicMaterial& m, Faults& faults) {
   const Subject subject = subject_of("material", m, faults);
   subject.positive("E1", m.E1);
@@ -135,7 +135,7 @@ void check_division(const ShellPatch& patch, const Subject& subject) {
     subject.add("elements", fmt::format("{} elements around", patch.elements[0]), "give 3 or more");
 }
 
-/// A patch needs a layout of its own or a shell on it.
+/// Checks that a patch has its own layout or that the part has shells.
 void check_has_layout(const Part& part, const ShellPatch& patch, const Subject& subject) {
   if (patch.layout || !part.shells.empty()) return;
   subject.add(

@@ -1,4 +1,4 @@
-// All lists of fields of part.yaml, and the types they refer to.
+// All lists of fields of part.yaml, and the types that they refer to.
 #include "formats/part/fields.hpp"
 
 #include "formats/part/reader.hpp"

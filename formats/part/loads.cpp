@@ -1,4 +1,4 @@
-// Supports and load cases of part.yaml.
+// Reads supports and load cases of part.yaml.
 #include "formats/part/loads.hpp"
 
 #include <algorithm>
@@ -12,14 +12,14 @@ namespace {
 
 constexpr unsigned translation_bits = 0b000111, rotation_bits = 0b111000;
 
-/// Points, spiders and boundary nodes.
+/// Whether the name is that of a point, spider or boundary node.
 bool is_place(const Part& part, const std::string& name) {
   return std::ranges::find(part.points, name, &NamedPoint::name) != part.points.end() ||
          std::ranges::find(part.spiders, name, &SpiderLine::name) != part.spiders.end() ||
          std::ranges::find(part.boundary, name, &BoundaryNode::name) != part.boundary.end();
 }
 
-/// `all`, `translations`, `rotations`, or one or a list of x ... rz.
+/// Reads `all`, `translations`, `rotations`, or one or a list of x ... rz.
 void read_directions(const Context& context, const YamlNode& node, Support& support) {
   const std::string word = node.kind == YamlKind::scalar ? node.text : "";
   support.where_present = word == "all";
@@ -28,7 +28,7 @@ void read_directions(const Context& context, const YamlNode& node, Support& supp
   if (support.components == 0) support.components = read_component_bits(context, node, "direction");
 }
 
-/// The plane with this normal is one of symmetry: no motion across it, no rotation about axes in it.
+/// Reads a plane of symmetry with this normal: no motion across it, no rotation about axes in it.
 void read_symmetry(const MapReader& map, Support& support) {
   const auto axis = read_word(map.context(), *map.find("symmetry"), "symmetry", {"x", "y", "z"});
   if (!axis) return;
@@ -37,7 +37,7 @@ void read_symmetry(const MapReader& map, Support& support) {
   support.where_present = true;
 }
 
-/// `at`, or the keys of a place; whether one of them is there.
+/// Reads `at` or the keys of a place. Returns whether one of them is present.
 bool read_where(const MapReader& map, const Part& part, Place& place) {
   const YamlNode* at = map.find("at");
   const bool by_keys = map.has("node") || map.has("near") || map.has("tolerance") || map.has("centroid");

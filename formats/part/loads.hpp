@@ -1,4 +1,4 @@
-// Loads and supports of part.yaml: what `reducer solve` works on.
+// Loads and supports of part.yaml, which `reducer solve` uses.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@
 
 namespace tisserand::formats {
 
-/// A place or the nodes of groups, held in some directions of the part frame.
+/// A place or the nodes of groups, fixed in some directions of the part frame.
 struct Support {
   std::string name;
-  Place at;                     ///< where `on` is empty: a point, spider or boundary node by its name, or a node
+  Place at;                     ///< if `on` is empty: point, spider or boundary node by name, or a node
   std::vector<std::string> on;  ///< groups
   unsigned components = 0;      ///< bit 0-2 translations x, y, z; bit 3-5 rotations
-  bool where_present = false;   ///< rotations are held at nodes that have them (`all`, `symmetry`); else they must
+  bool where_present = false;   ///< rotations are fixed where nodes have them (`all`, `symmetry`)
   std::optional<int> symmetry;  ///< 0, 1, 2: the nodes lie in a plane with this normal
   std::string where;
 };
@@ -30,7 +30,7 @@ struct PlaceLoad {
   std::string where;
 };
 
-/// Force per area against the normal of shells, against the outward normal of solids.
+/// Force per area, against the normal of shells and against the outward normal of solids.
 struct PressureLoad {
   std::string on;  ///< group of faces
   double pressure = 0.0;
@@ -49,7 +49,7 @@ struct PartLoadCase {
   std::vector<PlaceLoad> forces;
   std::vector<PressureLoad> pressures;
   std::vector<LineLoad> line_loads;
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< acceleration: the force is mass times it
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< acceleration; the force is mass times gravity
   std::string where;
 };
 

@@ -1,4 +1,4 @@
-// part.yaml to the struct Part.
+// Reads part.yaml into the struct Part.
 #include "formats/part/part.hpp"
 
 #include <algorithm>
@@ -29,10 +29,10 @@ constexpr Choice<EigenSolverChoice> eigensolver_words[] = {{"auto", EigenSolverC
 
 constexpr Choice<Mechanisms> mechanism_words[] = {{"refuse", Mechanisms::refuse}, {"allow", Mechanisms::allow}};
 
-/// One of these says how many modes there are.
+/// Keys that determine the number of modes, of which one is given.
 constexpr const char* how_many[] = {"modes", "cutoff", "accuracy"};
 
-/// An override of one replaces what the file says by another.
+/// Removes the key of the file if an override gives another one of these.
 void replace_mode_choice(const std::vector<Override>& overrides, YamlDocument& document) {
   const auto is = [](const Override& one, std::string_view key) {
     return one.path == key || (one.path.starts_with(key) && one.path[key.size()] == '.');

@@ -1,4 +1,4 @@
-// part.yaml: what the reducer meshes and reduces (formats/PART.md).
+// part.yaml: input of the reducer for meshing and reduction (formats/PART.md).
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@
 
 namespace tisserand::formats {
 
-/// A position, or (`place` of kind node, near or centroid) a node of the mesh file.
+/// A position, or a node of the mesh file (`place` of kind node, near or centroid).
 struct NamedPoint {
   std::string name;
   Eigen::Vector3d position;
@@ -26,12 +26,12 @@ struct NamedPoint {
 
 enum class UnknownContent { refuse, ignore };
 
-/// What to do with nodes of a mesh file at one place that no element, tie or spring connects.
+/// Treatment of nodes of a mesh file at one position that no element, tie or spring connects.
 enum class CoincidentNodes { report, merge };
 
-/// The mesh, geometry or deck of another program.
+/// Mesh, geometry or deck of another program.
 struct MeshFile {
-  std::string file;       ///< as the part file gives it, resolved from its folder; empty: none
+  std::string file;       ///< as given in the part file, relative to its folder; empty: none
   double size = 0.0;      ///< largest edge of an element on geometry; 0: from the file or gmsh
   double smallest = 0.0;  ///< lower bound of the size when it follows the curvature
   int curvature = 0;      ///< elements per full turn of a curved face; 0: sizes do not follow the curvature
@@ -41,14 +41,14 @@ struct MeshFile {
     std::string where;
   };
   std::vector<LocalSize> sizes;
-  int order = 0;  ///< 1 or 2; 0: as the file, 1 for geometry
+  int order = 0;  ///< 1 or 2; 0: order of the file, 1 for geometry
   std::optional<Cells> cells;
-  double scale = 1.0;  ///< multiplies all coordinates
+  double scale = 1.0;  ///< factor of all coordinates
   UnknownContent unknown = UnknownContent::refuse;
   CoincidentNodes coincident = CoincidentNodes::report;
   std::vector<std::string> ignore;  ///< groups that need no property
   std::string where;
-  /// What reading the file may do and take. From the command line only: a part file may be as strange as its geometry.
+  /// Rights and limits of reading the file. From the command line only, since part files are as untrusted as geometry.
   struct Permission {
     bool trusted = false;  ///< may read files anywhere
     double memory = 0.0;   ///< limit [GB]; 0: by the size of the file
@@ -59,32 +59,32 @@ struct MeshFile {
 
 enum class BeamTheory { timoshenko, euler_bernoulli };
 
-/// End forces that a beam cannot carry, in its axes: bit 0-2 forces along x, y, z; bit 3-5 moments about x, y, z.
+/// End forces that a beam does not transmit, in its axes: bit 0-2 forces along x, y, z; bit 3-5 moments about x, y, z.
 struct BeamReleases {
   unsigned start = 0;
   unsigned end = 0;
 };
 
-/// A straight line or a circular arc between two places, divided into equal beam elements; or the lines of groups.
+/// Straight line or circular arc between two places, divided into equal beam elements; or the lines of groups.
 struct BeamLine {
   std::string name;
   Place from;
   Place to;
-  std::optional<Eigen::Vector3d> through;  ///< a third point of the circular arc; absent: straight
+  std::optional<Eigen::Vector3d> through;  ///< third point of a circular arc; absent: straight
   std::string section;
   std::string material;
   int elements = 0;   ///< > 0, or 0: from size
   double size = 0.0;  ///< largest element length if elements == 0
-  /// Direction whose part normal to the axis is the local y axis of the section; absent: a global axis chosen by the
-  /// rule of PART.md (the one most nearly normal to the axis).
+  /// Direction whose part normal to the axis is the local y axis of the section. If absent, it is the global axis most
+  /// nearly normal to the axis (rule of PART.md).
   std::optional<Eigen::Vector3d> orientation;
   BeamTheory theory = BeamTheory::timoshenko;
   MassMatrix mass_matrix = MassMatrix::consistent;
   bool rotary_inertia = true;
   std::string where;
-  std::vector<std::string> on = {};                       ///< groups of lines instead of from, to, elements
-  std::string to_section = {};                            ///< at `to`: tapered from `section`
-  double angle = 0.0;                                     ///< turns y and z of the section about x [rad]
+  std::vector<std::string> on = {};                       ///< groups of lines; replaces from, to, elements
+  std::string to_section = {};                            ///< section at `to`, tapered from `section`; empty: constant
+  double angle = 0.0;                                     ///< rotation of y and z of the section about x [rad]
   Eigen::Vector3d from_offset = Eigen::Vector3d::Zero();  ///< from the node to the end of the axis, part axes
   Eigen::Vector3d to_offset = Eigen::Vector3d::Zero();
   BeamReleases releases = {};
@@ -96,7 +96,7 @@ struct PointMass {
   double mass = 0.0;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about its centre of mass, part axes
   std::string where;
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of the centre of mass from the place, part axes
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< from the place to the centre of mass, part axes
 };
 
 /// Stiffness between two nodes, [translation; rotation] of the second relative to the first.
@@ -105,18 +105,18 @@ struct SpringLine {
   Place from;
   Place to;
   Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: the directions of the stiffness, part axes
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: directions of the stiffness, part axes
   std::string where;
 };
 
 enum class SpiderType { rigid, averaging };
 enum class SpiderWeights { area, equal };
 
-/// A node that leads a group (rigid) or follows its mean motion (averaging).
+/// Node that leads a group (rigid) or follows its mean motion (averaging).
 struct SpiderLine {
   std::string name;
   SpiderType type = SpiderType::averaging;
-  Place at;                     ///< centroid with an empty name: of what it is on
+  Place at;                     ///< centroid with an empty name: centroid of the group in `on`
   std::vector<std::string> on;  ///< groups
   std::vector<long> nodes;      ///< numbers of the mesh file
   SpiderWeights weights = SpiderWeights::area;
@@ -131,65 +131,65 @@ struct BoundaryNode {
   std::string where;
 };
 
-/// The relative error that a frequency of a mechanism with the part may have, up to the frequency `up_to` [1/time].
+/// Largest relative frequency error of a mechanism with the part, up to the frequency `up_to` [1/time].
 struct Accuracy {
   double error = 0.0;
   double up_to = 0.0;
 };
 
-/// Which type of SLEPc's eigenvalue solver finds modes; automatic: by the size of the problem.
+/// Eigenvalue solver for the modes; automatic: chosen by the size of the problem.
 enum class EigenSolverChoice { automatic, block_lanczos, krylov_schur, lapack };
 
-/// Which vectors the inside moves by beside the static modes of the boundary.
+/// Vectors that the interior uses in addition to the static boundary modes.
 enum class ReductionMethod { craig_bampton, rubin, macneal };
 
-/// What becomes of motions inside a part that meet no stiffness while its boundary is held.
+/// Treatment of motions inside a part that meet no stiffness while its boundary is held.
 enum class Mechanisms { refuse, allow };
 
-/// Internal modes: `count` lowest ones (0: Guyan), all below `cutoff` [1/time], or as many as `accuracy` takes. Of
-/// Rubin's and MacNeal's method: modes of the free part.
+/// Choice of internal modes: the `count` lowest (0: Guyan), all below `cutoff` [1/time], or as many as `accuracy`
+/// needs. For Rubin's and MacNeal's method: modes of the free part.
 struct ModeSelection {
   int count = 0;
   std::optional<double> cutoff;
   std::string where;
   std::optional<Accuracy> accuracy = std::nullopt;
   ReductionMethod method = ReductionMethod::craig_bampton;
-  std::optional<int> moments = std::nullopt;  ///< moment vectors; absent: as `accuracy` takes, else none
+  std::optional<int> moments = std::nullopt;  ///< moment vectors; absent: as `accuracy` needs, else none
   EigenSolverChoice eigensolver = EigenSolverChoice::automatic;
   std::string eigensolver_where = {};
   Mechanisms mechanism = Mechanisms::refuse;
 };
 
-/// Whether a companion file is written (COMPANION.md): by default while it stays small.
+/// Whether to write a companion file (COMPANION.md). Default: unless it is large.
 enum class SecondOrder { unless_large, yes, no };
 
-/// A floating-frame body beside the superelement (MODAL_BODY.md): lumped masses, lowest modes, what ties its frame.
+/// Request of a floating-frame body (MODAL_BODY.md): lumped masses, lowest modes, reference of its frame.
 struct ModalBodyRequest {
   struct Held {
     std::string place;               ///< a boundary node, point or spider
     unsigned components = 0b111111;  ///< bit 0-2 translations x, y, z; bit 3-5 rotations
   };
-  std::vector<Held> held;  ///< six components in all; empty: the mean axis
+  std::vector<Held> held;  ///< six components in total; empty: mean axis
   int modes = 0;
-  bool all_nodes = false;  ///< else the boundary nodes and those that are held
+  bool all_nodes = false;  ///< false: boundary nodes and held nodes only
   double damping = 0.0;    ///< ratio of critical damping of every mode
   std::string where;
 };
 
 struct Part {
   std::string name;
-  std::string file;  ///< path it was read from
+  std::string file;  ///< path of the part file
   Units units;
   std::vector<Material> materials;
   std::vector<Section> sections;
   std::vector<NamedPoint> points;
   std::vector<BeamLine> beams;
   std::vector<PointMass> point_masses;
-  std::vector<BoundaryNode> boundary;  ///< empty: that of the deck, or a part to be solved alone
+  std::vector<BoundaryNode> boundary;  ///< empty: boundary of the deck, or no reduction
   ModeSelection modes;
-  bool recovery = false;  ///< a recovery file beside the superelement
+  bool recovery = false;  ///< whether to write a recovery file too
   SecondOrder second_order = SecondOrder::unless_large;
-  int double_curvature = 0;  ///< shapes whose pairs are looked at for membrane stress that bending traps
+  int double_curvature = 0;  ///< number of modes whose pairs are checked for trapped membrane stress
   std::optional<ModalBodyRequest> modal_body = std::nullopt;
   MeshFile mesh;
   std::vector<OrthotropicMaterial> orthotropic;
@@ -199,14 +199,14 @@ struct Part {
   std::vector<SolidGroup> solids;
   std::vector<SpringLine> springs;
   std::vector<SpiderLine> spiders;
-  std::vector<Support> supports;         ///< of `reducer solve`
-  std::vector<PartLoadCase> load_cases;  ///< the same
+  std::vector<Support> supports;         ///< for `reducer solve`
+  std::vector<PartLoadCase> load_cases;  ///< for `reducer solve`
 };
 
-/// Reads part.yaml with the overrides applied, then checks. Throws all errors together, each with file:line:column.
+/// Reads part.yaml, applies the overrides and checks. Throws all errors together, each with file:line:column.
 Part read_part(const std::string& path, const std::vector<Override>& overrides);
 
-/// Names, references, signs and geometry (PART.md). Throws all findings together.
+/// Checks names, references, signs and geometry (PART.md). Throws all faults together.
 void check(const Part& part);
 
 }  // namespace tisserand::formats

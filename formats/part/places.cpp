@@ -1,4 +1,4 @@
-// Points, places, groups and the mesh file of part.yaml.
+// Reads points, places, groups and the mesh file of part.yaml.
 #include <algorithm>
 #include <limits>
 
@@ -46,7 +46,7 @@ CylinderSelection read_bore(const MapReader& map, const Part& part) {
   return selection;
 }
 
-/// faces, edges, volumes or nodes by number; the dimension follows from the key.
+/// Reads faces, edges, volumes or nodes by number. The key gives the dimension.
 void read_numbered(const MapReader& map, GroupDefinition& group) {
   struct Numbered {
     const char* key;

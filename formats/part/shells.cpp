@@ -1,4 +1,4 @@
-// Materials, plates, discs, cylinders, extrusions, shells and solids of part.yaml.
+// Reads materials, plates, discs, cylinders, extrusions, shells and solids of part.yaml.
 #include "formats/part/shells.hpp"
 
 #include <limits>
@@ -27,7 +27,7 @@ std::vector<Ply> read_plies(const MapReader& map) {
   return plies;
 }
 
-/// The keys that say what a shell is across its thickness.
+/// Reads the keys of the layout of a shell across its thickness.
 ShellLayout read_layout(const MapReader& map) {
   ShellLayout layout;
   if (map.has("laminate")) {
@@ -139,7 +139,7 @@ std::vector<Field> layout_fields() {
        choice<&ShellLayout::mass_matrix, mass_matrices>("mass_matrix", "`consistent` or `lumped`")});
 }
 
-/// Keys of all that this file draws, behind its own ones.
+/// Fields that all patches share, after the fields of each kind.
 std::vector<Field> patch_fields() {
   std::vector<Field> fields = shared_fields(
       "patch", {plain<&ShellPatch::size>("size", "positive",

@@ -1,4 +1,4 @@
-// Shells and solids of part.yaml: what they consist of, on which groups, and geometry that the part file draws itself.
+// Shells and solids of part.yaml: materials, layouts, groups, and geometry defined in the part file.
 #pragma once
 
 #include <optional>
@@ -25,22 +25,22 @@ struct OrthotropicMaterial {
   std::string where;
 };
 
-/// One layer of a laminate; the angle turns from the x axis of the laminate to direction 1, right-handed about the
-/// normal [rad].
+/// One layer of a laminate. The angle is from the x axis of the laminate to direction 1, right-handed about the normal
+/// [rad].
 struct Ply {
   std::string material;  ///< isotropic or orthotropic
   double thickness = 0.0;
   double angle = 0.0;
 };
 
-/// A shell across its thickness: one layer of `material` with `thickness`, or the plies from the side opposite to the
-/// normal to the side of the normal.
+/// Layout of a shell across its thickness: one layer of `material` with `thickness`, or plies. Plies are ordered from
+/// the side opposite to the normal to the side of the normal.
 struct ShellLayout {
   double thickness = 0.0;
   std::string material;
   std::vector<Ply> plies;            ///< empty: one layer
-  double offset = 0.0;               ///< of the middle surface from the mesh along the normal
-  std::optional<Eigen::Vector3d> x;  ///< its projection is the x axis of the laminate; absent: first edge of an element
+  double offset = 0.0;               ///< from the mesh to the middle surface along the normal
+  std::optional<Eigen::Vector3d> x;  ///< projects to the laminate's x axis; absent: first edge of an element
   MassMatrix mass_matrix = MassMatrix::consistent;
 };
 
@@ -61,12 +61,12 @@ struct SolidGroup {
   std::string where;
 };
 
-/// Four corners, counter-clockwise seen from the tip of the normal; bilinear between them.
+/// Bilinear plate with four corners, counter-clockwise seen from the tip of the normal.
 struct Plate {
   std::vector<Eigen::Vector3d> corners;
 };
 
-/// A circular disc or ring; divisions: around, radial. `start` is where the angle begins.
+/// Circular disc or ring. Divisions: around, radial. `start` is the direction of angle 0.
 struct Disc {
   Eigen::Vector3d center, normal;
   std::optional<Eigen::Vector3d> start;
@@ -74,7 +74,7 @@ struct Disc {
   double inner_radius = 0.0;
 };
 
-/// The wall of a cylinder or cone, or a segment of it; the normal points outwards. Divisions: around, along.
+/// Wall of a cylinder or cone, or a segment of it. The normal points outwards. Divisions: around, along.
 struct Cylinder {
   Eigen::Vector3d from, to;
   double radius = 0.0;
@@ -83,14 +83,14 @@ struct Cylinder {
   double angle = 0.0;                    ///< (0, 2 pi]
 };
 
-/// Turning about an axis through a point [rad].
+/// Rotation about an axis through a point [rad].
 struct ArcPath {
   Eigen::Vector3d through, axis;
   double angle = 0.0;
 };
 
-/// A polyline drawn along a vector or an arc. The normal is (direction of the polyline) x (direction of the path).
-/// Divisions: each segment of the polyline, along.
+/// Polyline swept along a vector or an arc. The normal is (direction of the polyline) x (direction of the path).
+/// Divisions: each segment of the polyline, along the path.
 struct Extrusion {
   std::vector<Eigen::Vector3d> section;  ///< closed if the last point is the first one
   std::variant<Eigen::Vector3d, ArcPath> path;
@@ -98,14 +98,14 @@ struct Extrusion {
 
 enum class Cells { quadrilaterals, triangles };
 
-/// A wall that the part file draws. It makes the group of faces `name` and groups of edges (PART.md).
+/// Wall defined in the part file. It creates the group of faces `name` and groups of edges (PART.md).
 struct ShellPatch {
   std::string name;
   std::variant<Plate, Disc, Cylinder, Extrusion> shape;
   std::vector<int> elements;  ///< two counts, or empty: from size
   double size = 0.0;          ///< largest length of an element's edge
   Cells cells = Cells::quadrilaterals;
-  std::optional<ShellLayout> layout;  ///< absent: from a ShellGroup on it
+  std::optional<ShellLayout> layout;  ///< absent: given by a ShellGroup
   std::string where;
 };
 
