@@ -1,4 +1,4 @@
-// Datasets, units and channel names of results files, and the selection among them.
+// Table of datasets, units and channel names of results files, and the selection from them.
 #include "formats/results/blocks.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ const std::vector<std::string> xyz{"x", "y", "z"};
 const std::vector<std::string> wxyz{"w", "x", "y", "z"};
 const std::vector<std::string> wrench{"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"};
 
-/// Where values stand in a row: how they are read, and how they are given room.
+/// Access to the values of a dataset in a row: how to read them and how to size them.
 struct Room {
   const double* (*values)(const ResultsRow&) = nullptr;
   void (*resize)(ResultsRow&, Eigen::Index items) = nullptr;
@@ -35,14 +35,14 @@ void set_items(Matrix& matrix, Eigen::Index items) {
     matrix.setZero(matrix.rows(), items);
 }
 
-/// A member of a row, or a member of that.
+/// Access to a member of a row, or to a member of this member.
 template <auto... path>
 constexpr Room at{[](const ResultsRow& row) { return data_of((row.*....*path)); },
                   [](ResultsRow& row, Eigen::Index items) { set_items((row.*....*path), items); }};
 
 std::string with_radian(const std::string& unit) { return unit.empty() ? "" : "rad " + unit; }
 
-/// Units of columns.
+/// Labels of the units of columns.
 struct Labels {
   explicit Labels(const Units& u)
       : length(unit_label(u, 1, 0, 0)),
@@ -69,7 +69,7 @@ struct Group {
     blocks.push_back({before + dataset, {items.size()}, items, {}, unit, room.values, room.resize});
     blocks.back().units.assign(items.size(), unit);
   }
-  /// Items x components, column "item/component", one unit for all.
+  /// Adds a dataset of items x components with columns "item/component" and one unit.
   Block& vectors(const char* dataset, const std::vector<std::string>& components, const std::string& unit,
                  const Room& room) const {
     blocks.push_back({before + dataset, {items.size(), components.size()}, {}, {}, unit, room.values, room.resize});
@@ -87,7 +87,7 @@ struct Group {
   }
 };
 
-/// "beam/0", "beam/1", ... for the entries of each superelement between its offsets.
+/// Names "beam/0", "beam/1", ... of the entries of each superelement between its offsets.
 std::vector<std::string> numbered(const std::vector<std::string>& owners, const std::vector<int>& offset) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i + 1 < offset.size() && i < owners.size(); ++i)
@@ -105,7 +105,7 @@ std::vector<std::string> boundary_names(const ResultsLayout& layout) {
   return names;
 }
 
-/// "beam/gust", "beam/weight", ...: names between the offsets of each owner.
+/// Names "beam/gust", "beam/weight", ... of the entries of each owner between its offsets.
 std::vector<std::string> owned(const std::vector<std::string>& owners, const std::vector<int>& offset,
                                const std::vector<std::string>& own) {
   std::vector<std::string> names;
@@ -158,7 +158,7 @@ void add_modal_bodies(const ResultsLayout& layout, const Labels& labels, std::ve
       "node_force", labels, at<modal, &ModalFrames::node_force>);
 }
 
-/// What belongs to coordinates, in one unit for lengths and in another for angles.
+/// Dataset of one value per coordinate, with one unit for lengths and another for angles.
 Block of_coordinates(const std::string& dataset, const std::vector<ResultsLayout::Coordinate>& items,
                      const std::pair<std::string, std::string>& units, const Room& room) {
   Block block{dataset, {items.size()}, {}, {}, "", room.values, room.resize};
@@ -255,14 +255,14 @@ void add_scalars(const Units& units, std::vector<Block>& blocks) {
   blocks.push_back(scalar("/solver/constraint", "1", at<&ResultsRow::constraint>));
 }
 
-/// Whether the entry names the dataset, its group, or matches it; "/nodes/position" and "nodes/position" are the same.
+/// Whether the entry names the dataset or its group, or matches it. "/nodes/position" and "nodes/position" are equal.
 bool chooses(const std::string& entry, const std::string& dataset) {
   const std::string wanted = entry.starts_with("/") ? entry : "/" + entry;
   return dataset == wanted || dataset.starts_with(wanted + "/") || matches_wildcard(dataset, wanted);
 }
 
-/// y without the strain that it stands for would give stresses that are wrong, and so without the factors of load
-/// cases.
+/// Whether an entry that selects y must also select this dataset. Stress from y alone, without its second-order strain
+/// and the factors of load cases, would be wrong.
 bool belongs_to(const std::string& entry, const std::string& dataset) {
   return (dataset == "/superelements/y_strain" || dataset == "/superelements/load_factor") &&
          chooses(entry, "/superelements/y");
@@ -270,7 +270,7 @@ bool belongs_to(const std::string& entry, const std::string& dataset) {
 
 std::string bare(const std::string& entry) { return entry.starts_with("/") ? entry.substr(1) : entry; }
 
-/// "nodes/position/arm/tip", also with more behind it: up to the second slash, and the rest; no rest: no node is named.
+/// Splits "nodes/position/arm/tip" (or longer) at the second slash. The rest is empty if no node is named.
 std::pair<std::string, std::string> dataset_and_member(const std::string& entry) {
   const std::string wanted = bare(entry);
   const std::size_t slash = wanted.find('/', wanted.find('/') + 1);
@@ -278,13 +278,13 @@ std::pair<std::string, std::string> dataset_and_member(const std::string& entry)
   return {wanted.substr(0, slash), wanted.substr(slash + 1)};
 }
 
-/// Whether the entry names a dataset of nodes, or a pattern of some, and nodes in it.
+/// Whether the entry names a dataset of nodes, or a pattern of several, and nodes in it.
 bool names_nodes(const std::string& entry, const std::string& dataset) {
   const auto [group, member] = dataset_and_member(entry);
   return !member.empty() && dataset.starts_with("/nodes/") && matches_wildcard(dataset.substr(1), group);
 }
 
-/// Whether the rest of the entry means the node: its name, the beginning or a pattern of it, or one of its components.
+/// Whether the rest of the entry selects the node: by its name, a beginning or pattern of it, or one of its components.
 bool means_node(const std::string& entry, const std::string& node) {
   const std::string member = dataset_and_member(entry).second;
   if (member == node || node.starts_with(member + "/") || matches_wildcard(node, member)) return true;
@@ -379,7 +379,7 @@ std::vector<bool> chosen_nodes(const ResultsLayout& layout, const std::string& w
 }
 
 std::optional<std::pair<std::string, std::string>> fault_of_selection(const std::string& entry) {
-  // Groups and datasets that this mechanism has no member of may be chosen without effect ("joints" without joints).
+  // Groups and datasets of which this mechanism has no member may be selected without effect ("joints" without joints).
   std::vector<std::string> known{"time"};
   ResultsLayout full;
   full.nodes = full.superelements = full.modal_bodies = full.joints = full.bushings = full.frictions =

@@ -1,4 +1,4 @@
-// Writing and reading of checkpoints.
+// Writes and reads checkpoints.
 #include "formats/results/checkpoint.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 constexpr const char* format_name = "tisserand-checkpoint";
 constexpr std::uint64_t max_numbers = std::uint64_t{1} << 32;
 
-/// SHA-256 of the numbers and of the values of the scene, by which damage is found.
+/// SHA-256 of the numbers and of the values of the scene, which reveals damage.
 std::string content_id(const Checkpoint& c) {
   Sha256 sha;
   sha.add(&c.time, sizeof c.time);
@@ -41,7 +41,7 @@ std::string format_of(const hdf5::InputFile& file) {
   return file.has_attribute("/", "format") ? file.text_attribute("/", "format") : "";
 }
 
-/// An attribute that counts, up to `most`.
+/// Integer attribute from 0 to `most`.
 double count_attribute(const hdf5::InputFile& file, const std::string& name, double most) {
   const double value = file.number_attribute("/", name);
   if (value >= 0.0 && value <= most) return value;

@@ -1,4 +1,4 @@
-// From results to comma-separated text for people and other programs.
+// Exports results as comma-separated text.
 #include <algorithm>
 
 #include "common/error.hpp"

@@ -1,4 +1,4 @@
-// Locks on results that are being written.
+// Locks results that are being written.
 #include "formats/results/held_file.hpp"
 
 #include <fcntl.h>
@@ -39,7 +39,7 @@ Hold hold(int file) {
   throw Error(fmt::format("cannot write the file: {}", std::strerror(number)), path, remedy_of_errno(number));
 }
 
-/// The file of the name `path`, held; -1: there is none, or it cannot be opened for writing.
+/// Opens and locks the file `path`. -1 if it does not exist or cannot be opened for writing.
 int hold_present(const std::string& path) {
   for (;;) {
     const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK);
@@ -71,15 +71,15 @@ HeldFile::~HeldFile() {
 HeldFile HeldFile::publish(const std::string& from, const std::string& to) {
   HeldFile made(::open(from.c_str(), O_RDWR | O_CLOEXEC));
   if (made.file_ < 0 || ::fsync(made.file_) != 0) fail_to_publish(to, errno);
-  static_cast<void>(hold(made.file_));  // nobody else knows the name yet
+  static_cast<void>(hold(made.file_));  // no other program knows this name yet
   for (;;) {
-    // Of two programs that begin at once one makes the name, and the other finds it held.
+    // If two programs start at the same time, one creates the name and the other finds it locked.
     if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return made;
     if (errno == EEXIST) {
       const HeldFile older(hold_present(to));
-      if (older.file_ < 0 && ::access(to.c_str(), F_OK) != 0) continue;  // gone meanwhile
+      if (older.file_ < 0 && ::access(to.c_str(), F_OK) != 0) continue;  // removed meanwhile
       if (::rename(from.c_str(), to.c_str()) == 0) return made;
-    } else if (errno == EINVAL || errno == ENOSYS) {  // a disk without that
+    } else if (errno == EINVAL || errno == ENOSYS) {  // the disk does not support it
       if (::rename(from.c_str(), to.c_str()) == 0) return made;
     }
     fail_to_publish(to, errno);

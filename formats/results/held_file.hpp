@@ -1,13 +1,13 @@
-// The lock on the results of a running program, between its writer and others that would take the same name.
+// The lock on the results of a running program, which protects them from other writers of the same name.
 #pragma once
 
 #include <string>
 
 namespace tisserand::formats {
 
-/// A file that this program holds until its end, however it ends: an open-file-description lock of the kernel on a byte
-/// far behind the data. It cannot go stale, and nobody who reads, HDF5's own locks included, meets it. On disks without
-/// locks nothing is held, and nothing refused.
+/// File that this program holds until its end, however it ends: an open-file-description lock of the kernel on a byte
+/// far beyond the data. It cannot become stale, and neither readers nor HDF5's own locks meet it. Disks without locks
+/// hold nothing and refuse nothing.
 class HeldFile {
  public:
   HeldFile() = default;
@@ -15,13 +15,13 @@ class HeldFile {
   HeldFile& operator=(HeldFile&& other) noexcept;
   ~HeldFile();
 
-  /// Gives `from`, a complete file of this program, the name `to` and holds it. Throws Error if another program holds
-  /// the file of that name.
+  /// Renames `from`, a complete file of this program, to `to` and holds it. Throws Error if another program holds the
+  /// file of that name.
   static HeldFile publish(const std::string& from, const std::string& to);
-  /// Throws Error if there is such a file and another program holds it. `told`: its name in the message.
+  /// Throws Error if another program holds the file `path`. `told`: its name in the message.
   static void require_unheld(const std::string& path, const std::string& told);
 
-  /// What was written to the file is on the disk when this returns.
+  /// Waits until the data written to the file are on the disk.
   void synchronise() const;
 
  private:

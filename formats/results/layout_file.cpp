@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint64_t max_names = 10'000'000;
 constexpr const char* compare = "compare the file with formats/RESULTS.md";
 
-/// Names that are stored with the blocks that begin with `block`.
+/// Names that are stored if a block begins with `block`.
 struct Names {
   const char *block, *dataset;
   std::vector<std::string> ResultsLayout::*list;
@@ -31,7 +31,7 @@ constexpr Names names_of_items[] = {
     {"/modal_bodies/", "/modal_bodies/name", &ResultsLayout::modal_bodies},
     {"/modal_bodies/node_force", "/modal_bodies/node_name", &ResultsLayout::modal_nodes}};
 
-/// Coordinates: names and kinds below `before`.
+/// Coordinates whose names and kinds are stored under `before`.
 struct Coordinates {
   const char *block, *before;
   std::vector<ResultsLayout::Coordinate> ResultsLayout::*list;
@@ -42,7 +42,7 @@ constexpr Coordinates coordinate_lists[] = {{"/joints/", "/joints/coordinate_", 
                                             {"/forces/stop", "/forces/stop_", &ResultsLayout::stops},
                                             {"/forces/load", "/forces/load_", &ResultsLayout::loads}};
 
-/// Offsets of owners, and the names of which each owns those between two offsets, where they have names.
+/// Offsets of owners, and the names that each owns between two offsets, if there are names.
 struct Offsets {
   const char *block, *dataset;
   std::vector<int> ResultsLayout::*list;
@@ -68,7 +68,7 @@ const std::vector<std::string> channel_columns{"/channels/name", "/channels/unit
 
 std::string kind_word(bool is_length) { return is_length ? "length" : "angle"; }
 
-/// Two or more texts of each item, in datasets of their own.
+/// Writes two or more texts per item, each in its own dataset.
 template <class Item, class Texts>
 void write_columns(const hdf5::Output& out, const std::vector<std::string>& datasets, const std::vector<Item>& items,
                    const Texts& texts_of) {
@@ -94,7 +94,7 @@ std::vector<std::string> names(const hdf5::InputFile& file, const std::string& d
   return file.read_texts(dataset, bounded_length(file, dataset), "names");
 }
 
-/// Two or more texts of each item, from datasets of their own: the first one tells how many items there are.
+/// Reads two or more texts per item, each from its own dataset. The first dataset gives the number of items.
 std::vector<std::vector<std::string>> read_columns(const hdf5::InputFile& file,
                                                    const std::vector<std::string>& datasets) {
   std::vector<std::vector<std::string>> columns;
@@ -103,7 +103,7 @@ std::vector<std::vector<std::string>> read_columns(const hdf5::InputFile& file,
   return columns;
 }
 
-/// Offsets of `owners` superelements: begin with 0, ascend, one more than owners.
+/// Reads the offsets of `owners` superelements: they begin with 0, ascend, and are one more than owners.
 std::vector<int> read_offsets(const hdf5::InputFile& file, const std::string& dataset, std::size_t owners) {
   if (!file.has(dataset)) return owners == 0 ? std::vector<int>{} : std::vector<int>(owners + 1, 0);
   std::vector<std::int64_t> wide(bounded_length(file, dataset));
@@ -116,7 +116,7 @@ std::vector<int> read_offsets(const hdf5::InputFile& file, const std::string& da
   return std::vector<int>(wide.begin(), wide.end());
 }
 
-/// A factor of 0 stands for a unit without a name.
+/// Reads a unit. Factor 0 means a unit without a name.
 Unit read_unit(const hdf5::InputFile& file, const std::string& name) {
   const double factor = file.number_attribute("/", name);
   if (!std::isfinite(factor) || factor < 0.0)
@@ -125,7 +125,7 @@ Unit read_unit(const hdf5::InputFile& file, const std::string& name) {
   return {factor, file.text_attribute("/", name + "_label")};
 }
 
-/// Other names of nodes, each with the index of its node.
+/// Reads other names of nodes, each with the index of its node.
 std::vector<ResultsLayout::Alias> read_aliases(const hdf5::InputFile& file, std::size_t nodes) {
   const std::vector<std::string> words = names(file, "/nodes/alias");
   if (words.empty()) return {};
@@ -196,7 +196,7 @@ ResultsLayout read_layout(const hdf5::InputFile& file) {
   for (std::size_t i = 0; i < channels[0].size(); ++i) l.quantities.push_back({channels[0][i], channels[1][i]});
   l.strained = file.has("/superelements/y_strain");
   l.treads = file.has("/tyres/deflection");
-  // Version 1.0 had one angle per joint, not-a-number where the joint has none.
+  // Version 1.0 had one angle per joint, not-a-number for joints without angle.
   if (l.coordinates.empty() && file.text_attribute("/", "version") == "1.0")
     for (const std::string& joint : l.joints) l.coordinates.push_back({joint, false});
   for (const Offsets& one : offset_lists) {

@@ -1,4 +1,4 @@
-// What a results file says of the columns of its datasets, to and from the file.
+// Names and offsets of the columns of a results file, written to and read from the file.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace tisserand::formats {
 
-/// Names and offsets of each group of which any dataset is stored. Throws Error.
+/// Writes names and offsets of each group of which a dataset is stored. Throws Error.
 void write_names(const hdf5::Output& out, const ResultsLayout& layout, const std::vector<Block>& blocks);
 
-/// Names of nodes and their other names, which files of modes also need where they store no motion. Throws Error.
+/// Writes names and aliases of nodes, which files of modes need even without motion. Throws Error.
 void write_node_names(const hdf5::Output& out, const ResultsLayout& layout);
 
-/// All that a file says of its layout, and of the scene that was simulated. Throws Error.
+/// Reads the layout of a file, with the simulated scene. Throws Error.
 ResultsLayout read_layout(const hdf5::InputFile& file);
 
 }  // namespace tisserand::formats

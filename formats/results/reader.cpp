@@ -1,4 +1,4 @@
-// From *.results.h5, whole, partial or still being written, to channels over time.
+// Reads channels over time from *.results.h5 files that are complete, partial or still being written.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -37,8 +37,8 @@ void check_format(const hdf5::InputFile& file) {
               fmt::format("{}: {}", file.path(), dataset), "write or copy it again");
 }
 
-/// Rows of a dataset that are there: its first extent, and no more than its storage holds, which only a killed run can
-/// leave behind.
+/// Number of available rows of a dataset: its first extent, limited by its storage. They differ only after a killed
+/// run.
 std::uint64_t rows_of(const hdf5::InputFile& file, const Block& block) {
   const hdf5::DatasetInfo info = file.info(block.dataset);
   hdf5::Shape expected = block.shape;
@@ -54,8 +54,7 @@ std::uint64_t rows_of(const hdf5::InputFile& file, const Block& block) {
   return std::min(expected[0], stored);
 }
 
-/// The names and all that they begin with: "nodes/position/a/x" also gives "nodes", "nodes/position",
-/// "nodes/position/a".
+/// The names and all their beginnings: "nodes/position/a/x" also gives "nodes", "nodes/position", "nodes/position/a".
 std::vector<std::string> with_groups(std::vector<std::string> names) {
   std::set<std::string> groups;
   for (const std::string& name : names)
@@ -84,13 +83,13 @@ struct ResultsReader::Impl {
 
   hdf5::InputFile file;
   ResultsLayout layout;
-  std::vector<Block> blocks;       ///< over time, then over modes
-  std::size_t blocks_of_time = 0;  ///< the first ones
+  std::vector<Block> blocks;       ///< first those over time, then those over modes
+  std::size_t blocks_of_time = 0;  ///< number of those over time
   std::uint64_t rows = 0;
   std::uint64_t modes = 0;
   std::vector<Channel> channels;
-  std::vector<Place> places;                                        ///< of the channels
-  mutable std::unordered_map<std::string_view, std::size_t> index;  ///< of the channels; made where one is asked for
+  std::vector<Place> places;                                        ///< places of the channels
+  mutable std::unordered_map<std::string_view, std::size_t> index;  ///< index of channels; built at the first search
 
   const Place& find(const std::string& channel) const;
   bool is_of_modes(std::size_t block) const { return block >= blocks_of_time; }
@@ -137,7 +136,7 @@ ResultsReader::Impl::Impl(const std::string& path) : file(existing_results(path)
   if (modes == 0) add_aliases();
 }
 
-/// Instants ascend; two at a jump are equal. Rows of a file that was never closed may not all be there.
+/// Checks that instants ascend (two at a jump are equal). Skipped for unclosed files, whose rows may be incomplete.
 void ResultsReader::Impl::check_times() const {
   if (rows == 0 || !file.closed_properly()) return;
   std::vector<double> time(rows);
@@ -149,7 +148,7 @@ void ResultsReader::Impl::check_times() const {
                   file.path() + ": /time", "write or copy the file again");
 }
 
-/// "nodes/position/rod/end/x" beside "nodes/position/rod/10/x".
+/// Adds channels of aliases: "nodes/position/rod/end/x" for "nodes/position/rod/10/x".
 void ResultsReader::Impl::add_aliases() {
   std::unordered_set<std::string_view> taken(layout.nodes.begin(), layout.nodes.end());
   std::vector<const ResultsLayout::Alias*> aliases;

@@ -1,4 +1,4 @@
-// The room that one instant takes, in memory and in the file.
+// Sizes of the values of one instant, in memory and in the file.
 #include <algorithm>
 
 #include "formats/results/blocks.hpp"

@@ -1,4 +1,4 @@
-// The scene that was simulated, to and from a results file.
+// Writes and reads the simulated scene in a results file.
 #include "formats/results/simulated_scene_file.hpp"
 
 #include <cstdint>
@@ -20,7 +20,7 @@ std::uint64_t entries_of(const hdf5::InputFile& file, const std::string& dataset
   return info.shape[0];
 }
 
-/// Indices from `least` to below `end`.
+/// Reads indices from `least` to below `end`.
 std::vector<std::int64_t> read_indices(const hdf5::InputFile& file, const std::string& dataset,
                                        const hdf5::Shape& shape, std::int64_t least, std::size_t end) {
   std::vector<std::int64_t> values(shape.size() == 1 ? shape[0] : shape[0] * shape[1]);
@@ -53,7 +53,7 @@ void read_links(const hdf5::InputFile& file, std::size_t nodes, SimulatedScene& 
   const std::uint64_t count = entries_of(file, "/scene/link_name");
   const std::vector<std::string> name = file.read_texts("/scene/link_name", count, "joints, springs and loads"),
                                  kind = file.read_texts("/scene/link_kind", count, "joints, springs and loads");
-  // A file without any motion of nodes does not name them either.
+  // A file without motion of nodes does not store their names either.
   const std::size_t known =
       nodes > 0 || !file.has("/scene/body_of_node") ? nodes : entries_of(file, "/scene/body_of_node");
   const std::vector<std::int64_t> node =

@@ -8,10 +8,10 @@
 
 namespace tisserand::formats {
 
-/// Writes nothing of an empty one.
+/// Writes the scene, or nothing if it is empty.
 void write_simulated(const hdf5::Output& out, const SimulatedScene& scene);
 
-/// Empty where the file holds none (before version 1.5). Throws Error: shapes and indices that do not fit.
+/// Reads the scene. Empty if the file has none (before version 1.5). Throws Error if shapes or indices do not fit.
 SimulatedScene read_simulated(const hdf5::InputFile& file, std::size_t nodes);
 
 }  // namespace tisserand::formats

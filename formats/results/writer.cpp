@@ -1,8 +1,9 @@
-// From rows of a running analysis to *.results.h5, such that a killed run leaves a readable file.
+// Writes the rows of a running analysis to *.results.h5 so that a killed run leaves a readable file.
 //
-// The file appears as <path>.part when its head is complete, and is then open in HDF5's single-writer mode, whose order
-// of writes keeps the file on disk consistent at every moment. Between writes rows wait in memory taken at the start.
-// Outside this mode a kill between two writes of HDF5 can leave a damaged file, so that the report goes into a copy.
+// The file appears as <path>.part when its head is complete. HDF5's single-writer mode then keeps it consistent on
+// disk.
+// Rows wait in memory that is allocated at the start. Outside this mode a kill between two writes can damage the file,
+// so the report is written to a copy.
 #include <hdf5.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -35,17 +36,17 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds flush_interval{1000};
-constexpr std::uintmax_t most_copied = 64 << 20;  ///< bytes: copied in some hundredths of a second
-constexpr std::size_t buffer_bytes = 4u << 20;    // of all waiting rows together
-constexpr std::size_t chunk_bytes = 64u << 10;    // of one chunk on disk, unless one row is larger
+constexpr std::uintmax_t most_copied = 64 << 20;  ///< bytes; copying takes some hundredths of a second
+constexpr std::size_t buffer_bytes = 4u << 20;    // all waiting rows together
+constexpr std::size_t chunk_bytes = 64u << 10;    // one chunk on disk, unless one row is larger
 constexpr std::size_t max_chunk_rows = 256;
-constexpr std::uint64_t disk_reserve = 256u << 10;  // left for the report and for closing the file
+constexpr std::uint64_t disk_reserve = 256u << 10;  // kept free for the report and for closing the file
 
 std::size_t chunk_rows(const Block& block) {
   return std::clamp<std::size_t>(chunk_bytes / (block.width() * sizeof(double)), 1, max_chunk_rows);
 }
 
-/// An empty dataset 0 x shape that can grow in its first dimension.
+/// Creates an empty dataset 0 x shape that can grow in its first dimension.
 void create_growing(const hdf5::Output& out, const Block& block) {
   std::vector<hsize_t> extent{0}, limit{H5S_UNLIMITED}, chunk{chunk_rows(block)};
   for (const std::uint64_t e : block.shape) {
@@ -81,7 +82,7 @@ void check_layout(const ResultsLayout& l) {
                    l.boundary_nodes.size(), boundary);
 }
 
-/// Access in the form of HDF5 1.10, which can be appended to while others read and writers die; no locks.
+/// Access with the format of HDF5 1.10, which allows appending with concurrent readers. No locks.
 hdf5::Handle access_properties() {
   hdf5::Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access.id(), false, true);
@@ -90,11 +91,11 @@ hdf5::Handle access_properties() {
   return access;
 }
 
-/// A file with everything that does not change during the run.
+/// Creates a file with all data that do not change during the run.
 void create_head(const std::string& path, const ResultsLayout& layout, const std::vector<Block>& blocks,
                  const std::string& run, const std::string& where) {
-  const hdf5::Handle access = access_properties();  // lives on: closing it would forget why H5Fcreate failed
-  // Exclusive: a link that somebody has put in the place of the temporary file is not followed.
+  const hdf5::Handle access = access_properties();  // kept open: closing it would lose the cause of a failure
+  // Exclusive creation does not follow a link that somebody has put in place of the temporary file.
   hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access.id()), H5Fclose);
   if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
   const hdf5::Output out{file.id(), where};
@@ -112,20 +113,20 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
   if (file.reset() < 0) throw hdf5::last_error("cannot write the file", where, "choose another place or name");
 }
 
-/// The file of create_head() under its name, whole or not at all, and held.
+/// Creates the file of create_head() under its name, complete or not at all, and holds it.
 HeldFile publish_head(const std::string& part, const ResultsLayout& layout, const std::vector<Block>& blocks,
                       const std::string& run) {
   const std::string temporary = temporary_beside(part);
   try {
     create_head(temporary, layout, blocks, run, part);
     return HeldFile::publish(temporary, part);
-  } catch (...) {  // short memory too
+  } catch (...) {  // also short memory
     ::unlink(temporary.c_str());
     throw;
   }
 }
 
-/// 128 random bits, so that no two runs have the same.
+/// Identity of a run: 128 random bits.
 std::string name_of_run() {
   std::random_device random;
   std::string name;
@@ -140,7 +141,7 @@ hdf5::Handle open_for_writing(const std::string& path, unsigned mode) {
   return file;
 }
 
-/// /modes: eigenvalues, frequencies, damping ratios and shapes, modes x nodes x 3 x [real, imaginary].
+/// Writes /modes: eigenvalues, frequencies, damping ratios and shapes, modes x nodes x 3 x [real, imaginary].
 void write_modes(const hdf5::Output& out, const ModesTable& table) {
   const auto modes = static_cast<std::uint64_t>(table.eigenvalue.size());
   const auto nodes = static_cast<std::uint64_t>(table.translation.rows() / 3);
@@ -160,11 +161,11 @@ void write_modes(const hdf5::Output& out, const ModesTable& table) {
 }  // namespace
 
 struct ResultsWriter::Impl {
-  /// A block with its open dataset and its waiting rows.
+  /// Block with its open dataset and its waiting rows.
   struct Column {
     Block block;
     hdf5::Handle dataset;
-    std::unique_ptr<double[]> waiting;  ///< capacity x width, taken once; not zeroed: a short run touches few pages
+    std::unique_ptr<double[]> waiting;  ///< capacity x width, allocated once; not zeroed, so short runs touch few pages
   };
 
   std::string path;
@@ -173,18 +174,18 @@ struct ResultsWriter::Impl {
   HeldFile held;
   hdf5::Handle file;
   std::vector<Column> columns;
-  std::size_t capacity = 0;   ///< rows that can wait
-  std::size_t waiting = 0;    ///< rows that do
-  std::uint64_t written = 0;  ///< rows in the file
+  std::size_t capacity = 0;   ///< largest number of waiting rows
+  std::size_t waiting = 0;    ///< number of waiting rows
+  std::uint64_t written = 0;  ///< number of rows in the file
   std::uint64_t bytes_per_row = 0;
   Clock::time_point last_flush = Clock::now();
-  bool broken = false;  ///< a write failed: the file on disk stays as the last good write left it
+  bool broken = false;  ///< a write failed: the file stays as the last good write left it
   bool finished = false;
-  bool published = false;  ///< `part` is this writer's
+  bool published = false;  ///< `part` belongs to this writer
 
   std::optional<ModesTable> modes;
   ResultsLayout layout;
-  std::string shortage;  ///< why rows were given up, or empty
+  std::string shortage;  ///< reason for dropped rows, or empty
 
   void create();
   void begin_with(const ResultsBeginning& beginning);
@@ -200,7 +201,7 @@ struct ResultsWriter::Impl {
   void rename_to_final(const std::string& last) const;
 };
 
-/// Bytes that the next `rows` rows may take, with new chunks and what closing the file takes.
+/// Bytes that the next `rows` rows may need, with new chunks and the reserve for closing the file.
 std::uint64_t ResultsWriter::Impl::bytes_needed(std::size_t rows) const {
   std::uint64_t needed = disk_reserve + rows * bytes_per_row;
   for (const Column& column : columns) {
@@ -211,7 +212,7 @@ std::uint64_t ResultsWriter::Impl::bytes_needed(std::size_t rows) const {
   return needed;
 }
 
-/// HDF5 cannot give up cleanly on a full disk, so that ours asks first: of the waiting rows the number that fits.
+/// Number of waiting rows for which the disk has space. HDF5 cannot recover from a full disk, so check before writing.
 std::size_t ResultsWriter::Impl::rows_that_fit() {
   struct statvfs disk {};
   struct stat status {};
@@ -276,7 +277,7 @@ void ResultsWriter::Impl::flush() {
   last_flush = Clock::now();
 }
 
-/// After a failed write HDF5 would only spoil, by closing, what the last good write has left.
+/// Closes the file, except after a failed write, when closing by HDF5 would damage what the last good write left.
 void ResultsWriter::Impl::close() {
   if (broken) {
     for (Column& column : columns) column.dataset.abandon();
@@ -288,22 +289,21 @@ void ResultsWriter::Impl::close() {
   if (file.reset() < 0) broken = true;
 }
 
-/// Writes the report into a copy of the closed file, next to it, and returns the name of the copy. The report goes into
-/// the file itself, which a kill in the milliseconds of write_end() can damage, where the file is large, the disk has
-/// no room for a copy, or a reader in this process keeps the file open, so that the copy has the mark of a running
-/// writer.
+/// Writes the report into a copy of the closed file and returns its name, since a kill during write_end() can damage a
+/// file. It writes into the file itself, which risks this for some milliseconds, in three cases: the file is large, the
+/// disk has no space, or a reader in this process keeps the file open. Then the copy has the mark of a running writer.
 std::string ResultsWriter::Impl::write_end_apart(int completed, const std::string& reason,
                                                  const std::string& report_json) const {
   const std::string copy = part + ".end";
   std::error_code failure;
   const bool is_small = std::filesystem::file_size(part, failure) <= most_copied && !failure;
-  if (is_small) std::filesystem::remove(copy, failure);  // of a killed run; a link is not followed
+  if (is_small) std::filesystem::remove(copy, failure);  // left by a killed run; a link is not followed
   if (is_small && std::filesystem::copy_file(part, copy, failure)) {
     try {
       write_end(copy, completed, reason, report_json);
       return copy;
     } catch (const std::exception&) {
-      // Met again below, and reported, if it is not a matter of the copy.
+      // If the copy was not the cause, the write below fails and reports it.
     }
   }
   if (is_small) std::filesystem::remove(copy, failure);
@@ -324,7 +324,7 @@ void ResultsWriter::Impl::write_end(const std::string& target, int completed, co
     throw hdf5::last_error("cannot write the run report", target, "choose another place for the results");
 }
 
-/// `last`: the part, or a copy of it, which then replaces it.
+/// Renames `last`, the part or a copy that replaces it, to the final name.
 void ResultsWriter::Impl::rename_to_final(const std::string& last) const {
   if (::rename(last.c_str(), path.c_str()) == 0) {
     if (last != part) ::unlink(part.c_str());
@@ -351,7 +351,7 @@ void ResultsWriter::Impl::create() {
   }
 }
 
-/// In pieces of what can wait.
+/// Copies the older rows in pieces that fit the waiting memory.
 void ResultsWriter::Impl::begin_with(const ResultsBeginning& beginning) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const ResultsReader old(beginning.file);
@@ -409,7 +409,7 @@ ResultsWriter::ResultsWriter(const std::string& path, const ResultsLayout& layou
   try {
     impl_->create();
     if (!old.file.empty()) impl_->begin_with(old);
-  } catch (...) {  // it holds no row that is not elsewhere
+  } catch (...) {  // its rows also exist in the older file
     if (impl_->published) ::unlink(impl_->part.c_str());
     throw;
   }
@@ -420,7 +420,7 @@ ResultsWriter::~ResultsWriter() {
   try {
     finish(false, "the run ended before it was complete", "{}");
   } catch (const std::exception&) {
-    // Nobody is left to tell; what was flushed stays readable under its .part name.
+    // No one can receive the error. Flushed rows stay readable under the .part name.
   }
 }
 

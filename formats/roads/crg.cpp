@@ -1,4 +1,4 @@
-// Records of an OpenCRG file to the reference line and the heights.
+// Computes the reference line and the heights from the records of an OpenCRG file.
 #include "formats/roads/crg.hpp"
 
 #include <algorithm>
@@ -16,18 +16,18 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::size_t record = 80;
-/// Of the length: largest distance between the end that the parameters give and that of the integral.
+/// Largest closing error relative to the length: distance between the ends by the parameters and by the integral.
 constexpr double largest_closing_error = 1e-3;
 
 std::string place(const std::string& path, int line) { return fmt::format("{}:{}", path, line); }
 
-/// Fields of a fixed number of characters; not-a-number for what begins with * or is "nan".
+/// Numbers in fields of a fixed width. Fields that begin with * or hold "nan" are not-a-number.
 class Records {
  public:
   Records(std::istream& stream, const std::string& path, const CrgHeader& header)
       : stream_(stream), path_(path), header_(header), line_(header.line) {}
 
-  /// The numbers of the next row, which may fill several lines; false at the end.
+  /// Reads the numbers of the next row, which may fill several lines. False at the end.
   bool next(std::vector<double>& row) {
     const std::size_t width = static_cast<std::size_t>(header_.width), in_line = record / width;
     for (std::size_t c = 0; c < row.size(); ++c) {
@@ -44,7 +44,7 @@ class Records {
   int line() const { return line_; }
 
  private:
-  /// False at the end of the file, and at empty lines there.
+  /// Reads the next line. False at the end of the file, also after trailing empty lines.
   bool next_line() {
     while (std::getline(stream_, text_)) {
       ++line_;
@@ -83,11 +83,11 @@ class Records {
   int line_, empty_ = 0;
 };
 
-/// The rows as they stand in the file.
+/// Rows in the order of the file.
 struct CrgData {
-  std::vector<double> heading, slope, banking;  ///< per row; empty without the column
+  std::vector<double> heading, slope, banking;  ///< per row; empty if there is no such column
   std::vector<double> heights;                  ///< rows × columns of sections, in the order of the file
-  std::vector<int> lines;                       ///< last line of each row
+  std::vector<int> lines;                       ///< number of the last line of each row
 };
 
 CrgData read_rows(std::istream& stream, const std::string& path, const CrgHeader& header) {
@@ -118,7 +118,7 @@ CrgData read_rows(std::istream& stream, const std::string& path, const CrgHeader
   return data;
 }
 
-/// Of the sections in the order of the file.
+/// Positions v of the sections in the order of the file.
 std::vector<double> section_positions(const CrgHeader& header, const std::string& path) {
   std::vector<const CrgColumn*> sections;
   for (const CrgColumn& column : header.columns)
@@ -150,8 +150,8 @@ std::vector<double> section_positions(const CrgHeader& header, const std::string
 double size_of(double d) { return std::abs(d); }
 double size_of(const Vector2d& d) { return d.norm(); }
 
-/// Adds the closing error, in proportion to the distance: what integration forward and backward, weighted by the
-/// distance, gives. `end`: that the parameters give.
+/// Adds the closing error in proportion to the distance, as the weighted mean of forward and backward integration does.
+/// `end`: end by the parameters.
 template <class Value>
 void distribute_closing_error(std::vector<Value>& points, const Value& end, double length, const char* what,
                               const std::string& where) {
@@ -191,7 +191,7 @@ Eigen::Matrix2Xd reference_line(const CrgHeader& header, const CrgData& data, co
   return line;
 }
 
-/// Value of a parameter that holds along the whole line, where the data have no column of it.
+/// Value of a parameter that is constant along the line, if the data have no column of it.
 double constant(const CrgHeader& header, const std::string& start, const std::string& end, const std::string& path) {
   const double value = header.value(start, 0.0);
   if (header.has(end) && header.value(end, 0.0) != value)
@@ -201,7 +201,7 @@ double constant(const CrgHeader& header, const std::string& start, const std::st
   return value;
 }
 
-/// z of the reference line per row: the integral of the slope.
+/// z of the reference line per row: integral of the slope.
 std::vector<double> reference_heights(const CrgHeader& header, const CrgData& data, const std::string& path) {
   const double slope =
       data.slope.empty() ? constant(header, "reference_line_start_s", "reference_line_end_s", path) : 0.0;
@@ -217,7 +217,7 @@ std::vector<double> reference_heights(const CrgHeader& header, const CrgData& da
   return z;
 }
 
-/// Sections from right to left, with the height of the line and banking · v.
+/// Fills heights, with sections from right to left: sum of the grid, the line and banking · v.
 void fill_heights(const CrgHeader& header, const CrgData& data, const std::string& path, RoadHeights& road) {
   const std::vector<double> v = section_positions(header, path), z = reference_heights(header, data, path);
   std::vector<std::size_t> order(v.size());

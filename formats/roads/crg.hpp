@@ -7,10 +7,10 @@
 
 namespace tisserand::formats {
 
-/// The subset of ASAM OpenCRG 1.x that ROADS.md lists, in metres: s is u from REFERENCE_LINE_START_U on, t is v (left
-/// of the line positive), height the sum of the grid, the integrated slope and banking · v; the line is the integral of
-/// the headings, its points one increment of u apart. Missing heights are not-a-number. Throws Error with path:line and
-/// the keyword: what is beyond the subset, contradictory or damaged.
+/// Reads the subset of ASAM OpenCRG 1.x that ROADS.md lists, in metres. s is u from REFERENCE_LINE_START_U on, t is v
+/// (positive left of the line). Height is the sum of the grid, the integrated slope and banking · v. The line is the
+/// integral of the headings, with a point at each increment of u. Missing heights are not-a-number. Throws Error with
+/// path:line and keyword for contents that are unsupported, contradictory or damaged.
 RoadHeights read_crg(const std::string& path);
 
 }  // namespace tisserand::formats

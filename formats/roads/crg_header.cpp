@@ -1,4 +1,4 @@
-// Sections and keywords of the head.
+// Reads the sections and keywords of the head of an OpenCRG file.
 #include "formats/roads/crg_header.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace tisserand::formats {
 namespace {
 
-/// What a keyword may say here.
+/// Accepted values of a keyword.
 enum class CrgRule { used, unused, zero, one, zero_or_two, zero_moves };
 using CrgKeywords = std::map<CrgRule, std::vector<std::string_view>>;
 
@@ -73,12 +73,12 @@ bool allows(CrgRule rule, double value) {
   return false;
 }
 
-/// The head while its lines come.
+/// Parser of the head, which receives its lines one by one.
 class HeaderLines {
  public:
   explicit HeaderLines(const std::string& path) : path_(path) {}
 
-  /// False: this was the line $$$$.
+  /// Adds a line. False for the final line $$$$.
   bool add(std::string_view line) {
     ++header_.line;
     if (line.starts_with("$$$$")) return false;
@@ -174,7 +174,7 @@ class HeaderLines {
       fail(fmt::format("{} is given twice", name), "remove one");
   }
 
-  /// #:, U: and D: lines.
+  /// Reads a line #:, U: or D:.
   void read_definition(std::string_view text) {
     if (text.starts_with("#:")) return read_format(trimmed(text.substr(2)));
     const bool dependent = text.starts_with("D:");

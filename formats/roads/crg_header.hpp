@@ -1,4 +1,4 @@
-// The head of an OpenCRG file: its parameters and what the columns of its data are.
+// The head of an OpenCRG file: its parameters, and the meaning of the columns of its data.
 #pragma once
 
 #include <istream>
@@ -13,7 +13,7 @@ struct CrgColumn {
   Kind kind = Kind::section;
   double position = 0.0;  ///< of a section: v, or its number
   bool numbered = false;
-  int line = 0;  ///< of the file
+  int line = 0;  ///< line in the file
 };
 
 struct CrgHeader {
@@ -21,20 +21,20 @@ struct CrgHeader {
     double value = 0.0;
     int line = 0;
   };
-  std::map<std::string, Parameter> parameters;  ///< of $ROAD_CRG, in small letters
+  std::map<std::string, Parameter> parameters;  ///< parameters of $ROAD_CRG, in lower case
   std::vector<CrgColumn> columns;
   int width = 10;          ///< characters of a number
-  int line = 0;            ///< the last line of the head
-  int moved_at = 0;        ///< line of the first modifier that moves the start of the line to the origin; 0: none
-  double u_start = 0.0;    ///< REFERENCE_LINE_START_U, or that of the U: line
+  int line = 0;            ///< number of the last line of the head
+  int moved_at = 0;        ///< line of the first modifier that moves the line's start to the origin; 0: none
+  double u_start = 0.0;    ///< REFERENCE_LINE_START_U, or the value of the U: line
   double increment = 0.0;  ///< positive
 
-  /// The parameter, or `fallback`.
+  /// Value of the parameter, or `fallback` if it is absent.
   double value(const std::string& name, double fallback) const;
   bool has(const std::string& name) const { return parameters.contains(name); }
 };
 
-/// Up to and with the line $$$$. Throws Error with path:line.
+/// Reads the head, including the line $$$$. Throws Error with path:line.
 CrgHeader read_crg_header(std::istream& stream, const std::string& path);
 
 }  // namespace tisserand::formats

@@ -1,4 +1,4 @@
-// Lines of a table to axes and heights.
+// Reads axes and heights from the lines of a table.
 #include "formats/roads/height_grid_file.hpp"
 
 #include "common/error.hpp"
@@ -12,7 +12,7 @@ using Cells = std::vector<std::string_view>;
 
 constexpr const char* no_holes = "give a height there: a grid has no holes";
 
-/// The table while its lines come.
+/// Parser of the table, which receives its lines one by one.
 class GridLines {
  public:
   GridLines(const std::string& path, const std::optional<RegularGrid>& regular) : path_(path), regular_(regular) {}

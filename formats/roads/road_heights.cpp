@@ -1,4 +1,4 @@
-// What the readers of roads have in common.
+// Checks and file access that the readers of roads share.
 #include "formats/roads/road_heights.hpp"
 
 #include <algorithm>

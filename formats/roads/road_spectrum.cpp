@@ -1,4 +1,4 @@
-// Waves of stochastic roads, added by the recurrence of cosines.
+// Sums the waves of stochastic roads by the recurrence of cosines.
 #include "formats/roads/road_spectrum.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr double spacing = 0.02, longest_fade = 5.0;  // m
 
 /// Adds a cos(2π n x + phase) at x = k h.
 void add_wave(double amplitude, double n, double phase, double h, std::vector<double>& z) {
-  constexpr std::size_t exact = 256;  // points between two values that are computed anew: round-off stays at 1e-14
+  constexpr std::size_t exact = 256;  // points between exact evaluations; round-off stays at 1e-14
   const double turn = 2.0 * std::numbers::pi * n * h, c = std::cos(turn), s = std::sin(turn);
   double x = 0.0, y = 0.0;
   for (std::size_t k = 0; k < z.size(); ++k) {
@@ -45,7 +45,7 @@ CurveSpec iso_road(const IsoRoadSpec& spec, double metre) {
   std::mt19937_64 random(static_cast<std::uint64_t>(spec.seed));
   const auto share = [&random] {
     return static_cast<double>(random() >> 11) * 0x1p-53;
-  };  // of the library's own: differ
+  };  // std distributions differ between libraries
   const double ratio = std::pow(last_wave / first_wave, 1.0 / waves);
   for (int i = 0; i < waves; ++i) {
     const double from = first_wave * std::pow(ratio, i), n = from * std::pow(ratio, share());
