@@ -1,4 +1,4 @@
-// `analysis` or `analyses` of a scene, with the settings that each has of its own and those that all share.
+// Reads `analysis` or `analyses` of a scene, with the settings of each one and those that they share.
 #include <algorithm>
 
 #include "common/text.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* groups[] = {"integrator", "statics", "modes", "output", "checkpoint"};
 
-/// The groups of the scene with the values that the analysis gives in their place.
+/// The analysis with the groups of the scene added; its own values have priority.
 YamlNode with_groups_of(const YamlNode& scene, YamlNode analysis) {
   for (const char* name : groups) {
     const YamlNode* shared = find_child(scene, name);
@@ -21,7 +21,7 @@ YamlNode with_groups_of(const YamlNode& scene, YamlNode analysis) {
       analysis.children.push_back(*shared);
     } else if (own->kind == YamlKind::map && shared->kind == YamlKind::map) {
       for (const YamlNode& value : shared->children) {
-        // `every` and `interval` exclude each other: one of its own replaces either.
+        // `every` and `interval` exclude each other, so either one of the analysis replaces both of the scene.
         const bool rhythm = value.key == "every" || value.key == "interval";
         const bool given =
             find_child(*own, value.key) != nullptr ||
@@ -37,7 +37,7 @@ double end_time(const Analysis& analysis) {
   return takes_steps(analysis.kind) ? analysis.integrator.end : analysis.integrator.start;
 }
 
-/// The analysis that `from` names, of those that stand before it.
+/// The analysis that `from` names. It must come earlier.
 const Analysis* read_from(const MapReader& map, const std::vector<Analysis>& before, Analysis& analysis) {
   const YamlNode* node = map.find("from");
   if (node == nullptr) return nullptr;
@@ -58,7 +58,7 @@ Analysis read_analysis(const Context& context, const YamlNode& scene, const Yaml
   std::optional<double> start;
   if (from != nullptr) start = end_time(*from);
   read_groups(map, start, analysis);
-  // A steady rotation goes on in what starts from it.
+  // An analysis that starts from a steady rotation inherits it.
   if (from != nullptr && from->statics.rotation && from->kind == AnalysisKind::statics && !analysis.modes.rotation)
     analysis.modes.rotation = from->statics.rotation->angular_velocity;
   return analysis;

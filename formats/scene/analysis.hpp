@@ -1,4 +1,4 @@
-// What a scene can be asked for: kinds of analyses and their settings.
+// Kinds of analyses of a scene and their settings.
 #pragma once
 
 #include <optional>
@@ -15,32 +15,32 @@ enum class AnalysisKind { dynamics, statics, assembly, kinematics, inverse_dynam
 
 /// The word of a kind in scene.yaml.
 std::string analysis_word(AnalysisKind kind);
-/// Whether it goes through time in the steps of the integrator.
+/// Whether the analysis advances in time with the steps of the integrator.
 bool takes_steps(AnalysisKind kind);
 
-/// `automatic`: with `accuracy` only, which chooses (mechanism/study/accuracy.hpp).
+/// Methods of integration. `automatic` needs `accuracy`, which chooses the method (mechanism/study/accuracy.hpp).
 enum class Method { generalised_alpha, hht, bdf, radau, automatic };
 enum class Formulation { index3, stabilised_index2 };
 enum class LinearSolver { automatic, klu, umfpack, dense, qr };
 
-/// Steps of generalised alpha and HHT from their local error. Steps below `min_step` end the run; 0: 1e-12 and 1/10 of
-/// the whole time.
+/// Control of the steps of generalised alpha and HHT by their local error. Steps below `min_step` end the run; 0: 1e-12
+/// and 1/10 of the whole time.
 struct ErrorControl {
   bool active = false;
-  double tolerance = 1e-3;  ///< of positions at the end, relative to the characteristic length; of rotations [rad]
+  double tolerance = 1e-3;  ///< error at the end: positions relative to the characteristic length; rotations [rad]
   double min_step = 0.0;
   double max_step = 0.0;
 };
 
-/// Backward differentiation of variable order on the equations of index 1.
+/// Settings of backward differentiation of variable order on the equations of index 1.
 struct BdfSpec {
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-8;  ///< positions relative to the characteristic length; velocities per unit of time
 };
 
-/// What a channel has to reach: tolerance and modes are chosen for it (mechanism/study/accuracy.hpp).
+/// Accuracy that a channel must reach. The program chooses tolerance and modes for it (mechanism/study/accuracy.hpp).
 struct AccuracySpec {
-  double error = 0.0;  ///< over the size of the channel, or `scale`
+  double error = 0.0;  ///< relative to the size of the channel, or to `scale`
   std::string of;      ///< channel of the results
   ErrorNorm norm = ErrorNorm::max;
   std::optional<double> scale;
@@ -64,7 +64,7 @@ struct IntegratorSpec {
   std::optional<AccuracySpec> accuracy;
 };
 
-/// Steady turn of the whole scene about an axis through a point, world frame.
+/// Steady rotation of the whole scene about an axis through a point, world frame.
 struct RotationSpec {
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
   Eigen::Vector3d about = Eigen::Vector3d::Zero();
@@ -75,32 +75,32 @@ struct StaticsSpec {
   int load_steps = 1;
   double tolerance = 1e-9;
   int max_iterations = 50;
-  bool stable = false;  ///< goes on from an unstable equilibrium to a stable one
+  bool stable = false;  ///< whether to continue from an unstable equilibrium to a stable one
 };
 
 struct OutputSpec {
   int every = 1;
   std::optional<double> interval;
-  double from = 0.0;                  ///< the reader's default is integrator.start
+  double from = 0.0;                  ///< default of the reader: integrator.start
   std::vector<std::string> channels;  ///< groups or datasets such as "nodes", "nodes/position", "energy"; empty: all
 };
 
 struct ModesSpec {
-  int count = 20;                           ///< the lowest ones that are stored
-  std::optional<Eigen::Vector3d> rotation;  ///< of the axes in which the state is steady; absent: that of `from`, or 0
+  int count = 20;                           ///< number of lowest modes that are stored
+  std::optional<Eigen::Vector3d> rotation;  ///< rotation of the axes of steady state; absent: that of `from`, or 0
 };
 
-/// Where a run can be taken up again; neither: never.
+/// Frequency of checkpoints from which a run can continue. Neither value: no checkpoints.
 struct CheckpointSpec {
   std::optional<int> every;        ///< accepted steps
   std::optional<double> interval;  ///< [time]
 };
 
-/// One entry of `analyses`, complete: groups that it does not give are those of the scene.
+/// Complete entry of `analyses`. Groups that it does not give are those of the scene.
 struct Analysis {
   std::string name;
   AnalysisKind kind = AnalysisKind::dynamics;
-  std::string from;  ///< an analysis before it, whose end it starts from; empty: the poses of the scene
+  std::string from;  ///< earlier analysis whose end is the start; empty: poses of the scene
   IntegratorSpec integrator;
   StaticsSpec statics;
   ModesSpec modes;

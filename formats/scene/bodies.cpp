@@ -1,4 +1,4 @@
-// `bodies` of scene.yaml: superelements, modal bodies, rigid bodies, beams, virtual bodies.
+// Reads `bodies` of scene.yaml: superelements, modal bodies, rigid bodies, beams, virtual bodies.
 
 #include "formats/scene/reader.hpp"
 #include "formats/sections/axis.hpp"
@@ -16,7 +16,7 @@ constexpr Choice<InertiaOption> inertia_options[] = {
 constexpr Choice<StiffeningOption> stiffening_options[] = {
     {"off", StiffeningOption::off}, {"stress", StiffeningOption::stress}, {"full", StiffeningOption::full}};
 
-/// `karcher`, `paper`, {node: name}, or the text "node: name".
+/// Reads a frame: `karcher`, `paper`, {node: name}, or the text "node: name".
 void read_frame(const Context& context, const YamlNode& node, SuperelementBodySpec& body) {
   const std::string prefix = "node:";
   if (node.kind == YamlKind::map) {
@@ -32,7 +32,7 @@ void read_frame(const Context& context, const YamlNode& node, SuperelementBodySp
   }
 }
 
-/// Planes of the part frame, one or a list: −1 along the axes across them.
+/// Reads mirror planes of the part frame, one or a list. Returns −1 along the axes normal to them.
 Eigen::Vector3d read_mirror(const MapReader& map) {
   Eigen::Vector3d axes = Eigen::Vector3d::Ones();
   const YamlNode* node = map.find("mirror");
@@ -42,7 +42,7 @@ Eigen::Vector3d read_mirror(const MapReader& map) {
   return axes;
 }
 
-/// `second_order` stands for both of the others.
+/// Checks that `second_order`, which sets `inertia` and `stiffening`, excludes both.
 void check_second_order(const MapReader& map) {
   const YamlNode* both = map.find("second_order");
   if (both == nullptr) return;
@@ -62,7 +62,7 @@ std::vector<RigidNodeSpec> read_nodes(const MapReader& map) {
   return nodes;
 }
 
-/// Reads the keys that bodies share, of those that this kind has. `body` keeps its values where keys are absent.
+/// Reads the shared keys of bodies that this kind has. `body` keeps its values for absent keys.
 template <class Body>
 Body read_body(const MapReader& map, const SceneDefinitions& definitions, Body body = {}) {
   body = read_entry<Body>(map, std::move(body));
@@ -89,7 +89,7 @@ SuperelementBodySpec read_superelement(const MapReader& map, const SceneDefiniti
   return body;
 }
 
-/// The definition with the name that `node` gives, or null and an error with the nearest name.
+/// Definition of the name that `node` gives, or null and an error with the nearest name.
 template <class T>
 const T* find_named(const Context& context, const YamlNode& node, const std::string& noun, const std::vector<T>& all) {
   const auto index = read_word(context, node, noun, texts_of(all, &T::name));
@@ -133,7 +133,7 @@ BeamBodySpec read_beam(const MapReader& map, const SceneDefinitions& definitions
   return body;
 }
 
-/// Stands for a body whose type cannot be read, so that references to it are not errors too.
+/// Substitute for a body of unreadable type, so that references to it cause no further errors.
 SuperelementBodySpec unreadable_body(const Context& context, const YamlNode& node) {
   SuperelementBodySpec body;
   body.name = node.key;
@@ -142,7 +142,7 @@ SuperelementBodySpec unreadable_body(const Context& context, const YamlNode& nod
   return body;
 }
 
-/// How a body starts, as fields of all kinds; `gravity` is a member of those with mass.
+/// Fields of the start of a body, for all kinds. `gravity` applies to kinds with mass only.
 std::vector<Field> start_fields(std::vector<Field> gravity) {
   std::vector<Field> fields{
       plain<&InitialMotion::pose>("pose", "pose",

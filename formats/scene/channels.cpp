@@ -1,4 +1,4 @@
-// `channels` and `inputs` of scene.yaml: reading and findings.
+// Reads and checks `channels` and `inputs` of scene.yaml.
 
 #include "formats/scene/check_parts.hpp"
 #include "formats/scene/expand/expression.hpp"
@@ -33,7 +33,7 @@ void refuse(const MapReader& map, const char* key, const char* types) {
   map.refuse({key}, fmt::format("belongs to channels of type {}", types), "remove it");
 }
 
-/// `x`, `y`, `z`, or a direction.
+/// Reads an axis: `x`, `y`, `z`, or a direction.
 Eigen::Vector3d read_axis(const Context& context, const YamlNode& node) {
   if (node.kind != YamlKind::sequence)
     return Eigen::Vector3d::Unit(
@@ -84,7 +84,7 @@ void read_input(const MapReader& map, InputSpec& input) {
   }
 }
 
-/// Names that can stand in expressions, there with '.' for '/'.
+/// Checks a name that expressions may use, where '.' stands for '/'.
 Subject check_expression_name(const std::string& noun, const auto& entry, std::unordered_set<std::string>& names,
                               Faults& faults) {
   const Subject subject = check_path_name(noun, entry, names, faults);

@@ -1,4 +1,4 @@
-// Findings of a scene: names, references to bodies and nodes, ranges of settings.
+// Checks a scene: names, references to bodies and nodes, ranges of settings.
 #include "formats/scene/check.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace tisserand::formats {
 namespace {
 
-constexpr int most_elements = 100'000;  ///< of one beam
+constexpr int most_elements = 100'000;  ///< limit of one beam
 
 const std::string& name_of(const BodySpec& body) {
   return std::visit([](const auto& spec) -> const std::string& { return spec.name; }, body);
@@ -49,7 +49,7 @@ void check_damping(const Damping& damping, const Subject& subject) {
   for (const double ratio : damping.ratios_internal) subject.not_negative("ratios_internal", ratio);
 }
 
-/// What bodies with modes from a file have in common.
+/// Checks that bodies with modes from a file share.
 template <class Body>
 void check_modal_choice(const Body& body, const std::string& noun, const Subject& subject) {
   if (body.file.empty()) subject.add("file", fmt::format("has no {}", noun));
@@ -127,8 +127,7 @@ void check_any_body(const Body& body, const Subject& subject) {
     for (const ShapeSpec& shape : body.shapes) check_shape(shape, subject.inside("shape"));
 }
 
-/// Whether a beam has the node: 0 to N, start or end. Beams whose numbers are wrong already are given the benefit of
-/// doubt.
+/// Whether a beam has the node: 0 to N, start or end. Also true for beams whose number of elements is faulty.
 bool has_node(const BeamBodySpec& beam, const std::string& node) {
   if (node == "start" || node == "end" || beam.elements < 1 || beam.elements > most_elements) return true;
   int index = -1;
@@ -137,7 +136,7 @@ bool has_node(const BeamBodySpec& beam, const std::string& node) {
   return plain && index >= 0 && index <= beam.elements * (beam.nodes_per_element - 1);
 }
 
-/// Nodes of superelements stand in their files and are checked when those are read.
+/// Checks a node of a body. Nodes of superelements are checked when their files are read.
 void check_node_of_body(const BodySpec& body, const std::string& node, const std::string& key, const Subject& subject) {
   const RigidBodySpec* rigid = std::get_if<RigidBodySpec>(&body);
   const VirtualBodySpec* massless = std::get_if<VirtualBodySpec>(&body);
@@ -155,7 +154,7 @@ void check_node_of_body(const BodySpec& body, const std::string& node, const std
 }
 
 void check_node(const SceneIndex& scene, const MarkerSpec& marker, const std::string& key, const Subject& subject) {
-  // Names of bodies in assemblies hold slashes, those of nodes do not.
+  // Names of bodies in assemblies contain slashes, names of nodes do not.
   std::size_t slash = std::string::npos;
   auto found = scene.bodies.find(marker.node);
   if (found == scene.bodies.end()) {
@@ -184,7 +183,7 @@ void check_node(const SceneIndex& scene, const MarkerSpec& marker, const std::st
         fmt::format("write {}/<node>{}", body_name, beam ? fmt::format(", for example {}/end", body_name) : ""));
 }
 
-/// Names of all that can have an effect of this owner.
+/// Names of all possible owners of an effect.
 std::vector<std::string> effect_owners(EffectOwner owner, const Scene& scene) {
   switch (owner) {
     case EffectOwner::body:
@@ -197,7 +196,7 @@ std::vector<std::string> effect_owners(EffectOwner owner, const Scene& scene) {
   return {};
 }
 
-/// Whether they have what is switched hangs on files too and is told where the model is built.
+/// Checks the owners of effects. Whether they have the effect depends on files and is reported when the model is built.
 void check_effects(const Scene& scene, Faults& faults) {
   constexpr const char* nouns[] = {"body", "joint", "spring"};
   std::map<EffectOwner, std::vector<std::string>> names;
@@ -235,7 +234,7 @@ void check_gear(const SceneIndex& scene, const GearSpec& gear, const Subject& su
     subject.add("ratio", fmt::format("ratio {:g} must be finite and not zero", gear.ratio));
 }
 
-/// Whether an analysis of the scene takes forces from accelerations.
+/// Whether an analysis of the scene computes forces from accelerations.
 bool has_dynamics(const Scene& scene) {
   const auto dynamic = [](AnalysisKind kind) {
     return kind == AnalysisKind::dynamics || kind == AnalysisKind::inverse_dynamics;
@@ -244,7 +243,7 @@ bool has_dynamics(const Scene& scene) {
   return std::ranges::any_of(scene.analyses, [&](const Analysis& analysis) { return dynamic(analysis.kind); });
 }
 
-/// Inputs step in velocity where they are linear between points: a motion that uses one does so too.
+/// Checks that a motion uses no linear input: between its points such an input has jumps in velocity.
 void check_motion_inputs(const Scene& scene, const MotionSpec& motion, const Subject& subject) {
   const auto* expression = std::get_if<TimeExpression>(&motion.value);
   if (expression == nullptr) return;

@@ -1,4 +1,4 @@
-// What is wrong with a scene that can be read.
+// Checks of a scene that has been read.
 #pragma once
 
 #include "formats/scene/scene.hpp"
@@ -6,10 +6,10 @@
 
 namespace tisserand::formats {
 
-/// All findings; check(scene) throws them.
+/// All faults of a scene. check(scene) throws them.
 Faults find_faults(const Scene& scene);
 
-/// Findings of definitions that bodies may or may not use.
+/// Checks definitions, used or unused.
 void check_definitions(const std::vector<Material>& materials, const std::vector<Section>& sections, Faults& faults);
 
 }  // namespace tisserand::formats

@@ -1,4 +1,4 @@
-// Findings of springs, bushings and loads.
+// Checks springs, bushings and loads.
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -20,7 +20,7 @@ void check_law(const LawSpec& law, const std::string& key, const Subject& subjec
     subject.finite(key, std::get<double>(law));
 }
 
-/// A damper takes energy out at all rates.
+/// Checks that a damper dissipates energy at all rates.
 void check_damper(const LawSpec& law, const Subject& subject) {
   const CurveSpec* curve = std::get_if<CurveSpec>(&law);
   check_law(law, "damping", subject);
@@ -43,7 +43,7 @@ void check_stops(const SpringSpec& spring, const Subject& subject) {
     subject.add("lower", fmt::format("lower stop {:g} is not below the upper one {:g}", *spring.lower, *spring.upper));
 }
 
-/// A body of that name, which has no such velocity of its own.
+/// Checks that a body of that name exists and that it does not give the same velocity itself.
 void check_initial_body(const SceneIndex& scene, const InitialSpec& initial, const Subject& subject) {
   const auto body = scene.bodies.find(initial.coordinate.name);
   if (body == scene.bodies.end()) {

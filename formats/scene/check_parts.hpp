@@ -1,4 +1,4 @@
-// Parts of checking a scene: markers and coordinates that many entries use, and the force elements.
+// Parts of the checks of a scene: markers and coordinates that many entries use, and force elements.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace tisserand::formats {
 
-/// Names of a scene by look-up, so that checking its references takes time in proportion to their number. It refers
-/// to a scene that outlives it; of bodies with one name the first counts.
+/// Index of the names in a scene, so that the time of checks is proportional to the number of references. The scene
+/// must outlive it. Of several bodies with one name it holds the first.
 struct SceneIndex {
   explicit SceneIndex(const Scene& of) : scene(of) {
     for (const BodySpec& body : scene.bodies)
@@ -25,23 +25,23 @@ struct SceneIndex {
   std::unordered_set<std::string_view> joints;
 };
 
-/// The body and node exist; position and orientation are valid.
+/// Checks that body and node exist, and that position and orientation are valid.
 void check_marker(const SceneIndex& scene, const MarkerSpec& marker, const std::string& key, const Subject& subject);
 
-/// Both markers, on different nodes, and the position and axes that place them.
+/// Checks both markers, that their nodes differ, and the position and axes that place them.
 void check_marker_pair(const SceneIndex& scene, const MarkerPairSpec& pair, const Subject& subject);
 
-/// The joint of the coordinate exists.
+/// Checks that the joint of the coordinate exists.
 void check_coordinate(const CoordinateRef& coordinate, const SceneIndex& scene, const std::string& key,
                       const Subject& subject);
 
-/// Sizes of a solid, ending of a file.
+/// Checks the sizes of a solid or the ending of a file.
 void check_shape(const ShapeSpec& shape, const Subject& subject);
 
-/// Channels and inputs; their names share one list.
+/// Checks channels and inputs, whose names must differ from each other.
 void check_channels(const SceneIndex& scene, Faults& faults);
 
-/// Of a joint that has one.
+/// Checks the friction of a joint that has some.
 void check_friction(const JointSpec& joint, const Subject& subject);
 void check_initial(const SceneIndex& scene, const InitialSpec& initial, Faults& faults);
 void check_spring(const SceneIndex& scene, const SpringSpec& spring, const Subject& subject);
@@ -51,7 +51,7 @@ void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, const Subject& su
 void check_load(const SceneIndex& scene, const LoadSpec& load, const Subject& subject);
 void check_part_load(const SceneIndex& scene, const PartLoadSpec& load, const Subject& subject);
 
-/// Ranges of integrator, statics, output and initial_tolerance; the times of the integrator only in dynamics.
+/// Checks ranges of integrator, statics, output and initial_tolerance; times of the integrator in dynamics only.
 void check_settings(const Scene& scene, Faults& faults);
 
 }  // namespace tisserand::formats

@@ -1,4 +1,4 @@
-// `effects` of scene.yaml: switches of the scene, and of bodies, joints and springs by their names.
+// Reads `effects` of scene.yaml: switches of the scene, and of single bodies, joints and springs.
 #include "formats/scene/effects.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::string automatic_words() {
   return join(words, ", ");
 }
 
-/// Of the effect that the key of the node names; nothing and an error for another value than it can have.
+/// Reads the switch of the effect that the key names. Adds nothing but an error for an invalid value.
 void read_switch(const Context& context, const YamlNode& node, const Choice<Effect>& effect, const std::string& owner,
                  std::vector<EffectSwitch>& switches) {
   if (node.kind == YamlKind::scalar && node.text == "auto" && !can_be_automatic(effect.value)) {
@@ -46,7 +46,7 @@ void read_effects_of_one(const MapReader& scene, const YamlNode& node, std::vect
   const Context context = entry_context(scene.context().reader, "effects of", node);
   const MapReader map(context, node, "body_effects");
   for (const Choice<Effect>& effect : effect_words) {
-    if (effect.value == Effect::planar) continue;  // of the scene alone
+    if (effect.value == Effect::planar) continue;  // for the whole scene only
     const YamlNode* value = map.find(effect.word);
     if (value != nullptr) read_switch(context, *value, effect, node.key, switches);
   }
@@ -68,7 +68,7 @@ void read_scene_effect(const MapReader& scene, const YamlNode& node, std::vector
                            near ? fmt::format("did you mean '{}'? ", *near) : "", join(words, ", "), node.key));
 }
 
-/// Unless it is a name.
+/// Whether the key is the tolerance of automatic effects. A map is an entry named "tolerance".
 bool is_tolerance(const YamlNode& node) { return node.key == "tolerance" && node.kind != YamlKind::map; }
 
 void read_tolerance(const MapReader& scene, const YamlNode& node, AutomaticSpec& spec) {

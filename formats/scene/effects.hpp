@@ -1,14 +1,14 @@
-// Effects of a mechanism, and what a scene switches of them (`effects` of scene.yaml).
+// Effects of a mechanism, and their switches in a scene (`effects` of scene.yaml).
 #pragma once
 
 #include <string>
 
 namespace tisserand::formats {
 
-/// A part of the equations that a scene can do without; planar, of the scene alone and off unless it is asked for: the
-/// equations of motion in a plane.
+/// Part of the equations that a scene can disable. `planar` is different: it applies to the whole scene, is off by
+/// default, and selects planar equations of motion.
 enum class Effect { flexibility, rotary_inertia, gyroscopic, stiffening, damping, gravity, friction, stops, planar };
-/// All that are terms of the equations.
+/// Effects that are terms of the equations.
 inline constexpr Effect all_effects[] = {Effect::flexibility, Effect::rotary_inertia, Effect::gyroscopic,
                                          Effect::stiffening,  Effect::damping,        Effect::gravity,
                                          Effect::friction,    Effect::stops};
@@ -16,11 +16,11 @@ inline constexpr Effect all_effects[] = {Effect::flexibility, Effect::rotary_ine
 /// The word of an effect in scene.yaml.
 std::string effect_word(Effect effect);
 
-/// Whether a run can choose it by itself (`auto`): what of the motion the effect would change follows from the motion
-/// without it, at once.
+/// Whether a run can choose the effect itself (`auto`). This needs an effect whose influence on the motion follows at
+/// once from the motion without it.
 constexpr bool can_be_automatic(Effect effect) { return effect == Effect::flexibility || effect == Effect::stiffening; }
 
-/// What has an effect.
+/// Kind of element that has an effect.
 enum class EffectOwner { body, joint, spring };
 
 constexpr EffectOwner owner_of(Effect effect) {
@@ -29,18 +29,18 @@ constexpr EffectOwner owner_of(Effect effect) {
                                     : EffectOwner::body;
 }
 
-/// Of one body, joint (friction) or spring (stops), or of all that have the effect; what is said of one counts for it.
+/// Switch for one body, joint (friction) or spring (stops), which has priority, or for all that have the effect.
 struct EffectSwitch {
   Effect effect = Effect::gravity;
-  std::string owner;  ///< empty: the whole scene
+  std::string owner;  ///< name of the element; empty: the whole scene
   bool on = true;
   std::string where;
-  bool automatic = false;  ///< with `on`: the run may leave it out
+  bool automatic = false;  ///< with `on`: the run may disable it
 };
 
-/// How a run chooses effects that are automatic (mechanism/run/automatic_effects.hpp).
+/// Settings of automatic effects (mechanism/run/automatic_effects.hpp).
 struct AutomaticSpec {
-  double tolerance = 1e-3;  ///< of positions relative to the size of the scene, of forces to the largest
+  double tolerance = 1e-3;  ///< positions relative to the size of the scene, forces to the largest
 };
 
 }  // namespace tisserand::formats

@@ -1,4 +1,4 @@
-// What counts of the difference of two histories.
+// Norms of the difference of two histories.
 #pragma once
 
 namespace tisserand::formats {

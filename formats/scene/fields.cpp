@@ -1,4 +1,4 @@
-// All lists of fields of scene.yaml, those of assemblies and instances, and the types they refer to.
+// All lists of fields of scene.yaml, assemblies and instances, and the types that they refer to.
 #include "formats/scene/fields.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace tisserand::formats {
 namespace {
 
-/// What an assembly has in common with a scene: maps from names.
+/// Fields that an assembly shares with a scene: maps from names.
 std::vector<Field> assembly_fields() {
   std::vector<Field> fields{{"assembly", "text", "title, if the assembly is a file of its own"},
                             {"parameters", "{parameter_name: any}", "parameters with their default values"},

@@ -1,4 +1,4 @@
-// The fields of scene.yaml: what it may hold, for its readers, schema/scene.schema.json and SCENE.md.
+// The fields of scene.yaml, for its readers, schema/scene.schema.json and SCENE.md.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace tisserand::formats {
 
-/// A list for each kind of map.
+/// Lists of fields, one for each kind of map.
 std::vector<KeySet> scene_key_sets();
 
-/// Types that the lists name beside these kinds of maps.
+/// Types that the lists name in addition to these kinds of maps.
 std::vector<NamedType> scene_types();
 
 }  // namespace tisserand::formats

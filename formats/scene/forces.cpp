@@ -1,4 +1,4 @@
-// `motions`, `initial`, `springs`, `bushings` and `loads` of scene.yaml.
+// Reads `motions`, `initial`, `springs`, `bushings` and `loads` of scene.yaml.
 #include "formats/scene/reader.hpp"
 #include "formats/scene/time_function_reader.hpp"
 #include "formats/yaml/fields.hpp"
@@ -12,7 +12,7 @@ constexpr Choice<MarkerAxis> marker_axes[] = {{"x", MarkerAxis::x}, {"y", Marker
 constexpr Choice<LoadKind> load_kinds[] = {{"force", LoadKind::force}, {"moment", LoadKind::moment}};
 constexpr Choice<LoadAxes> load_axes[] = {{"world", LoadAxes::world}, {"body", LoadAxes::body}};
 
-/// What a spring acts along: a coordinate, or the distance or angle of two markers.
+/// Reads the line of action of a spring: a coordinate, or the distance or angle of two markers.
 void read_ends(const MapReader& map, SpringSpec& spring) {
   if (spring.coordinate) {
     if (map.has("a") || map.has("b"))
@@ -41,7 +41,7 @@ LoadSpec read_load(const MapReader& map) {
   return load;
 }
 
-/// An entry without any of these keys is a slip. Where they are given as zero, as a sweep does, it rests.
+/// Requires one of these keys, since an entry without them is a mistake. Zero values, as in a sweep, are accepted.
 void require_one_of(const MapReader& map, std::initializer_list<const char*> keys, const char* remedy) {
   if (std::ranges::none_of(keys, [&](const char* key) { return map.find(key) != nullptr; }))
     map.fail("does nothing", remedy);
@@ -69,7 +69,7 @@ void read_value(const MapReader& map, const Field& field, LawSpec& value) {
     value = read_number(map.context(), *node, std::string(field.key));
 }
 
-/// Six numbers: the diagonal; six rows of six: the whole matrix.
+/// Reads six numbers (the diagonal) or six rows of six (the whole matrix).
 void read_value(const MapReader& map, const Field& field, Eigen::Matrix<double, 6, 6>& value) {
   const YamlNode* node = map.find(field.key);
   if (node == nullptr) return;

@@ -1,4 +1,4 @@
-// Keys that have no effect with the method are errors; `step: auto` becomes a number.
+// Reads `integrator`. Keys without effect for the method are errors, and `step: auto` becomes a number.
 #include "formats/scene/integrator_reader.hpp"
 
 #include <algorithm>
@@ -21,10 +21,10 @@ constexpr Choice<LinearSolver> linear_solvers[] = {{"auto", LinearSolver::automa
                                                    {"dense", LinearSolver::dense},
                                                    {"qr", LinearSolver::qr}};
 
-/// First step of `step: auto`, as a part of the whole time: the error control finds its own within a few steps.
+/// First step of `step: auto` as a part of the whole time. The error control adapts it within a few steps.
 constexpr double automatic_part = 1e-4;
 
-/// Keys that only some methods know.
+/// Checks keys that apply to some methods only.
 void check_keys(const MapReader& map, Method method) {
   const bool bdf = method == Method::bdf;
   if (method == Method::hht)
@@ -48,10 +48,10 @@ ErrorControl read_error_control(const MapReader& map) {
   return control;
 }
 
-/// With it the error controls the steps, from where mechanism/study/accuracy.cpp goes on.
+/// Reads `accuracy`, with which the error controls the steps. mechanism/study/accuracy.cpp continues from there.
 std::optional<AccuracySpec> read_accuracy(const MapReader& map, AnalysisKind analysis) {
   const YamlNode* node = map.find("accuracy");
-  if (node == nullptr || analysis != AnalysisKind::dynamics) return std::nullopt;  // others share the group
+  if (node == nullptr || analysis != AnalysisKind::dynamics) return std::nullopt;  // other analyses share the group
   map.refuse({"step", "error_control", "relative_tolerance", "absolute_tolerance"}, "is chosen by 'accuracy'",
              "leave one of them out");
   const Context inside{map.context().reader, "integrator accuracy", map.context().entry};
@@ -60,7 +60,7 @@ std::optional<AccuracySpec> read_accuracy(const MapReader& map, AnalysisKind ana
   return spec;
 }
 
-/// Open with `accuracy`, where neither the method nor numbers of generalised_alpha are named.
+/// Method; `automatic` with `accuracy` if neither the method nor parameters of generalised_alpha are given.
 Method read_method(const MapReader& map, const IntegratorSpec& spec, AnalysisKind analysis) {
   if (spec.method == Method::automatic && !spec.accuracy && analysis == AnalysisKind::dynamics)
     map.context().fail(map.find("method")->place, "method: auto needs an accuracy to choose by",
@@ -70,7 +70,7 @@ Method read_method(const MapReader& map, const IntegratorSpec& spec, AnalysisKin
   return spec.accuracy && spec.linear_solver != LinearSolver::qr ? Method::automatic : spec.method;
 }
 
-/// `auto` where something controls the error; with bdf also when left out.
+/// First step: `auto` needs a control of the error, and is the default with bdf and `accuracy`.
 double read_step(const MapReader& map, const IntegratorSpec& spec, AnalysisKind analysis) {
   const YamlNode* node = map.find("step");
   const bool word = node != nullptr && node->kind == YamlKind::scalar && node->text == "auto";

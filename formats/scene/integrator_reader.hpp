@@ -1,4 +1,4 @@
-// `integrator` of scene.yaml to the struct IntegratorSpec.
+// Reads `integrator` of scene.yaml into the struct IntegratorSpec.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ inline constexpr Choice<ErrorNorm> error_norms[] = {{"max", ErrorNorm::max},
                                                     {"peak", ErrorNorm::peak},
                                                     {"peak_time", ErrorNorm::peak_time}};
 
-/// Times may be missing where the analysis needs none.
+/// Settings of the integrator. Times may be absent if the analysis needs none.
 IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis);
 std::vector<KeySet> integrator_key_sets();
 

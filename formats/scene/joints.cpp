@@ -1,4 +1,4 @@
-// `joints` of scene.yaml, and the markers that joints and forces use.
+// Reads `joints` of scene.yaml, and the markers of joints and forces.
 #include <algorithm>
 
 #include "formats/scene/reader.hpp"
@@ -41,7 +41,7 @@ void read_value(const MapReader& map, const Field& field, std::optional<Coordina
 
 namespace {
 
-/// `hold: [x, y, rz]`: the directions of a generic joint that are held.
+/// Reads `hold: [x, y, rz]`: held directions of a generic joint.
 std::array<bool, 6> read_hold(const MapReader& map) {
   std::array<bool, 6> held{};
   const YamlNode* node = map.require("hold");
@@ -60,7 +60,7 @@ JointKind read_kind(const MapReader& map) {
   return index ? joint_kinds()[*index].kind : JointKind::spherical;
 }
 
-/// The key that this kind alone or with some others takes; those of other kinds are errors.
+/// Reads the key that this kind of joint takes, and refuses those of other kinds.
 void read_own_key(const MapReader& map, JointSpec& joint) {
   const JointKey own = joint_kind(joint.kind).key;
   if (own == JointKey::hold) joint.hold = read_hold(map);
@@ -93,8 +93,8 @@ JointSpec read_joint(const MapReader& map) {
   return joint;
 }
 
-/// `{type: gear, between: [hinge_1, hinge_2], ratio: -2}` or `{type: rack_and_pinion, between: [hinge, slide], radius:
-/// r}`.
+/// Reads `{type: gear, between: [hinge_1, hinge_2], ratio: -2}` or
+/// `{type: rack_and_pinion, between: [hinge, slide], radius: r}`.
 GearSpec read_gear(const MapReader& map, const GearKindRow& kind) {
   auto gear = read_entry<GearSpec>(map);
   gear.ratio = map.number(kind.key);

@@ -1,4 +1,4 @@
-// Parts of reading scene.yaml: what stands below its keys (`bodies`, `joints`, ..., `analyses`).
+// Readers of the parts of scene.yaml, one per key (`bodies`, `joints`, ..., `analyses`).
 #pragma once
 
 #include <optional>
@@ -17,20 +17,20 @@ inline constexpr Choice<AnalysisKind> analysis_kinds[] = {{"dynamics", AnalysisK
                                                           {"inverse_dynamics", AnalysisKind::inverse_dynamics},
                                                           {"modes", AnalysisKind::modes}};
 
-/// What bodies may refer to.
+/// Definitions that bodies may refer to.
 struct SceneDefinitions {
   Units units;
   std::vector<Material> materials;
   std::vector<Section> sections;
 };
 
-/// "ground", "body", "body/node", or {node: .., position: .., orientation: ..}.
+/// Reads "ground", "body", "body/node", or {node: .., position: .., orientation: ..}.
 MarkerSpec read_marker(const MapReader& map, const std::string& key);
-/// {position: .., orientation: ..}; `prefix` of its keys in findings.
+/// Reads {position: .., orientation: ..}. `prefix`: prefix of its keys in findings.
 Pose read_pose(const Context& context, const YamlNode& node, const std::string& prefix);
 CoordinateRef read_coordinate(const MapReader& map, const YamlNode& node, const std::string& key);
 
-// Values of keys that are members (formats/yaml/fields.hpp).
+// Readers of keys that are members (formats/yaml/fields.hpp).
 void read_value(const MapReader& map, const Field& field, Pose& value);
 void read_value(const MapReader& map, const Field& field, MarkerSpec& value);
 void read_value(const MapReader& map, const Field& field, CoordinateRef& value);
@@ -43,32 +43,32 @@ void read_value(const MapReader& map, const Field& field, Eigen::Matrix<double, 
 void read_value(const MapReader& map, const Field& field, Eigen::Matrix<double, 6, 1>& value);
 void read_value(const MapReader& map, const Field& field, std::optional<Eigen::Matrix<double, 6, 1>>& value);
 
-/// `shape` of a body.
+/// Reads `shape` of a body.
 std::vector<ShapeSpec> read_shapes(const MapReader& body, const SceneDefinitions& definitions);
-/// `effects` of the scene.
+/// Reads `effects` of the scene.
 void read_effects(const MapReader& map, Scene& scene);
 std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& definitions);
-/// `joints`: joints, and gears and racks between their coordinates.
+/// Reads `joints`: joints, and gears and racks between their coordinates.
 void read_joints(const MapReader& map, Scene& scene);
-/// `inputs` and `channels`.
+/// Reads `inputs` and `channels`.
 void read_channels(const MapReader& map, Scene& scene);
 std::vector<InitialSpec> read_initial(const MapReader& map);
 void read_springs(const MapReader& map, std::vector<SpringSpec>& springs);
 void read_bushings(const MapReader& map, std::vector<BushingSpec>& bushings);
-/// `file`, or the axes and `z`, of a road of that kind, grid or crg, in the lengths of the scene; null after an error.
+/// Heights of a road of kind grid or crg, from `file` or axes and `z`, in lengths of the scene; null after an error.
 std::shared_ptr<const RoadHeights> read_road_heights(const MapReader& map, const SceneDefinitions& definitions,
                                                      RoadKind kind);
 void read_roads(const MapReader& map, const SceneDefinitions& definitions, std::vector<RoadSpec>& roads);
 void read_tyres(const MapReader& map, const SceneDefinitions& definitions, std::vector<TyreSpec>& tyres);
-/// `loads`: on markers, and those of `type: part_load`.
+/// Reads `loads`: loads on markers, and those of `type: part_load`.
 void read_loads(const MapReader& map, Scene& scene);
-/// `analysis` and its groups, or `analyses`.
+/// Reads `analysis` and its groups, or `analyses`.
 void read_analyses(const MapReader& map, Scene& scene);
-/// The groups of settings below `map`, the scene or one analysis; its kind is known. `start`: of the integrator, if it
-/// gives none.
+/// Reads the groups of settings below `map`, which is the scene or one analysis of known kind. `start`: start of the
+/// integrator if `map` gives none.
 void read_groups(const MapReader& map, std::optional<double> start, Analysis& analysis);
 
-// Lists of fields, each beside the functions that read them.
+// Lists of fields, each defined with the functions that read them.
 std::vector<Field> scene_fields();
 std::vector<KeySet> effect_key_sets();
 std::vector<KeySet> body_key_sets();

@@ -1,4 +1,4 @@
-// Roads with heights over a grid: their keys, their files.
+// Reads roads with heights over a grid: their keys and their files.
 
 #include "formats/roads/crg.hpp"
 #include "formats/roads/height_grid_file.hpp"
@@ -7,7 +7,7 @@
 namespace tisserand::formats {
 namespace {
 
-/// An axis of a grid written in the scene.
+/// Reads an axis of a grid that the scene contains.
 std::vector<double> read_grid_axis(const MapReader& map, const char* key) {
   const YamlNode* node = map.require(key);
   std::vector<double> axis = node == nullptr ? std::vector<double>{} : read_numbers(map.context(), *node, key);
@@ -22,7 +22,7 @@ std::vector<double> read_grid_axis(const MapReader& map, const char* key) {
   return axis;
 }
 
-/// x, y, and z with a list for each x.
+/// Reads x, y, and z with a list for each x.
 RoadHeights read_written_grid(const MapReader& map) {
   RoadHeights grid{read_grid_axis(map, "x"), read_grid_axis(map, "y"), {}, {}};
   const YamlNode* z = map.require("z");
@@ -56,7 +56,7 @@ std::optional<RegularGrid> read_regular_grid(const MapReader& map) {
   return grid;
 }
 
-/// What `read` makes of the file, or nothing and its error.
+/// Result of `read` for the file, or nothing and its error.
 template <class Read>
 std::optional<RoadHeights> read_road_file(const MapReader& map, const YamlNode& node, const Read& read) {
   const std::string name = read_text(map.context(), node, "file");

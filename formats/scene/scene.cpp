@@ -1,4 +1,4 @@
-// scene.yaml to the struct Scene.
+// Reads scene.yaml into the struct Scene.
 #include "formats/scene/scene.hpp"
 
 #include <filesystem>
@@ -20,14 +20,14 @@ namespace {
 constexpr Choice<VirtualBodies> virtual_body_ways[] = {{"keep", VirtualBodies::keep},
                                                        {"eliminate", VirtualBodies::eliminate}};
 
-/// A group that says how often something is written.
+/// Reads the frequency at which something is written.
 template <class Spec>
 void read_rhythm(const MapReader& map, Spec& spec) {
   if (map.has("every") && map.has("interval")) map.fail("both 'every' and 'interval' are given", "give one of them");
   read_fields(map, spec);
 }
 
-/// All is stored from the start of the integrator on unless the file says otherwise.
+/// Reads `output`. By default everything is stored, from the start of the integrator on.
 void read_output(const MapReader& map, double start, OutputSpec& spec) {
   spec.from = start;
   read_rhythm(map, spec);
@@ -63,7 +63,7 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
   return scene;
 }
 
-/// Values of keys `file` below `node`.
+/// Adds the values of all keys `file` below `node`.
 void add_named_files(const YamlNode& node, const std::filesystem::path& folder, std::vector<std::string>& files) {
   if (node.key == "file" && node.kind == YamlKind::scalar && !node.text.empty())
     files.push_back((folder / node.text).lexically_normal().string());

@@ -1,4 +1,4 @@
-// Ranges of the settings of integrator, statics and output.
+// Checks ranges of the settings of integrator, statics and output.
 #include "formats/scene/check_parts.hpp"
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace tisserand::formats {
 namespace {
 
-/// A group of settings of the scene or one analysis: "integrator".
+/// Subject of findings about a group of settings, for example "integrator".
 Subject settings(const std::string& group, const std::string& where, Faults& faults) {
   return {group, where, faults, group + "."};
 }
@@ -47,7 +47,7 @@ void check_accuracy(const IntegratorSpec& spec, const Subject& group) {
   group.positive("absolute_tolerance", spec.bdf.absolute_tolerance);
 }
 
-/// The settings of the scene, or of one of its analyses, where that stands.
+/// Checks the settings of the scene, or of the analysis at `where`.
 void check_groups(const Scene& scene, const std::string& where, Faults& faults) {
   const Subject integrator = settings("integrator", where, faults), statics = settings("statics", where, faults),
                 output = settings("output", where, faults), modes = settings("modes", where, faults),

@@ -1,4 +1,4 @@
-// What a body looks like: solids and mesh files that pictures show; no equation knows them.
+// Visible shape of a body: solids and mesh files for pictures, without influence on equations.
 #pragma once
 
 #include <string>
@@ -13,21 +13,21 @@ namespace tisserand::formats {
 
 enum class ShapeKind { box, cylinder, sphere, cone, tube, mesh };
 
-/// One solid in the part frame of its body, in lengths of the scene. Which members count follows from the kind; a
-/// length that was not given is not-a-number.
+/// One solid in the part frame of its body, in lengths of the scene. The kind determines which members apply. An absent
+/// length is not-a-number.
 struct ShapeSpec {
   ShapeKind kind = ShapeKind::box;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the centre of a box or sphere, of the origin of a file
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< of a box or file
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();                   ///< of a box, along its axes
-  double radius = 0.0;      ///< of a cylinder, sphere or tube; of a cone at `from`
-  double end_radius = 0.0;  ///< of a cone at `to`
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< centre of a box or sphere, origin of a file
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< for a box or file
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();                   ///< for a box, along its axes
+  double radius = 0.0;      ///< for a cylinder, sphere or tube; for a cone at `from`
+  double end_radius = 0.0;  ///< for a cone at `to`
   Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();  ///< axis of a cylinder or cone
-  std::vector<Eigen::Vector3d> points;                                           ///< of the axis of a tube
+  std::vector<Eigen::Vector3d> points;                                           ///< axis of a tube
   std::string file;                                 ///< resolved path, .stl, .obj or .recovery.h5
-  Units units;                                      ///< of the scene
-  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< of a file, along its axes; negative: mirrored
-  std::string where;                                ///< of the body
+  Units units;                                      ///< units of the scene
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< for a file, along its axes; negative: mirrored
+  std::string where;                                ///< place of the body
 };
 
 }  // namespace tisserand::formats

@@ -1,4 +1,4 @@
-// `shape` of a body in scene.yaml: one solid or a list of them.
+// Reads `shape` of a body in scene.yaml: one solid or a list.
 #include <filesystem>
 
 #include "formats/scene/check_parts.hpp"
@@ -33,7 +33,7 @@ std::vector<Eigen::Vector3d> read_points(const Context& context, const YamlNode&
   return points;
 }
 
-/// A factor, or one along each axis.
+/// Reads one factor, or one for each axis.
 Eigen::Vector3d read_scale(const Context& context, const YamlNode& node) {
   if (node.kind == YamlKind::sequence) return read_vector(context, node, "scale");
   return Eigen::Vector3d::Constant(read_number(context, node, "scale"));

@@ -1,4 +1,4 @@
-// Numbers, expressions and tables.
+// Reads functions of time: numbers, expressions and tables.
 #include "formats/scene/time_function_reader.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The components of a load as functions of time, and laws of springs as tables.
+// Readers of functions of time (components of loads) and of tables (laws of springs).
 #pragma once
 
 #include <string>
@@ -15,20 +15,20 @@ inline constexpr Choice<Interpolation> interpolations[] = {{"linear", Interpolat
 inline constexpr Choice<TableMotion> table_motions[] = {
     {"smooth", TableMotion::smooth}, {"natural", TableMotion::natural}, {"linear", TableMotion::linear}};
 
-/// A number, a text (expression in t), {expression: .., breakpoints: [..]}, {table: [[t, value], ..]} or {file:
-/// table.csv}.
+/// Reads a number, a text (expression in t), {expression: .., breakpoints: [..]}, {table: [[t, value], ..]} or
+/// {file: table.csv}.
 TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node, const std::string& what);
 
-/// The same for prescribed motions, whose tables may have an `interpolation`.
+/// Reads the function of a prescribed motion, whose tables may also have an `interpolation`.
 TimeFunctionSpec read_motion_function(const Context& context, const YamlNode& node, const std::string& what);
 
-/// Times of a table and breakpoints increase; values are finite; the expression has a text.
+/// Checks that times of a table and breakpoints increase, values are finite and the expression is not empty.
 void check_time_function(const TimeFunctionSpec& function, const std::string& key, const Subject& subject);
 
-/// {table: [[x, y], ..], interpolation: linear | cubic} or {file: table.csv, ..}.
+/// Reads {table: [[x, y], ..], interpolation: linear | cubic} or {file: table.csv, ..}.
 CurveSpec read_curve(const Context& context, const YamlNode& node, const std::string& what);
 
-/// At least two points, x increases, values are finite.
+/// Checks for at least two points, increasing x and finite values.
 void check_curve(const CurveSpec& curve, const std::string& key, const Subject& subject);
 
 /// Lists of fields of the maps above.

@@ -1,4 +1,4 @@
-// `roads` and `tyres` of scene.yaml, and their findings.
+// Reads and checks `roads` and `tyres` of scene.yaml.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -25,14 +25,14 @@ constexpr Choice<RoadClass> road_classes[] = {{"A", RoadClass::A}, {"B", RoadCla
 constexpr Choice<TyreKind> tyre_kinds[] = {{"comprehensive_slip", TyreKind::comprehensive_slip},
                                            {"magic_formula", TyreKind::magic_formula}};
 
-/// Keys of one kind of tyre alone; the first of each list are required there.
+/// Keys of one kind of tyre only. The first ones of each list are required.
 constexpr std::string_view slip_keys[] = {
     "radius",  "stiffness",        "slip_stiffness",   "cornering_stiffness", "friction",         "low_speed",
     "damping", "camber_stiffness", "sliding_friction", "rolling_resistance",  "relaxation_length"};
 constexpr std::size_t required_slip_keys = 6;
 constexpr std::string_view file_keys[] = {"file", "relaxation", "mirrored", "pressure", "scale"};
 constexpr std::size_t required_file_keys = 1;
-/// Parts of the speed of a file below which MF-Tyre changes its formulas, and of that at which the tyre was measured.
+/// Factors of low_speed: of the speed in the file below which MF-Tyre changes its formulas, and of the measuring speed.
 constexpr double low_of_vxlow = 0.1, low_of_longvl = 0.005;
 
 std::map<std::string, double> read_scale(const MapReader& map) {
@@ -48,7 +48,7 @@ std::map<std::string, double> read_scale(const MapReader& map) {
   return scale;
 }
 
-/// Opens the file of the tyre and takes what the scene leaves open from it.
+/// Reads the file of the tyre and sets values that the scene leaves open.
 void read_properties(const MapReader& map, const SceneDefinitions& definitions, TyreSpec& tyre) {
   const YamlNode* file = map.find("file");
   if (file == nullptr || file->kind != YamlKind::scalar) return;
@@ -84,7 +84,7 @@ void check_slip_keys(const MapReader& map) {
     map.refuse({key}, "has no effect on a tyre of type comprehensive_slip", "remove it");
 }
 
-/// The keys of a shape; others have no effect on it.
+/// Requires the keys of a shape and refuses others.
 void require_keys(const MapReader& map, RoadPieceShape shape) {
   const bool curve = shape == RoadPieceShape::curve;
   for (const char* key : {"start", "length", "height", "ramp", "curve", "iso_8608"}) {
@@ -130,7 +130,7 @@ RoadPieceSpec read_piece(const Context& context, const YamlNode& node, const std
   return piece;
 }
 
-/// One piece, or a list of them.
+/// Reads one piece, or a list of pieces.
 std::vector<RoadPieceSpec> read_track(const MapReader& map, const char* key, const SceneDefinitions& definitions) {
   std::vector<RoadPieceSpec> pieces;
   const YamlNode* node = map.find(key);
@@ -142,7 +142,7 @@ std::vector<RoadPieceSpec> read_track(const MapReader& map, const char* key, con
 
 std::string_view word_of(RoadKind kind) { return std::ranges::find(road_kinds, kind, &Choice<RoadKind>::value)->word; }
 
-/// Keys of other kinds of road.
+/// Refuses keys of other kinds of road.
 void refuse_road_keys(const MapReader& map, RoadKind kind) {
   struct Use {
     const char* key;
@@ -187,7 +187,7 @@ void check_piece(const RoadPieceSpec& piece, const Subject& subject) {
                 "shorten the ramps, or lengthen the trapezoid");
 }
 
-/// What the scene asks of the file of a tyre.
+/// Checks that the file of a tyre has the data that the scene needs.
 void check_properties(const TyreSpec& tyre, const Subject& subject) {
   const MagicFormula& p = tyre.properties->coefficients;
   if (tyre.relaxation && (p.LONGITUDINAL_STIFFNESS <= 0.0 || p.LATERAL_STIFFNESS <= 0.0) &&
@@ -247,7 +247,7 @@ void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, const Subject& su
                 "remove it, or the orientation: the axle is y of the marker");
   subject.positive("pressure", tyre.pressure);
   if (tyre.kind == TyreKind::magic_formula) {
-    if (tyre.properties == nullptr) return;  // told already
+    if (tyre.properties == nullptr) return;  // already reported
     if (tyre.low_speed == 0.0)
       subject.add("low_speed", "its file has neither VXLOW nor LONGVL to take low_speed from",
                   "give low_speed: 0.1 m/s is usual");

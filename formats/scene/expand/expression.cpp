@@ -1,4 +1,4 @@
-// Formulas by muParser; only the names that a formula holds are looked up.
+// Evaluates formulas by muParser. Only names that occur in a formula are looked up.
 #include "formats/scene/expand/expression.hpp"
 
 #include <algorithm>
@@ -19,13 +19,13 @@ namespace tisserand::formats {
 namespace {
 
 constexpr std::size_t longest_formula = 10'000;
-constexpr int deepest_brackets = 100;  // of the recursive parser
+constexpr int deepest_brackets = 100;  // limit for the recursive parser
 constexpr std::size_t most_remembered = 1000;
 
 bool starts_name(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Calls `visit(begin, end)` for each run of characters of names and numbers; `[3]` belongs to the name before it.
+/// Calls `visit(begin, end)` for each name or number. An index such as `[3]` belongs to the name before it.
 template <class Visit>
 void for_each_word(const std::string& formula, Visit visit) {
   const auto in_word = [](char c) { return starts_name(c) || is_digit(c) || c == '.'; };
@@ -54,14 +54,14 @@ void check_extent(const std::string& formula) {
     throw Error("the expression is too long or too deeply nested", "", "split it into parameters");
 }
 
-/// A call of a smooth step: its arguments, as far as they are constant.
+/// A call of a smooth step with its constant arguments.
 struct StepCall {
   std::string name;
-  std::string variable;                                   ///< the text of the first argument
+  std::string variable;                                   ///< text of the first argument
   std::vector<std::pair<std::string, double>> arguments;  ///< text and value; NaN: not constant
 };
 
-/// The value of a formula of `t` alone, or NaN.
+/// Value of a formula of `t` alone, or NaN.
 double value_at(const std::string& formula, double t) {
   mu::Parser parser;
   parser.DefineConst("pi", steps::pi);
@@ -75,7 +75,7 @@ double value_at(const std::string& formula, double t) {
   }
 }
 
-/// The value of a formula without variables, or NaN.
+/// Value of a formula without variables, or NaN.
 double constant_value(const std::string& formula) {
   const double value = value_at(formula, 0.0);
   return value == value_at(formula, 1.0) ? value : std::numeric_limits<double>::quiet_NaN();
@@ -86,7 +86,7 @@ std::string without_blanks(std::string text) {
   return text;
 }
 
-/// Calls of smooth steps, also within each other; those with another number of arguments are left to the parser.
+/// All calls of smooth steps, also nested ones. Calls with another number of arguments are left to the parser.
 std::vector<StepCall> step_calls(const std::string& formula) {
   std::vector<StepCall> calls;
   for_each_word(formula, [&](std::size_t begin, std::size_t end) {
@@ -113,7 +113,7 @@ std::vector<StepCall> step_calls(const std::string& formula) {
   return calls;
 }
 
-/// The instant at which a − b passes zero, if it is linear in `t` and of nothing else.
+/// Instant at which a − b is zero, if it is linear in `t` and has no other variable.
 std::optional<double> crossing(const std::string& a, const std::string& b) {
   const std::string difference = "(" + a + ")-(" + b + ")";
   const double at_0 = value_at(difference, 0.0), slope = value_at(difference, 1.0) - at_0;
@@ -124,8 +124,8 @@ std::optional<double> crossing(const std::string& a, const std::string& b) {
   return -at_0 / slope;
 }
 
-/// The operand that ends before `at` (backwards) or begins there: up to a bracket that it does not open, or to an
-/// operator that binds less than a comparison.
+/// Operand that ends before `at` (backwards) or begins there. It extends to an unmatched bracket or to an operator of
+/// lower precedence than a comparison.
 std::string operand(const std::string& formula, std::size_t at, bool backwards) {
   const char opens = backwards ? ')' : '(', closes = backwards ? '(' : ')';
   int depth = 0;
@@ -139,7 +139,7 @@ std::string operand(const std::string& formula, std::size_t at, bool backwards) 
   return text;
 }
 
-/// Instants at which comparisons of `t` change, and arguments of abs, sign, min and max cross.
+/// Instants at which comparisons of `t` change, and at which arguments of abs, sign, min and max cross.
 std::vector<double> comparison_instants(const std::string& formula) {
   std::vector<double> instants;
   const auto note = [&instants](const std::optional<double>& instant) {
@@ -164,7 +164,7 @@ std::vector<double> comparison_instants(const std::string& formula) {
   return instants;
 }
 
-/// The first call of a function that does not exist.
+/// Fault of the first call of a function that does not exist, or empty.
 std::string call_fault(const std::string& formula) {
   static const std::vector<std::string> known = formula_functions();
   std::string fault;
@@ -178,7 +178,7 @@ std::string call_fault(const std::string& formula) {
   return fault;
 }
 
-/// Of the first smooth step whose constant times or share are out of range.
+/// Fault of the first smooth step whose constant times or share are out of range, or empty.
 std::string step_fault(const std::string& formula) {
   if (formula.find("step") == std::string::npos) return {};
   for (const StepCall& call : step_calls(formula)) {
@@ -220,8 +220,8 @@ std::set<std::string> names_of(const std::string& formula) {
 }
 
 std::string formula_fault(const std::string& formula) {
-  std::vector<bool> is_call;  // of the brackets that are open
-  char before = '\0';         // the last character that is no blank
+  std::vector<bool> is_call;  // for each open bracket
+  char before = '\0';         // last character that is not blank
   for (std::size_t i = 0; i < formula.size(); ++i) {
     const char c = formula[i], next = i + 1 < formula.size() ? formula[i + 1] : '\0';
     if (c == '(') is_call.push_back(starts_name(before) || is_digit(before));
@@ -265,7 +265,7 @@ using KnownValues = std::map<std::string, double>;
 
 struct Calculator::Parser {
   mu::Parser parser;
-  /// Values and result of each formula when it was last asked: copies of an assembly ask for the same again.
+  /// Inputs and result of the latest evaluation of each formula, since copies of an assembly repeat them.
   std::map<std::string, std::pair<KnownValues, double>> last;
 };
 
@@ -280,7 +280,7 @@ double Calculator::operator()(const std::string& formula, const NamedValues& val
   check_extent(formula);
   if (const std::string fault = formula_fault(formula); !fault.empty())
     throw Error(fmt::format("expression '{}': {}", formula, fault), "", "");
-  KnownValues known;  // all looked up before the parser is touched: values may be formulas themselves
+  KnownValues known;  // looked up before the parser is used: values may be formulas themselves
   for (const std::string& name : names_of(formula))
     if (const std::optional<double> value = values(name)) known[name] = *value;
   if (const auto same = parser_->last.find(formula); same != parser_->last.end() && same->second.first == known)

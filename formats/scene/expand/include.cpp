@@ -1,4 +1,4 @@
-// Included files, each once, in a bounded chain; entries and settings that meet in one map.
+// Includes files, each once and in a chain of limited depth, and merges their entries and settings.
 #include "formats/scene/expand/include.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr std::size_t deepest_chain = 20;
 constexpr std::size_t most_files = 1000;
 constexpr std::size_t most_values = 2'000'000;
 
-/// Maps whose keys are settings: an included one fills in what the including file leaves out.
+/// Maps of settings, in which an included file only fills in absent keys.
 constexpr std::array<std::string_view, 3> settings{"integrator", "statics", "output"};
 
 std::string canonical(const std::string& path) {
@@ -47,7 +47,7 @@ void merge_settings(YamlNode&& from, YamlNode& into) {
     if (find_child(into, child.key) == nullptr) into.children.push_back(std::move(child));
 }
 
-/// What an included file adds: entries of collections, settings, and other values that the including file leaves out.
+/// Merges an included file: entries of collections, settings, and other values that the including file does not give.
 void merge(const YamlDocument& document, const std::vector<std::string_view>& collections, YamlNode&& included,
            YamlNode& root) {
   for (YamlNode& child : included.children) {
@@ -140,7 +140,7 @@ void TreeLoader::include(YamlDocument& document, YamlNode& root, const YamlNode&
   const fs::path base = document.sources.at(static_cast<std::size_t>(item.place.source)).folder;
   const std::string path = canonical((fs::path(folder_) / base / item.text).string());
   const bool open = std::ranges::any_of(chain_, [&](const Visit& visit) { return visit.path == path; });
-  if (item.kind == YamlKind::scalar && seen_.contains(path) && !open) return;  // once is enough
+  if (item.kind == YamlKind::scalar && seen_.contains(path) && !open) return;  // each file once
   merge(document, collections_, load_into(document, item), root);
 }
 

@@ -1,4 +1,4 @@
-// From the tree with assemblies to the flat one.
+// Expands a tree with assemblies to a flat one.
 #include "formats/scene/expand/instances.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ bool is_structure(const std::string& key) {
   return key == "parameters" || key == "assemblies" || key == "instances" || key == "assembly";
 }
 
-/// The map at the key, taken out of the node; an empty map if there is none.
+/// Removes and returns the map at the key; an empty map if there is none.
 YamlNode take(YamlNode& node, std::string_view key) {
   const auto found = std::ranges::find(node.children, key, &YamlNode::key);
   YamlNode value;

@@ -1,4 +1,4 @@
-// Instances of assemblies: copies of their entries with paths for names, placed where the instance stands.
+// Instances of assemblies: copies of their entries, named by paths and placed by the pose of the instance.
 #pragma once
 
 #include <deque>
@@ -17,12 +17,12 @@
 
 namespace tisserand::formats {
 
-/// Turns the tree of a scene (read and merged) into a flat one.
+/// Expands the tree of a scene (read and merged) to a flat one.
 class SceneExpander {
  public:
   SceneExpander(YamlDocument& document, TreeLoader& loader, const std::vector<KeySet>& legal_keys);
 
-  /// Throws Error: all that were found.
+  /// Runs the expansion. Throws Error that joins all errors found.
   void run();
 
  private:
@@ -30,8 +30,8 @@ class SceneExpander {
   struct Instance {
     YamlNode node;          ///< without `parameters` and `first`
     YamlNode given, first;  ///< their maps
-    std::string name;       ///< within its level
-    int count = -1;         ///< −1: not repeated
+    std::string name;       ///< unique within its level
+    int count = -1;         ///< number of copies; −1: not repeated
     AssemblyFrame pose, step, mirror;
   };
 
@@ -62,7 +62,7 @@ class SceneExpander {
   std::vector<Error> errors_;
   std::set<std::string> told_;
   std::vector<MirroredReference> mirrored_;
-  std::set<std::string> reversed_;  ///< joint coordinates that a mirror reverses, paths from the scene
+  std::set<std::string> reversed_;  ///< joint coordinates that a mirror reverses, as paths from the scene
   long instances_ = 0;
 };
 

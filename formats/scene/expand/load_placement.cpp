@@ -1,4 +1,4 @@
-// Sums of scaled numbers, expressions and tables.
+// Computes sums of scaled numbers, expressions and tables.
 #include "formats/scene/expand/load_placement.hpp"
 
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace tisserand::formats {
 namespace {
 
-/// Entries of a rotation below this are round-off of angles such as 90 degrees.
+/// Limit of entries of a rotation that count as zero: round-off of angles such as 90 degrees.
 constexpr double negligible = 1e-15;
 
 bool is_zero(const YamlNode& function) {
@@ -23,14 +23,14 @@ YamlNode scalar(const std::string& text, const YamlNode& like) {
   return node;
 }
 
-/// factor × the values of {table: [[t, f], ..]}.
+/// Multiplies the values of {table: [[t, f], ..]} by the factor.
 void scale_table(const Context& context, double factor, YamlNode& table) {
   for (YamlNode& row : table.children)
     if (row.kind == YamlKind::sequence && row.children.size() == 2)
       row.children[1] = scalar(number_text(factor * read_number(context, row.children[1], "table")), row.children[1]);
 }
 
-/// factor × one function of time.
+/// A function of time multiplied by the factor.
 YamlNode scaled(const Context& context, double factor, const YamlNode& function) {
   if (factor == 1.0) return function;
   if (looks_like_number(function))

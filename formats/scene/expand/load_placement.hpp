@@ -1,4 +1,4 @@
-// The components of a load in an assembly that is turned: sums of functions of time.
+// Components of a load in a rotated assembly, as sums of functions of time.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +7,8 @@
 
 namespace tisserand::formats {
 
-/// Replaces the three functions of time f in the node by `by` f. Numbers and expressions are summed; tables and files
-/// only change their sign or place, else an error says what to do.
+/// Replaces the three functions of time f in the node by `by` f. Numbers and expressions are summed. Tables and files
+/// can only change sign or place; otherwise an error names a remedy.
 void turn_components(const Context& context, const Eigen::Matrix3d& by, YamlNode& value);
 
 }  // namespace tisserand::formats

@@ -1,4 +1,4 @@
-// The table of what refers to what, and the search through the levels.
+// Table of the references between entries, and the search for names through the levels.
 #include "formats/scene/expand/names.hpp"
 
 #include <algorithm>
@@ -13,10 +13,10 @@ namespace {
 
 using Names = std::set<std::string> Assembly::*;
 
-/// The collections of an assembly: what names its entries have in messages, and which names others may refer to.
+/// A collection of an assembly: the noun of its entries in messages, and the names that others may refer to.
 struct Collection {
   std::string_view key, noun;
-  bool is_copied;  ///< with each instance
+  bool is_copied;  ///< whether each instance copies it
   Names names;
 };
 constexpr Collection assembly_collections[] = {{"bodies", "body", true, &Assembly::bodies},
@@ -31,9 +31,9 @@ constexpr Collection assembly_collections[] = {{"bodies", "body", true, &Assembl
                                                {"bushings", "bushing", true, nullptr},
                                                {"tyres", "tyre", true, &Assembly::tyres},
                                                {"loads", "load", true, nullptr},
-                                               {"initial", "", true, nullptr}};  // whose keys are references
+                                               {"initial", "", true, nullptr}};  // keys are references
 
-/// A key of a collection whose value names entries of another one. Functions are named in expressions.
+/// Key of a collection whose value names entries of another collection. Functions are named in expressions.
 struct Reference {
   std::string_view collection, key;
   Names to;
@@ -49,11 +49,11 @@ constexpr Reference references[] = {
     {"channels", "tyre", &Assembly::tyres},     {"loads", "at", &Assembly::bodies},
     {"loads", "body", &Assembly::bodies},       {"loads", "value", &Assembly::functions}};
 
-/// "link[3]/bar/tip" -> "link[3]", and without the index "link".
+/// First word of a path: "link[3]/bar/tip" -> "link[3]". without_index() gives "link".
 std::string first_word(const std::string& path) { return path.substr(0, path.find('/')); }
 std::string without_index(const std::string& word) { return word.substr(0, word.find('[')); }
 
-/// The innermost level that has the first word of a path; null: none.
+/// Innermost level that knows the first word of a path, or null.
 const Level* level_of(Names names, const std::string& first, const Level& level) {
   for (const Level* at = &level; at != nullptr; at = at->outer)
     if ((at->assembly->*names).contains(first) || at->assembly->instances.contains(without_index(first))) return at;
@@ -85,7 +85,7 @@ void for_each_name(YamlNode& node, Visit visit) {
   }
 }
 
-/// What `of` of a channel names depends on its type; nothing in the case of tyres.
+/// Kind of names in `of` of a channel, by its type; null for tyres.
 Names names_of_channel(const YamlNode& channel) {
   const YamlNode* type = find_child(channel, "type");
   if (type != nullptr && type->text == "tyre") return nullptr;
@@ -93,7 +93,7 @@ Names names_of_channel(const YamlNode& channel) {
   return is_point ? &Assembly::bodies : &Assembly::joints;
 }
 
-/// Names in a function of time: text, or a map with `expression`. Others are those of the whole scene, or errors there.
+/// Resolves names in a function of time: text, or a map with `expression`. Unknown names stay for the scene's check.
 void resolve_expression(const Level& level, YamlNode& function) {
   YamlNode* text = function.kind == YamlKind::map ? find_child(function, "expression") : &function;
   if (text == nullptr || text->kind != YamlKind::scalar || looks_like_number(*text)) return;

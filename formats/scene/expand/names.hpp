@@ -1,4 +1,4 @@
-// Names in assemblies: which level of instances a path such as `arm/tip` belongs to, and which file a path of a file.
+// Names in assemblies: the level of instances of a path such as `arm/tip`, and the files that paths name.
 #pragma once
 
 #include <set>
@@ -12,18 +12,18 @@
 
 namespace tisserand::formats {
 
-/// What a scene or an assembly holds.
+/// Contents of a scene or an assembly.
 struct Assembly {
   std::string name;
   YamlNode node;
-  const Assembly* outer = nullptr;  ///< its definition stands in this one
+  const Assembly* outer = nullptr;  ///< assembly that contains its definition
   std::set<std::string> bodies, joints, tyres, instances;
-  std::set<std::string> functions;  ///< inputs and channels, which expressions name
+  std::set<std::string> functions;  ///< inputs and channels, which expressions use
   std::set<std::string> used_parameters;
-  bool made = false;  ///< there is an instance of it
+  bool made = false;  ///< whether an instance exists
 };
 
-/// One instance of an assembly, or the scene itself: names are looked up in it, then in the level around it.
+/// Instance of an assembly, or the scene itself. Names are searched here first, then in the outer levels.
 struct Level {
   std::string prefix;  ///< "corner_fl/"
   const Level* outer = nullptr;
@@ -33,36 +33,35 @@ struct Level {
   int depth = 0;
 };
 
-/// A joint coordinate that an entry of a mirrored assembly names, with its path from the scene.
+/// Joint coordinate that an entry of a mirrored assembly refers to, with its path from the scene.
 struct MirroredReference {
   std::string path;
-  std::string given;  ///< as it stands in the file
-  std::string entry;  ///< whose it is
+  std::string given;  ///< as written in the file
+  std::string entry;  ///< entry that refers to it
   YamlPlace entry_place, place;
 };
 
-/// Maps of an assembly that are copied with each instance.
+/// Whether each instance of an assembly copies the map of this key.
 bool is_instantiated(const std::string& key);
 
-/// Fills in the sets of names; names that are no names, and double ones, are errors of the reader.
+/// Fills in the sets of names. Invalid and duplicate names are reported as errors of the reader.
 void read_names(YamlReader& reader, Assembly& assembly);
 
-/// The paths in an entry of a collection as paths from the scene: `ground`, and paths that begin with '/', count from
-/// the scene; others from the innermost level that has their first word. So do names in expressions, whose paths are
-/// written with points: `speed` of a motor is `left.motor.speed` in the flat scene. Adds to `mirrored` what is to be
-/// checked when all joints are known.
+/// Replaces the paths in an entry of a collection by paths from the scene. `ground` and paths that begin with '/' are
+/// relative to the scene, others to the innermost level with their first word. Expressions write paths with points:
+/// `speed` of a motor becomes `left.motor.speed`. Adds to `mirrored` what must be checked when all joints are known.
 void resolve_references(const std::string& collection, const Level& level, YamlNode& entry,
                         std::vector<MirroredReference>& mirrored);
 
-/// Coordinates that a mirror reverses cannot be measured by others with one number for both sides: errors of the
-/// reader. `reversed`: of all joints, paths from the scene.
+/// Reports references to coordinates that a mirror reverses, since one number cannot fit both sides, as errors of the
+/// reader. `reversed`: such coordinates of all joints, as paths from the scene.
 void check_mirrored(YamlReader& reader, const std::vector<MirroredReference>& references,
                     const std::set<std::string>& reversed);
 
-/// The material and section of a beam that its assembly, or one around it, defines, in the place of their names.
+/// Replaces the names of a beam's material and section by definitions of its assembly or an outer one.
 void insert_definitions(const Level& level, Substitution& substitution, YamlNode& body);
 
-/// Names of files below the node relative to the folder of the scene: of keys `file`, and of rigid bodies `from`.
+/// Makes file names below the node relative to the folder of the scene: keys `file`, and `from` of rigid bodies.
 void rebase_files(const YamlDocument& document, YamlNode& node);
 
 }  // namespace tisserand::formats

@@ -1,4 +1,4 @@
-// Looking up parameters, each resolved once; formulas and text around them.
+// Looks up parameters, each resolved once, and replaces them in formulas and text.
 #include "formats/scene/expand/parameters.hpp"
 
 #include <cmath>
@@ -11,20 +11,20 @@
 namespace tisserand::formats {
 namespace {
 
-constexpr int longest_reference = 50;  ///< of parameters that refer to one another
+constexpr int longest_reference = 50;  ///< limit of a chain of parameters
 
 bool is_name_character(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// One piece of a text: as it stands, or the inside of ${..} or of $name.
+/// Piece of a text: literal text, or the inside of ${..} or of $name.
 struct Piece {
   bool replaced = false;
   bool braces = false;
   std::string text;
 };
 
-/// "a$b${c}$$d" -> a, [b], [c], "$d". Nothing if a brace is not closed or no name follows a $.
+/// Splits "a$b${c}$$d" -> a, [b], [c], "$d". Nothing if a brace is not closed or no name follows a $.
 std::optional<std::vector<Piece>> pieces_of(const std::string& text) {
   std::vector<Piece> pieces;
   std::string plain;
@@ -63,7 +63,7 @@ bool is_plain_name(const std::string& text) {
   return plain;
 }
 
-/// Marks a parameter while its value is looked for, also if that throws.
+/// Marks a parameter during its resolution, also if that throws.
 class Resolving {
  public:
   Resolving(Parameter& parameter, int& depth) : parameter_(parameter), depth_(depth) {
@@ -225,7 +225,7 @@ void Substitution::replace_scalar(YamlNode& node, ParameterScope& scope) {
     budget_.take(count_nodes(value), document_.where(node.place));
     value.key = std::move(node.key);
     value.key_place = node.key_place;
-    if (value.place.line == 0) value.place = node.place;  // a value that stands in no file
+    if (value.place.line == 0) value.place = node.place;  // a value that is not from a file
     node = std::move(value);
   } else if (alone) {
     node.text = number_text(number_of(pieces->front().text, scope, node.place));

@@ -13,7 +13,7 @@ namespace tisserand::formats {
 
 class ParameterScope;
 
-/// What stands at a name, and where the names in it are looked up. Its value is found when it is first used.
+/// Value of a name as given, and the scope of the names in it. It is resolved at its first use.
 struct Parameter {
   YamlNode given;
   ParameterScope* scope = nullptr;
@@ -22,16 +22,16 @@ struct Parameter {
   bool used = false;
 };
 
-/// Names of one scene or instance; a name that is not here is that of the scope around it.
+/// Names of one scene or instance. Other names are searched in the outer scope.
 class ParameterScope {
  public:
   explicit ParameterScope(ParameterScope* outer) : outer_(outer) {}
   ParameterScope(const ParameterScope&) = delete;
   ParameterScope& operator=(const ParameterScope&) = delete;
 
-  /// A later definition replaces an earlier one.
+  /// Defines a parameter and replaces an earlier definition.
   void define(const YamlNode& given, ParameterScope& scope) { own_[given.key] = {given, &scope, {}, false, false}; }
-  /// A value that is no formula.
+  /// Defines a parameter whose value is not a formula.
   void define(const std::string& name, const std::string& text);
   Parameter* find(const std::string& name);
   std::vector<std::string> names() const;
@@ -43,10 +43,10 @@ class ParameterScope {
   std::map<std::string, Parameter> own_;
 };
 
-/// Counts what a scene grows to, so that a few lines cannot fill the memory.
+/// Counts the values of an expanded scene, so that a few lines cannot fill the memory.
 class ExpansionBudget {
  public:
-  /// Throws Error at `where` when more than `most_values` values have been made.
+  /// Throws Error at `where` when more than `most_values` values were created.
   void take(std::size_t values, const std::string& where);
 
  private:
@@ -59,9 +59,8 @@ class Substitution {
  public:
   Substitution(const YamlDocument& document, ExpansionBudget& budget) : document_(document), budget_(budget) {}
 
-  /// In the node and all below it. A scalar that is `$name` alone becomes the value, whatever it is, and stands where
-  /// that stands; `${formula}` alone becomes a number; in other text `$name` and `${formula}` become text. Throws
-  /// Error.
+  /// Replaces in the node and everything below it. A scalar `$name` becomes the value of any kind, with its place.
+  /// `${formula}` alone becomes a number. Within other text, `$name` and `${formula}` become text. Throws Error.
   void apply(YamlNode& node, ParameterScope& scope);
 
  private:

@@ -1,5 +1,5 @@
-// Rules of placing, key by key. Vectors along the assembly turn with G; axial ones (angular velocities, moments) with
-// det(G) G; data in part axes only mirror, with S.
+// Rules of placement, key by key. Vectors along the assembly transform by G, axial ones (angular velocities, moments)
+// by det(G) G. Data in part axes are only mirrored, by S.
 #include "formats/scene/expand/placement.hpp"
 
 #include <array>
@@ -44,7 +44,7 @@ YamlNode rows_node(const Matrix3d& matrix, const YamlPlace& place) {
   return node;
 }
 
-/// Replaces the value of the key, or adds it.
+/// Replaces or adds the value of the key.
 void set(YamlNode& map, const char* key, YamlNode value) {
   value.key = key;
   if (YamlNode* old = find_child(map, key)) {
@@ -68,20 +68,20 @@ std::string word(const YamlNode& map, const char* key) {
 
 bool is_list(const YamlNode* node) { return node != nullptr && node->kind == YamlKind::sequence; }
 
-/// How the axes of the markers of a joint, spring or bushing follow a mirror (JointKindRow::mirrored_axes).
+/// Transformation of the marker axes of a joint, spring or bushing by a mirror (JointKindRow::mirrored_axes).
 Matrix3d axes_of_mirrored_markers(const std::string& type) {
   const JointKindRow* joint = find_joint_kind(type);
   const std::array<double, 3> axes = joint ? joint->mirrored_axes : JointKindRow{}.mirrored_axes;
   return Vector3d(axes[0], axes[1], axes[2]).asDiagonal();
 }
 
-/// Whether directions of the markers matter to a joint, spring or bushing.
+/// Whether a joint, spring or bushing uses the directions of its markers.
 bool uses_axes(const std::string& type) {
   const JointKindRow* joint = find_joint_kind(type);
   return joint ? joint->axes != JointAxes::unused : !type.empty() && type != "line";
 }
 
-/// The x axis that the model builder gives to markers of which only z is known.
+/// x axis that the model builder chooses for markers with a given z only.
 Vector3d default_x_axis(const Vector3d& z) {
   Eigen::Index smallest = 0;
   z.cwiseAbs().minCoeff(&smallest);
@@ -109,7 +109,7 @@ void Placement::transform(YamlNode& map, const char* key, const Matrix3d& by, co
   if (v.allFinite()) set(map, key, list_node(Vector3d(shift + by * v), node->place));
 }
 
-/// R -> before R after.
+/// Replaces the orientation R by before R after.
 void Placement::turn_orientation(YamlNode& map, const Matrix3d& before, const Matrix3d& after) {
   const YamlNode* node = find_child(map, "orientation");
   if (node == nullptr) return;
@@ -181,7 +181,7 @@ void Placement::mirror_part(YamlNode& body) {
   }
 }
 
-/// x = p + R s v of a file becomes S p + (S R S) (S s) v.
+/// Mirrors a shape: x = p + R s v of a file becomes S p + (S R S) (S s) v.
 void Placement::mirror_shape(YamlNode& shape) {
   for (const char* key : {"position", "from", "to"}) transform(shape, key, frame_.S, Vector3d::Zero());
   turn_orientation(shape, frame_.S, frame_.S);
@@ -198,7 +198,7 @@ void Placement::mirror_shape(YamlNode& shape) {
   if (factors.allFinite()) set(shape, "scale", list_node(Vector3d(frame_.S * factors), shape.place));
 }
 
-/// A file is mirrored where the body is made from it: the plane joins those that the body mirrors it at by itself.
+/// Mirrors the file of a body when the body is built, by a plane added to the body's own mirror planes.
 void Placement::mirror_file(YamlNode& body) {
   const YamlNode* file = find_child(body, word(body, "type") == "rigid" ? "from" : "file");
   if (!frame_.mirrored() || file == nullptr || file->kind != YamlKind::scalar) return;
@@ -216,7 +216,7 @@ void Placement::mirror_file(YamlNode& body) {
   set(body, "mirror", std::move(planes));
 }
 
-/// Joints, springs and bushings: what stands in world axes, and the markers.
+/// Places joints, springs and bushings: data in world axes, and the markers.
 void Placement::pair(YamlNode& entry, const std::string& type) {
   if (!frame_.moved()) return;
   const Matrix3d flip = frame_.mirrored() ? axes_of_mirrored_markers(type) : Matrix3d(Matrix3d::Identity());
@@ -242,8 +242,8 @@ void Placement::pair(YamlNode& entry, const std::string& type) {
     set(entry, "pitch", number_node(-read_number(context(entry), *pitch, "pitch"), pitch->place));
 }
 
-/// Deflections of a bushing in mirrored marker axes (z reversed): displacements along x, y and the turn about z keep
-/// their signs, the others change them. Diagonals stay as they are.
+/// Mirrors the matrices of a bushing with its marker axes (z reversed). Displacements along x, y and rotations about z
+/// keep their signs, the others change. Diagonals are unchanged.
 void Placement::mirror_field(YamlNode& bushing) {
   constexpr std::array<double, 6> sign{1.0, 1.0, -1.0, -1.0, -1.0, 1.0};
   const auto turn = [&](YamlNode& row, double factor) {
@@ -261,7 +261,7 @@ void Placement::mirror_field(YamlNode& bushing) {
   }
 }
 
-/// A marker on ground is in the world; on a body it is in node axes, which only a mirror changes.
+/// Places a marker. On ground it is in the world frame. On a body it is in node axes, which only a mirror changes.
 void Placement::marker(YamlNode& entry, const char* key, const Matrix3d& flip) {
   YamlNode* marker = find_child(entry, key);
   if (marker == nullptr || marker->kind != YamlKind::map) return;
@@ -274,7 +274,7 @@ void Placement::marker(YamlNode& entry, const char* key, const Matrix3d& flip) {
   }
 }
 
-/// Axes and origins of positions are those of the assembly.
+/// Places a channel, whose axes and origin are those of the assembly.
 void Placement::channel(YamlNode& channel) {
   if (!frame_.moved() || word(channel, "type") == "tyre") return;
   for (const char* key : {"of", "a", "b"}) marker(channel, key, frame_.S);
@@ -291,7 +291,7 @@ void Placement::channel(YamlNode& channel) {
   transform(channel, "origin", frame_.G, frame_.p);
 }
 
-/// The axle is an axial vector, so that mirrored wheels roll forward with the same sign.
+/// Places a tyre. Its axle is an axial vector, so that mirrored wheels roll forward with the same sign.
 void Placement::tyre(YamlNode& tyre) {
   if (!frame_.turned()) return;
   marker(tyre, "wheel", frame_.S);
@@ -303,7 +303,7 @@ void Placement::tyre(YamlNode& tyre) {
 }
 
 void Placement::load(YamlNode& load) {
-  if (!frame_.turned() || word(load, "type") == "part_load") return;  // load cases turn with their body
+  if (!frame_.turned() || word(load, "type") == "part_load") return;  // load cases rotate with their body
   marker(load, "at", frame_.S);
   const double handed = word(load, "type") == "moment" ? frame_.S.diagonal().prod() : 1.0;
   const Matrix3d by = handed * (word(load, "axes") == "body" ? frame_.S : frame_.G);
@@ -320,7 +320,7 @@ std::set<std::string> Placement::reversed_coordinates(const YamlNode& joint) {
         std::ranges::find(kind->coordinates, displacements[i]) == kind->coordinates.end())
       continue;
     names.insert(fmt::format("{}/{}", joint.key, displacements[i]));
-    // The only coordinate of a joint is called by the joint's name, and `hold` may leave this one alone.
+    // The only coordinate of a joint has the joint's name. `hold` may leave only one coordinate.
     if (kind->coordinates.count == 1 || kind->key == JointKey::hold) names.insert(joint.key);
   }
   return names;

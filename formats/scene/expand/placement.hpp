@@ -1,5 +1,5 @@
-// Placing an assembly: positions, directions, orientations and inertia of its entries in the tree, moved, turned and
-// mirrored.
+// Placement of an assembly: moves, rotates and mirrors positions, directions, orientations and inertia of its entries
+// in the tree.
 #pragma once
 
 #include <set>
@@ -11,8 +11,8 @@
 
 namespace tisserand::formats {
 
-/// x -> p + G x from the axes of an assembly to those around it; G is orthogonal, of determinant −1 if mirrored.
-/// S mirrors the part frames of its bodies then (diagonal), so that their orientations G R S stay rotations; else 1.
+/// Map x -> p + G x from the axes of an assembly to the outer ones. G is orthogonal, of determinant −1 if mirrored. If
+/// so, S (diagonal) mirrors the part frames of its bodies, so that G R S stay rotations; else S is 1.
 struct AssemblyFrame {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
   Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
@@ -23,19 +23,19 @@ struct AssemblyFrame {
   bool moved() const { return turned() || !p.isZero(0.0); }
 };
 
-/// x -> outer(inner(x)).
+/// The composed map x -> outer(inner(x)).
 AssemblyFrame compose(const AssemblyFrame& outer, const AssemblyFrame& inner);
 
-/// Rewrites the numbers of entries. What cannot be read goes to the reader's errors and stays as it is.
+/// Rewrites the numbers of entries. Unreadable values cause errors of the reader and stay unchanged.
 class Placement {
  public:
   Placement(YamlReader& reader, const AssemblyFrame& frame) : reader_(reader), frame_(frame) {}
 
-  /// An entry of `bodies`, `joints`, `channels`, `springs`, `bushings`, `initial`, `tyres` or `loads`; others do not
-  /// depend on the frame.
+  /// Places an entry of `bodies`, `joints`, `channels`, `springs`, `bushings`, `initial`, `tyres` or `loads`. Others do
+  /// not depend on the frame.
   void place(const std::string& collection, YamlNode& entry);
 
-  /// Joint coordinates that change their sign when the assembly is mirrored: "slide/z".
+  /// Coordinates of a joint that change sign in a mirrored assembly: "slide/z".
   static std::set<std::string> reversed_coordinates(const YamlNode& joint);
 
  private:

@@ -1,4 +1,4 @@
-// Read, merge, override, expand, override.
+// Reads, merges, overrides and expands a scene.
 #include "formats/scene/expand/tree.hpp"
 
 #include "formats/scene/expand/include.hpp"
@@ -8,8 +8,8 @@
 namespace tisserand::formats {
 namespace {
 
-/// What an override changes: the files that are read, their tree, or what only exists in the flat tree
-/// ("bodies.corner_fl/arm.mass").
+/// Stage at which an override applies: to the list of files, to their tree, or to entries that exist in the flat tree
+/// only ("bodies.corner_fl/arm.mass").
 enum class Stage { files, tree, flat };
 
 Stage stage_of(const Override& change) {

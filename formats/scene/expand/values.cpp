@@ -1,4 +1,4 @@
-// Flattening of a tree, and comparison of two flat lists.
+// Flattens a tree to lines, and compares two lists of lines.
 #include "formats/scene/expand/values.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, 13> keys_of_settings{
     "checkpoint", "analysis",          "analyses",      "include", "parameters",
     "assemblies", "initial_tolerance", "virtual_bodies"};
 
-/// Whether the value of a key, a path from the root, is left out.
+/// Whether the value of a key (a path from the root) is omitted.
 bool is_setting(const std::vector<std::string_view>& path) {
   const std::string_view top = path.front();
   if (top == "instances" || std::ranges::find(keys_of_settings, top) != keys_of_settings.end()) return true;
@@ -42,7 +42,7 @@ std::string in_one_line(std::string text) {
   return text;
 }
 
-/// Numbers and truth values as one text each.
+/// Text of a value, equal for equal numbers and truth values.
 std::string plain_text(const YamlNode& node) {
   if (node.quoted) return in_one_line(node.text);
   if (looks_like_number(node)) return fmt::format("{}", std::strtod(node.text.c_str(), nullptr));
@@ -73,7 +73,7 @@ struct Flattening {
   }
 };
 
-/// The lines of a text by their keys, in their order.
+/// Lines of a text by their keys, in their order.
 struct Values {
   std::vector<std::string> keys;
   std::map<std::string, std::string> of;
@@ -93,7 +93,7 @@ struct Values {
     const auto found = of.find(key);
     return found == of.end() ? nullptr : &found->second;
   }
-  /// Whether there is a value of the key or below it.
+  /// Whether there is a value at the key or below it.
   bool has_below(const std::string& key) const {
     const auto found = of.lower_bound(key + ".");
     return of.contains(key) || (found != of.end() && found->first.starts_with(key + "."));
@@ -109,7 +109,7 @@ bool is_index(std::string_view step) {
   return !step.empty() && std::ranges::all_of(step, [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-/// "gravity.2" -> "gravity" and 2.
+/// Key and index of a path: "gravity.2" -> "gravity" and 2.
 struct Place {
   std::string key;
   std::optional<std::size_t> index;
@@ -123,8 +123,7 @@ struct Place {
   std::string word() const { return key.substr(key.rfind('.') + 1); }  // npos + 1 is 0
 };
 
-/// The default of a key of the scene, or that all lists of keys agree on for the last word of a longer one, as lines of
-/// scene_values.
+/// Default, as lines of scene_values, of a key of the scene. For longer keys: that of the last word if all lists agree.
 std::string standard_of(const Place& place, const std::vector<KeySet>& legal_keys) {
   const std::string word = place.word();
   const bool of_scene = word == place.key;
@@ -144,11 +143,11 @@ std::string standard_of(const Place& place, const std::vector<KeySet>& legal_key
     list.children.push_back(parse_yaml(fmt::format("'{}': {}", word, *standard), "default").root);
     return scene_values(list, {});
   } catch (const Error&) {
-    return {};  // a sentence
+    return {};  // the default is a sentence
   }
 }
 
-/// Whether a value that only one of both scenes gives is the default.
+/// Whether a value that only one of the scenes gives is the default.
 bool is_standard(const std::string& path, const std::string& value, const Values& other,
                  const std::vector<KeySet>& legal_keys) {
   const Place place(path);
@@ -159,13 +158,13 @@ bool is_standard(const std::string& path, const std::string& value, const Values
   return given != nullptr && *given == value;
 }
 
-/// "channels.tip.of" -> "channels.tip".
+/// Entry of a path: "channels.tip.of" -> "channels.tip".
 std::string entry_of(const std::string& path) {
   const std::size_t dot = path.find('.');
   return dot == std::string::npos ? path : path.substr(0, path.find('.', dot + 1));
 }
 
-/// What else uses a channel changes too: an added one alone is an output.
+/// Whether the path belongs to an added channel, which is an output only. Changed uses of it are found separately.
 bool is_added_channel(const std::string& path, const Values& before) {
   return path.starts_with("channels.") && !before.has_below(entry_of(path));
 }
@@ -217,7 +216,7 @@ std::vector<ValueChange> scene_changes(const std::string& before_text, const std
   std::vector<ValueChange> changes;
   const auto known_contents = [](const std::string& key, const Values& other) {
     if (!key.ends_with(contents_mark)) return true;
-    return other.find(key) != nullptr;  // one side could not tell
+    return other.find(key) != nullptr;  // unknown on one side
   };
   for (const std::string& key : after.keys) {
     const std::string& value = after.of.at(key);

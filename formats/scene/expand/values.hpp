@@ -1,5 +1,4 @@
-// The values of an expanded scene as lines of text: what a file keeps of the scene that it belongs to, and what
-// differs from it later.
+// Values of an expanded scene as lines of text. Files store them to identify their scene and to show later differences.
 #pragma once
 
 #include <functional>
@@ -11,35 +10,35 @@
 
 namespace tisserand::formats {
 
-/// Identifier of the contents of a file that the tree names under a key such as `inputs.u.file`; empty: none is known.
+/// Identifier of the contents of a file that the tree names under a key such as `inputs.u.file`; empty: unknown.
 using ContentsOf = std::function<std::string(const std::string& key, const std::string& file)>;
 
-/// One line "bodies.arm.mass: 2" per value of a flat tree, in the order of the tree; after a file that `contents` knows
-/// a line "inputs.u.file (contents): ...". Numbers are written alike (2, 2.0, 0.2e1). What does not change the
-/// mechanism is left out: name, integrator, statics, modes, output, checkpoint, analyses, tolerances, `virtual_bodies`,
-/// shapes for pictures, and what the tree was made from (parameters, assemblies, instances).
+/// Lines "bodies.arm.mass: 2", one per value of a flat tree in its order. After a file that `contents` knows follows a
+/// line "inputs.u.file (contents): ...". Equal numbers have equal texts (2, 2.0, 0.2e1). Omitted are values that do not
+/// change the mechanism: name, integrator, statics, modes, output, checkpoint, analyses, tolerances, `virtual_bodies`,
+/// shapes for pictures, and the sources of the tree (parameters, assemblies, instances).
 std::string scene_values(const YamlNode& tree, const ContentsOf& contents);
 
-/// A flat tree as YAML, and after it as comments the lines of `contents`.
+/// Flat tree as YAML, followed by the lines of `contents` as comments.
 std::string text_with_contents(const YamlNode& tree, const ContentsOf& contents);
 
-/// scene_values of such a text. Throws Error if it is no YAML.
+/// scene_values of such a text. Throws Error if it is not YAML.
 std::string values_of_text(const std::string& text, const std::string& where);
 
-/// A value that differs; "nothing" where it is not given.
+/// Value that differs; "nothing" if it is not given.
 struct ValueChange {
   std::string key;
   std::string before;
   std::string after;
 };
 
-/// Differences of two texts of scene_values, in the order of `after`, then those that only `before` has. No difference:
-/// blanks, a key that is given with the default of `legal_keys`, an unused channel that was added, another name of a
-/// file with the same contents.
+/// Differences of two texts of scene_values, in the order of `after`, then those that only `before` has. Ignored are
+/// blanks, keys given with the default of `legal_keys`, added channels without use, and renamed files of equal
+/// contents.
 std::vector<ValueChange> scene_changes(const std::string& before, const std::string& after,
                                        const std::vector<KeySet>& legal_keys);
 
-/// "bodies.arm.mass: 2 -> 20", at most ten, each after `before_each`, and how many more there are.
+/// Text "bodies.arm.mass: 2 -> 20" of at most ten changes, each after `before_each`, and the number of further ones.
 std::string changes_text(const std::vector<ValueChange>& changes, const std::string& before_each);
 
 }  // namespace tisserand::formats
