@@ -1,4 +1,4 @@
-// The words of off_axis_text().
+// Text of off_axis_text().
 #include "formats/sections/axis.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Whether the axes of a section are principal axes through centroid and shear centre, as some beams need.
+// Check for principal axes through centroid and shear centre, which some beams need.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace tisserand::formats {
 
-/// What keeps the section from being one whose y and z are principal axes and whose centroid and shear centre lie on
-/// the axis of the beam, in words and values; nothing for such a section. Tolerance 1e-9 of the section's own measures.
+/// Text and values of the first violated condition, or nothing. Conditions: y and z are principal axes, centroid and
+/// shear centre lie on the axis of the beam, shear is uncoupled, no rod. Tolerance 1e-9 of the section's own measures.
 std::optional<std::string> off_axis_text(const Section& section);
 
 }  // namespace tisserand::formats

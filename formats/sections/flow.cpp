@@ -1,4 +1,4 @@
-// Boundary integral equations of torsion and shear: panels, closed integrals, solution, and what follows from it.
+// Solves the boundary integral equations of torsion and shear: panels, closed integrals, solution, section constants.
 #include "formats/sections/flow.hpp"
 
 #include <algorithm>
@@ -22,14 +22,14 @@ constexpr std::array<double, nodes> gauss_point{-0.86113631159405257522, -0.3399
 constexpr std::array<double, nodes> gauss_weight{0.34785484513745385737, 0.65214515486254614263, 0.65214515486254614263,
                                                  0.34785484513745385737};
 
-/// middle + half t, t in [−1, 1], with the material on its left: the outward normal is −i half / |half|.
+/// Panel middle + half t, t in [−1, 1], with the material on its left. Its outward normal is −i half / |half|.
 struct Panel {
   Complex middle, half;
   Complex at(double t) const { return middle + half * t; }
   Complex normal() const { return Complex(0.0, -1.0) * half / std::abs(half); }
 };
 
-/// A corner: how far panels shrink towards it, and whether it disturbs the far sides.
+/// Corner of a ring: limit of the panel size there, and whether the corner is sharp.
 struct Corner {
   Complex place;
   double smallest = 0.0;  ///< length of the last panel
@@ -37,14 +37,14 @@ struct Corner {
 };
 
 struct Grading {
-  double opening = 2.0;      ///< a panel is at most this many distances to the nearest sharp corner long
-  double re_entrant = 0.03;  ///< smallest panel / nearest other side, where the field is singular
+  double opening = 2.0;      ///< longest panel / distance to the nearest sharp corner
+  double re_entrant = 0.03;  ///< smallest panel / nearest other side, at a singular corner
   double convex = 0.25;
 };
 
 using Polyline = std::vector<Complex>;
 
-/// Rings with the material on their left, scaled, about the centroid.
+/// Rings with the material on their left, scaled, relative to the centroid.
 std::vector<Polyline> oriented(const SectionPolygon& polygon, const Eigen::Vector2d& centroid, double scale) {
   std::vector<Polyline> rings;
   const auto add = [&](const Ring& ring, double sense) {
@@ -67,7 +67,7 @@ double distance(Complex p, Complex a, Complex b) {
   return std::abs(p - a - t * (b - a));
 }
 
-/// Distance of a corner from the sides that do not meet there.
+/// Distance of a corner to the sides that do not meet there.
 double feature_size(const std::vector<Polyline>& rings, std::size_t ring, std::size_t corner) {
   double nearest = no_limit;
   for (std::size_t r = 0; r < rings.size(); ++r)
@@ -80,7 +80,7 @@ double feature_size(const std::vector<Polyline>& rings, std::size_t ring, std::s
 }
 
 std::vector<Corner> corners_of(const std::vector<Polyline>& rings, std::size_t ring, const Grading& grading) {
-  constexpr double blunt = 0.35;  // turns below 20°: parts of a curve
+  constexpr double blunt = 0.35;  // corners below 20° belong to curves
   const Polyline& points = rings[ring];
   std::vector<Corner> corners;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -94,13 +94,13 @@ std::vector<Corner> corners_of(const std::vector<Polyline>& rings, std::size_t r
   return corners;
 }
 
-/// Corners that disturb far sides, and how many distances to the nearest of them a panel may be long.
+/// Sharp corners, and the longest panel relative to the distance to the nearest of them.
 struct Disturbance {
   std::vector<Corner> corners;
   double opening = 0.0;
 };
 
-/// Divides the piece from a to b (graded towards sharp ends) until it is short against its distance to sharp corners.
+/// Divides the piece from a to b, graded towards sharp ends, until it is short relative to its gap to sharp corners.
 void divide(const Corner& a, const Corner& b, const Disturbance& sharp, std::vector<Panel>& panels) {
   const Complex way = b.place - a.place;
   const double length = std::abs(way);
@@ -147,7 +147,7 @@ std::vector<Panel> make_panels(const std::vector<Polyline>& rings) {
   return panels;
 }
 
-/// Coefficients of the polynomials that are 1 at one Gauss point and 0 at the others: row k belongs to t^k.
+/// Coefficients of the polynomials that are 1 at one Gauss point and 0 at the others. Row k belongs to t^k.
 Eigen::Matrix4d lagrange_coefficients() {
   Eigen::Matrix4d vandermonde;
   for (int i = 0; i < nodes; ++i)
@@ -155,7 +155,7 @@ Eigen::Matrix4d lagrange_coefficients() {
   return vandermonde.inverse();
 }
 
-/// ∫t^k/(t − w) dt over [−1, 1], k = 0 .. 4: by recursion from log((w − 1)/(w + 1)), by its series far away.
+/// Integrals ∫t^k/(t − w) dt over [−1, 1], k = 0 .. 4, by recursion from log((w − 1)/(w + 1)), or by a series far away.
 std::array<Complex, nodes + 1> cauchy_integrals(Complex w) {
   std::array<Complex, nodes + 1> c{};
   if (std::norm(w) > 64.0) {
@@ -172,10 +172,10 @@ std::array<Complex, nodes + 1> cauchy_integrals(Complex w) {
 }
 
 struct PanelIntegrals {
-  Eigen::RowVector4d double_layer, single_layer;  ///< of t^k, k = 0 .. 3
+  Eigen::RowVector4d double_layer, single_layer;  ///< for t^k, k = 0 .. 3
 };
 
-/// ∫∂G/∂n t^k ds and ∫G t^k ds with G = −ln r/(2π), seen from x.
+/// Integrals ∫∂G/∂n t^k ds and ∫G t^k ds with G = −ln r/(2π), evaluated at x.
 PanelIntegrals integrate(const Panel& panel, Complex x, const Panel& own) {
   const bool on_panel = &panel == &own;
   const Complex w = (x - panel.middle) / panel.half;
@@ -192,10 +192,10 @@ PanelIntegrals integrate(const Panel& panel, Complex x, const Panel& own) {
   return result;
 }
 
-/// Columns: ω, h_y, h_z with ψ_y = h_y − y³/6, ψ_z = h_z − z³/6.
+/// Three functions in columns: ω, h_y, h_z with ψ_y = h_y − y³/6, ψ_z = h_z − z³/6.
 using Three = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// Normal derivatives of the three at a point of the boundary.
+/// Normal derivatives of the three functions at a point of the boundary.
 Eigen::RowVector3d fluxes(Complex x, Complex n) {
   const double y = x.real(), z = x.imag();
   return {z * n.real() - y * n.imag(), 0.5 * y * y * n.real(), 0.5 * z * z * n.imag()};
@@ -223,7 +223,7 @@ Boundary gauss_points(const std::vector<Panel>& panels) {
   return boundary;
 }
 
-/// Solves for the boundary values; ∮u ds = 0 takes the place of the free constant.
+/// Solves for the boundary values. The condition ∮u ds = 0 determines the free constant.
 void solve(const std::vector<Panel>& panels, Boundary& boundary) {
   const Eigen::Matrix4d lagrange = lagrange_coefficients();
   const Eigen::Index n = boundary.weight.size();
@@ -243,7 +243,7 @@ void solve(const std::vector<Panel>& panels, Boundary& boundary) {
   boundary.value = A.partialPivLu().solve(right);
 }
 
-/// ∮(u ∂q/∂n − q ∂u/∂n) ds = ∫u ∇²q dA for a harmonic u: column `u`, with q and its gradient given at every point.
+/// Area integral ∫u ∇²q dA = ∮(u ∂q/∂n − q ∂u/∂n) ds of the harmonic function in column `u`, with given q and gradient.
 template <class Function>
 double area_integral(const Boundary& boundary, int u, Function q_and_gradient) {
   double sum = 0.0;
@@ -262,7 +262,7 @@ struct Potential {
 Potential potential_of_y(double y, double) { return {y * y * y / 6.0, {0.5 * y * y, 0.0}}; }  // ∇²q = y
 Potential potential_of_z(double, double z) { return {z * z * z / 6.0, {0.0, 0.5 * z * z}}; }  // ∇²q = z
 
-/// ∫ψ_i x_j dA.
+/// Matrix of ∫ψ_i x_j dA.
 Eigen::Matrix2d shear_energies(const Boundary& boundary) {
   Eigen::Matrix2d E;
   E << area_integral(boundary, 1, potential_of_y), area_integral(boundary, 1, potential_of_z),

@@ -7,8 +7,8 @@
 
 namespace tisserand::formats {
 
-/// With Poisson's ratio 0 (a section does not know its material): then the stresses of shear are a gradient, energy and
-/// Cowper's shear coefficients agree, and the shear centre of Saint-Venant is that of Trefftz.
+/// Constants by Saint-Venant's theory with Poisson's ratio 0, since a section has no material. Then shear stresses are
+/// a gradient. Energy and Cowper's coefficients agree, and the shear centres of Saint-Venant and Trefftz too.
 struct SaintVenant {
   double torsion_constant = 0.0;                               ///< J
   Eigen::Vector2d shear_center = Eigen::Vector2d::Zero();      ///< from the centroid
@@ -19,10 +19,10 @@ struct SaintVenant {
 ///   torsion  ∇²ω = 0, ∂ω/∂n = z n_y − y n_z;  J = Iy + Iz − ∮ω ∂ω/∂n ds;
 ///   shear    ∇²ψ_y = −y, ∇²ψ_z = −z, ∂ψ/∂n = 0;  C = Q⁻¹ [∫ψ_i x_j dA] Q⁻¹, Q = [Iz Iyz; Iyz Iy];
 ///   centre   ∫(ω − z_s y + y_s z) y dA = 0, the same with z (Trefftz).
-/// With ψ = h + particular polynomial all unknowns are harmonic and every integral over the area becomes one over the
-/// sides. They are solved by collocation of Green's formula ½u + ∫∂G/∂n u ds = ∫G ∂u/∂n ds with cubic polynomials
-/// between four Gauss points per panel, whose integrals are closed; panels shrink towards corners. Relative error about
-/// 1e-5, also of J of walls as thin as 1/1000 of their length; spikes are beyond it (is_resolved()). Cost: 2 to 50 ms.
+/// With ψ = h + a particular polynomial, all unknowns are harmonic and area integrals become boundary integrals.
+/// Collocation of Green's formula ½u + ∫∂G/∂n u ds = ∫G ∂u/∂n ds uses cubic polynomials between four Gauss points per
+/// panel, with closed integrals. Panels shrink towards corners. Relative error about 1e-5, also of J of walls as thin
+/// as 1/1000 of their length, but not of spikes (is_resolved()). Cost: 2 to 50 ms.
 SaintVenant saint_venant(const SectionPolygon& polygon);
 
 }  // namespace tisserand::formats

@@ -1,4 +1,4 @@
-// Polynomials of third degree over triangles of a polygon.
+// Integrates polynomials of third degree over triangles of a polygon.
 #include "formats/sections/monosymmetry.hpp"
 
 #include <cmath>
@@ -13,14 +13,14 @@ using Eigen::Vector2d;
 
 double doubled_area(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// ∫p |p|² dA of the triangle 0, a, b, with the sign of its sense: p = λ a + μ b, ∫λ³ = 2 T/20, ∫λ² μ = 2 T/60.
+/// Signed integral ∫p |p|² dA of the triangle 0, a, b, with p = λ a + μ b, ∫λ³ = 2 T/20, ∫λ² μ = 2 T/60.
 Vector2d triangle_moment(const Vector2d& a, const Vector2d& b) {
   const double aa = a.squaredNorm(), bb = b.squaredNorm(), ab = a.dot(b);
   const Vector2d pure = a * aa + b * bb, mixed = 2.0 * ab * (a + b) + b * aa + a * bb;
   return doubled_area(a, b) * (pure / 20.0 + mixed / 60.0);
 }
 
-/// Of a ring about a point, positive for either sense.
+/// Third moments of a ring about a point, positive for either orientation.
 Vector2d ring_moment(const Ring& ring, const Vector2d& about) {
   Vector2d sum = Vector2d::Zero();
   double area = 0.0;
@@ -32,7 +32,7 @@ Vector2d ring_moment(const Ring& ring, const Vector2d& about) {
   return area < 0.0 ? Vector2d(-sum) : sum;
 }
 
-/// A straight wall as a rectangle about the centroid.
+/// Third moments of a straight wall, as a rectangle, about the centroid.
 Vector2d wall_moment(const Vector2d& from, const Vector2d& to, double thickness, const Vector2d& centroid) {
   const Vector2d along = (to - from).normalized(), half = 0.5 * thickness * Vector2d(-along.y(), along.x());
   return ring_moment({from - half, to - half, to + half, from + half}, centroid);

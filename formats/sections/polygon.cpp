@@ -1,4 +1,4 @@
-// Area moments and faults of polygons, and the Section that follows from them.
+// Area moments and faults of polygons, and the Section of a polygon.
 #include "formats/sections/polygon.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct Moments {
   double yy = 0.0, zz = 0.0, yz = 0.0;
 };
 
-/// Adds the ring with the weight `sign` whatever its sense, about `origin`.
+/// Adds the moments of the ring about `origin` with the weight `sign`, for either orientation.
 void add_ring(const Ring& ring, const Vector2d& origin, double sign, Moments& sum) {
   const double sense = signed_area(ring) < 0.0 ? -sign : sign;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -49,7 +49,7 @@ Moments moments_about(const SectionPolygon& polygon, const Vector2d& origin) {
   return sum;
 }
 
-/// Smallest distance between the segments ab and cd; 0 if they cross.
+/// Smallest distance between the segments ab and cd, or 0 if they cross.
 double segment_distance(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
   const auto side = [](const Vector2d& p, const Vector2d& q, const Vector2d& r) { return cross(q - p, r - p); };
   if (side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0) return 0.0;
@@ -72,7 +72,7 @@ bool inside(const Vector2d& p, const Ring& ring) {
 
 struct Side {
   Vector2d from, to;
-  std::size_t ring = 0, index = 0, count = 0;  ///< of its ring; number of sides of the ring
+  std::size_t ring = 0, index = 0, count = 0;  ///< position in its ring; number of sides of the ring
 };
 
 std::string point_text(const Vector2d& p) { return fmt::format("({:g}, {:g})", p.x(), p.y()); }
@@ -85,7 +85,7 @@ std::vector<Side> all_sides(const std::vector<const Ring*>& rings) {
   return sides;
 }
 
-/// Sides that touch or cross without being neighbours, or neighbours that fold back onto each other.
+/// Fault of sides that touch or cross without being neighbours, or of neighbours that fold back onto each other.
 std::optional<std::string> crossing(const std::vector<Side>& sides, double size) {
   for (std::size_t i = 0; i < sides.size(); ++i)
     for (std::size_t j = i + 1; j < sides.size(); ++j) {

@@ -1,4 +1,4 @@
-// Sections bounded by straight lines: from vertices to area moments, and through Saint-Venant's problems to a Section.
+// Sections bounded by straight lines: area moments of polygons, and their Section by Saint-Venant's theory.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace tisserand::formats {
 
-/// Corners (y, z) in order, not repeated at the end; either sense of turning.
+/// Corners (y, z) in order, in either orientation. The first one is not repeated at the end.
 using Ring = std::vector<Eigen::Vector2d>;
 
 struct SectionPolygon {
@@ -19,15 +19,15 @@ struct SectionPolygon {
   std::vector<Ring> holes;
 };
 
-/// Largest number of corners of a section, holes included: the boundary equations grow with its square.
+/// Largest number of corners of a section with its holes. The matrix of the boundary equations grows with its square.
 inline constexpr std::size_t largest_polygon = 200;
 
-/// What is wrong with it, or nothing: fewer than three corners, corners that coincide, sides that cross or touch, a
-/// hole that is not inside, more than `largest_polygon` corners.
+/// Fault of a polygon, or nothing: fewer than three corners, corners that coincide, sides that cross or touch, a hole
+/// that is not inside, more than `largest_polygon` corners.
 std::optional<std::string> polygon_fault(const SectionPolygon& polygon);
 
 /// Area, centroid (y, z), and second moments about the centroid, exact (Green's theorem; Steger, On the calculation of
-/// moments of polygons, report FGBV-96-05, TU Munich 1996). Holes are subtracted whatever their sense.
+/// moments of polygons, report FGBV-96-05, TU Munich 1996). Holes are subtracted for either orientation.
 struct AreaMoments {
   double area = 0.0;
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
@@ -37,16 +37,16 @@ struct AreaMoments {
 };
 AreaMoments area_moments(const SectionPolygon& polygon);
 
-/// All constants of the section, about its centroid: area moments exact; J, shear centre and shear compliance from
-/// saint_venant() of sections/flow.hpp. The polygon has no fault.
+/// Section with constants about its centroid: exact area moments; J, shear centre and shear compliance by
+/// saint_venant() of sections/flow.hpp. The polygon must have no fault.
 Section polygon_section(const SectionPolygon& polygon);
 
-/// Whether J and shear areas are positive and J is not below 1e-8 (Iy + Iz), where round-off decides about it: false
-/// for spikes and walls thinner than about 1/5000 of their length.
+/// Whether J and shear areas are positive and J is at least 1e-8 (Iy + Iz), above round-off. False for spikes and walls
+/// thinner than about 1/5000 of their length.
 bool is_resolved(const Section& section);
 
-/// Sets Iyz, shear coupling and shear centre to zero where they are round-off (1e-9 of what they are measured with), so
-/// that symmetric sections are exactly symmetric.
+/// Sets Iyz, shear coupling and shear centre to zero if they are round-off (1e-9 of their scale), so that symmetric
+/// sections are exactly symmetric.
 void drop_round_off(Section& section);
 
 }  // namespace tisserand::formats

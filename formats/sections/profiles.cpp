@@ -1,4 +1,4 @@
-// Corners of the shapes of sections/profiles.hpp.
+// Corners and limits of the shapes of sections/profiles.hpp.
 #include "formats/sections/profiles.hpp"
 
 #include <algorithm>
@@ -64,7 +64,7 @@ Ring cross_ring(const FlangedSizes& s) {
   return {{w, -h}, {w, -f}, {b, -f}, {b, f}, {w, f}, {w, h}, {-w, h}, {-w, f}, {-b, f}, {-b, -f}, {-w, -f}, {-w, -h}};
 }
 
-/// Sums that must stay below an outer measure: (indices of the summands, index of the measure).
+/// Sizes whose sum must be less than an outer measure, as indices.
 struct Limit {
   std::vector<std::size_t> parts;
   std::size_t whole;

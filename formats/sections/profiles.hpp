@@ -1,4 +1,4 @@
-// Rolled and welded shapes: from the sizes that a part gives to a polygon and its constants.
+// Rolled and welded shapes: their polygon and constants from the sizes in a part.
 #pragma once
 
 #include <optional>
@@ -10,27 +10,27 @@
 
 namespace tisserand::formats {
 
-/// A shape bounded by straight lines; y to the right, z up. Sizes in the order of `keys`, all outer measures.
+/// Shape bounded by straight lines, y to the right, z up. All sizes are outer measures, in the order of `keys`.
 struct Profile {
   std::string_view shape;
   std::vector<std::string_view> keys;
-  std::string_view meaning;  ///< of the keys, with an example, for PART.md
+  std::string_view meaning;  ///< meaning of the keys with an example, for PART.md
 };
 const std::vector<Profile>& profiles();
 
-/// The profile of that word, or null.
+/// Profile of that word, or null.
 const Profile* find_profile(std::string_view shape);
 
-/// What is wrong with the sizes ("web 0.03 is not less than width 0.02"), or nothing.
+/// Fault of the sizes ("web 0.03 is not less than width 0.02"), or nothing.
 std::optional<std::string> profile_fault(std::string_view shape, const std::vector<double>& sizes);
 
-/// Corners of the shape, its lower left corner near the origin. The sizes have no fault.
+/// Polygon of the shape, with its lower left corner near the origin. The sizes must have no fault.
 SectionPolygon profile_polygon(std::string_view shape, const std::vector<double>& sizes);
 
-/// Constants by polygon_section(); `shape` and `sizes` are remembered.
+/// Section with constants by polygon_section(), and with `shape` and `sizes` stored.
 Section profile_section(std::string_view shape, const std::vector<double>& sizes);
 
-/// The shapes of sections/shapes.hpp by word and sizes as well as profiles: what tapered beams need.
+/// Section of a profile or of a shape of sections/shapes.hpp by word and sizes, for tapered beams.
 Section shape_section(std::string_view shape, const std::vector<double>& sizes);
 
 }  // namespace tisserand::formats

@@ -1,4 +1,4 @@
-// Sections by constants, materials, and the checks of both.
+// Reads sections by constants and materials, and checks both.
 #include "formats/sections/reader.hpp"
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace tisserand::formats {
 namespace {
 
-/// Two numbers of the key `key`, [y, z]; both stay as they are without the key.
+/// Reads [y, z] of the key `key`. Without the key both are unchanged.
 void read_pair(const MapReader& map, std::string_view key, double& y, double& z) {
   const YamlNode* entry = map.find(key);
   if (entry == nullptr) return;
@@ -30,7 +30,7 @@ Section read_constants(const Context& context, const YamlNode& node, const std::
   return section;
 }
 
-/// EA, EI, ... take the places of A, I, ...; see struct Section.
+/// Reads a section by stiffness: EA, EI, ... replace A, I, ...; see struct Section.
 Section read_by_stiffness(const Context& context, const YamlNode& node, const YamlNode& values,
                           const std::string& prefix) {
   const MapReader map(context, node, "section_by_stiffness", prefix);

@@ -10,22 +10,22 @@
 
 namespace tisserand::formats {
 
-/// Lists of materials, sections by constants and the shapes, and types that they refer to.
+/// Lists of the fields of materials, sections by constants and shapes, and the types that they refer to.
 std::vector<KeySet> section_key_sets();
 std::vector<NamedType> section_types();
 
-/// `context` names the entry; `prefix` precedes the keys in findings when the map stands inside another entry.
+/// Reads a material. `context` names the entry; `prefix` precedes its keys in findings (map inside another entry).
 Material read_material(const Context& context, const YamlNode& node, const std::string& prefix);
 
-/// By constants, by `shape` or by `stiffness`. Sizes that contradict each other are errors here, since a Section no
-/// longer knows them.
+/// Reads a section by constants, by `shape` or by `stiffness`. Contradictory sizes are reported here, since a Section
+/// does not store them.
 Section read_section(const Context& context, const YamlNode& node, const Units& units, const std::string& prefix);
 
-/// The top-level maps `materials` and `sections`.
+/// Read the top-level maps `materials` and `sections`.
 std::vector<Material> read_materials(const MapReader& map);
 std::vector<Section> read_sections(const MapReader& map, const Units& units);
 
-/// Positive finite constants, -1 < nu < 0.5, Iy + Iz = polar moment, shear areas both or none.
+/// Check for positive finite constants, -1 < nu < 0.5, Iy + Iz = polar moment, and both shear areas or none.
 void check_material(const Material& material, const Subject& subject);
 void check_section(const Section& section, const Subject& subject);
 

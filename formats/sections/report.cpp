@@ -1,4 +1,4 @@
-// Words and numbers of section_report().
+// Text of section_report().
 #include "formats/sections/report.hpp"
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace tisserand::formats {
 namespace {
 
 std::string line(const std::string& words, const std::string& symbol, double value, const std::string& unit) {
-  // + 0.0: no minus zero
+  // Adding 0.0 avoids a negative zero.
   return fmt::format("  {:<34} {:<6} {:>13.6g}{}\n", words, symbol, value + 0.0, after_number(unit));
 }
 
@@ -29,7 +29,7 @@ std::string section_by_stiffness(const Section& s, const Units& units) {
   return text + line("rotary inertia per length, about z", "", s.rotary_inertia_z, unit_label(units, 1, 1, 0));
 }
 
-/// Wagner's β, or why there is none.
+/// Lines with Wagner's β, or the reason why it is unknown.
 std::string monosymmetry_lines(const Section& s, const std::string& unit) {
   if (!third_moments(s)) return "  Wagner's beta: not known of a section that is given by constants\n";
   const Monosymmetry beta = known_monosymmetry(s);
@@ -69,7 +69,7 @@ PrincipalMoments principal_moments(const Section& section) {
   const double mean = 0.5 * (section.second_moment_y + section.second_moment_z);
   const double half = 0.5 * (section.second_moment_y - section.second_moment_z);
   const double radius = std::hypot(half, section.second_moment_yz);
-  // I(φ) = Iy cos²φ + Iz sin²φ − 2 Iyz sin φ cos φ about the axis turned by φ from y.
+  // I(φ) = Iy cos²φ + Iz sin²φ − 2 Iyz sin φ cos φ about the axis rotated by φ from y.
   const double angle = radius > 0.0 ? 0.5 * std::atan2(-section.second_moment_yz, half) : 0.0;
   return {mean + radius, mean - radius, angle};
 }

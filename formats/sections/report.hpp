@@ -1,4 +1,4 @@
-// The constants of sections as a table to read: what `reducer section part.yaml` prints.
+// Constants of sections as a text table, which `reducer section part.yaml` prints.
 #pragma once
 
 #include <string>
@@ -9,8 +9,7 @@
 
 namespace tisserand::formats {
 
-/// Principal second moments I1 >= I2 about the centroid, and the angle in radians, in (−π/2, π/2], from y to the axis
-/// about which I1 is measured.
+/// Principal second moments I1 >= I2 about the centroid, and the angle from y to the axis of I1 [rad], in (−π/2, π/2].
 struct PrincipalMoments {
   double larger = 0.0;
   double smaller = 0.0;
@@ -18,7 +17,7 @@ struct PrincipalMoments {
 };
 PrincipalMoments principal_moments(const Section& section);
 
-/// One block of lines per section: name, shape and sizes, then every constant with its unit, six digits.
+/// Text with one block of lines per section: name, shape and sizes, then every constant with its unit, six digits.
 std::string section_report(const std::vector<Section>& sections, const Units& units);
 
 }  // namespace tisserand::formats

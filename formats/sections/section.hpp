@@ -15,14 +15,14 @@ struct Material {
   std::string where;
 };
 
-/// What stands for the material of a section that is given by stiffness: E = G = 1, no density.
+/// Substitute material of a section given by stiffness: E = G = 1, no density.
 inline Material unit_material(const std::string& where) { return {"", 1.0, -0.5, 0.0, where}; }
 
-/// Constants of a section in its local axes: x along the beam, y and z across. All moments are about the centroid.
-/// Shear areas 0: no shear deformation (Euler-Bernoulli). Iy = Iz = 0: a rod, which bends without resistance. The
-/// fields below `where` are zero for a section whose axes are principal and whose centroid and shear centre lie on the
-/// axis. By stiffness: all constants are multiplied by E or G already (area is EA, shear areas are GA, torsion_constant
-/// is GJ), the material is unit_material(), and mass and rotary inertia are given.
+/// Constants of a section in its local axes: x along the beam, y and z across it. Moments are about the centroid. Shear
+/// areas 0: no shear deformation (Euler-Bernoulli). Iy = Iz = 0: a rod without bending stiffness. Fields below `where`
+/// are zero if the axes are principal and centroid and shear centre lie on the axis. By stiffness: constants include E
+/// or G (area is EA, shear areas are GA, torsion_constant is GJ), mass and rotary inertia are given, and the material
+/// is unit_material().
 struct Section {
   std::string name;
   double area = 0.0;
@@ -34,17 +34,17 @@ struct Section {
   double shear_area_z = 0.0;
   std::string where;
   double second_moment_yz = 0.0;  ///< Iyz = ∫y z dA
-  double centroid_y = 0.0;        ///< of the centroid from the axis of the beam (the line through its ends)
+  double centroid_y = 0.0;        ///< from the axis of the beam (the line through its ends) to the centroid
   double centroid_z = 0.0;
-  double shear_center_y = 0.0;  ///< of the shear centre from the centroid
+  double shear_center_y = 0.0;  ///< from the centroid to the shear centre
   double shear_center_z = 0.0;
   double shear_coupling = 0.0;     ///< c [1/area]: G γ = [1/A_sy c; c 1/A_sz] Q
-  double warping_constant = 0.0;   ///< about the shear centre; for reports, no element uses it
-  std::string shape = {};          ///< word of PART.md with which `sizes` made the constants; empty: by constants
+  double warping_constant = 0.0;   ///< about the shear centre; for reports only
+  std::string shape = {};          ///< word of PART.md for the shape with `sizes`; empty: by constants
   std::vector<double> sizes = {};  ///< in the order of the table in PART.md
   /// EA, GA, EI and GJ stand for the constants, with E = G = 1. A made-up material would tie the rotary inertia to EI.
   bool by_stiffness = false;
-  double mass_per_length = 0.0;   ///< of a section by stiffness, as the next two: rotary inertias per length
+  double mass_per_length = 0.0;   ///< by stiffness only, like the rotary inertias per length below
   double rotary_inertia_y = 0.0;  ///< about y: ∫ρ z² dA
   double rotary_inertia_z = 0.0;  ///< about z: ∫ρ y² dA
 };

@@ -1,4 +1,4 @@
-// Sizes, corners and walls of the shapes of sections.
+// Reads sizes, corners and walls of the shapes of sections.
 #include "formats/sections/shape_reader.hpp"
 
 #include <cmath>
@@ -26,7 +26,7 @@ std::string with_unit(double value, const Units& units) {
   return fmt::format("{:g}{}", value, after_number(unit_label(units, 1, 0, 0)));
 }
 
-/// A size of a shape; nothing after an error.
+/// A size of a shape, or nothing after an error.
 std::optional<double> size(const MapReader& map, std::string_view key, const Units& units) {
   const double value = map.number(key);
   if (std::isnan(value)) return std::nullopt;
@@ -79,7 +79,7 @@ Section read_rod(const MapReader& map, const Units& units) {
   return section;
 }
 
-/// Where the axis of the beam runs through the section; `origin` is for shapes whose coordinates the user gives.
+/// Point of the section on the axis of the beam. `origin` is for shapes with coordinates given by the user.
 enum class AxisPoint { centroid, shear_center, origin };
 
 void move_axis(AxisPoint axis, const Eigen::Vector2d& centroid, Section& section) {
@@ -102,7 +102,7 @@ constexpr Choice<AxisPoint> axis_choices[] = {
 constexpr Choice<AxisPoint> profile_axis_choices[] = {{"centroid", AxisPoint::centroid},
                                                       {"shear_center", AxisPoint::shear_center}};
 
-/// Records an error if the section is too thin for its constants to be found.
+/// Reports an error if the section is too thin to compute its constants. Returns whether it is not.
 bool resolved(const MapReader& map, const Section& section) {
   if (is_resolved(section)) return true;
   map.fail("parts of the section are too thin or too small against the whole for its torsion constant to be found",
@@ -129,7 +129,7 @@ Section read_profile(const MapReader& map, const Profile& profile, const Units& 
   return section;
 }
 
-/// Points [y, z] in a list; nothing after an error.
+/// Points [y, z] of a list, or nothing after an error.
 std::optional<Ring> read_ring(const Context& context, const YamlNode& node, const std::string& what) {
   if (node.kind != YamlKind::sequence) {
     context.fail(node.place, what + " is not a list of points", "write [[0, 0], [0.1, 0], [0, 0.1]]");

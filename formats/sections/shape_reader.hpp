@@ -1,4 +1,4 @@
-// Sections given by `shape`: from the YAML entry to constants.
+// Reads sections given by `shape` and computes their constants.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace tisserand::formats {
 
-/// One key set per shape, "section_circle" and so on; PART.md describes them.
+/// Key sets of the shapes, "section_circle" and so on, which PART.md describes.
 std::vector<KeySet> shape_key_sets();
 
-/// `shape` is the value of the key of that name in `node`. After an error, which is recorded, the section is empty.
+/// Section by its shape. `shape`: value of that key in `node`. After a reported error the section is empty.
 Section read_shape(const Context& context, const YamlNode& node, const YamlNode& shape, const Units& units,
                    const std::string& prefix);
 

@@ -12,7 +12,7 @@ double tube_shear_factor(double m) {
   return 6.0 * square / (7.0 * square + 20.0 * m * m);
 }
 
-/// For shear along the side `depth` of the middle line.
+/// Shear factor A_s/A for shear along the side `depth` of the middle line.
 double box_shear_factor(double depth, double breadth) {
   const double n = breadth / depth, n3 = n * n * n;
   return 10.0 * (1.0 + 3.0 * n) * (1.0 + 3.0 * n) /

@@ -1,4 +1,4 @@
-// Ranges of common structural materials, and the units in which a number would lie in them.
+// Usual ranges of structural materials, and the units in which a number would lie in them.
 #include "formats/sections/substance.hpp"
 
 #include <cmath>
@@ -24,8 +24,8 @@ const Usual usual_density{
     {{"kg/m^3", 1.0}, {"t/mm^3", 1e12}, {"g/cm^3", 1e3}, {"kg/mm^3", 1e9}, {"lb/in^3", 27679.905}}, 100.0, 23000.0};
 const Usual usual_modulus{{{"Pa", 1.0}, {"MPa", 1e6}, {"GPa", 1e9}, {"psi", 6894.757}}, 1e9, 1.3e12};
 
-/// "t/mm^3 (here 7.85e-09)": the unit in which a number lies in the usual range, and what it is in units of `own`;
-/// empty if there is none or if it is that of `own`.
+/// Text "t/mm^3 (in units of the part 7.85e-09)": unit in which a number is in the usual range, and its value in units
+/// of `own`. Empty if there is none, or if it is that of `own`.
 std::string likely_unit(double value, double own, const Usual& usual, const std::string& owner) {
   for (const NamedUnit& unit : usual.units)
     if (value * unit.factor >= usual.least && value * unit.factor <= usual.most)

@@ -1,4 +1,4 @@
-// Networks of walls: potentials of torsion and shear at the nodes, integrals along the walls.
+// Networks of walls: potentials of torsion and shear at the nodes, and integrals along the walls.
 #include "formats/sections/walls.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 struct Wall {
-  std::size_t from = 0, to = 0;  ///< nodes
+  std::size_t from = 0, to = 0;  ///< indices of nodes
   double length = 0.0, thickness = 0.0;
   Vector2d direction = Vector2d::Zero();
 };
@@ -33,7 +33,7 @@ double extent(const std::vector<WallLine>& lines) {
   return size;
 }
 
-/// Points closer than 1e-6 of the extent are one node.
+/// Network of the walls. Points closer than 1e-6 of the extent are one node.
 Network network_of(const std::vector<WallLine>& lines) {
   Network network;
   const double tolerance = 1e-6 * extent(lines);
@@ -65,7 +65,7 @@ bool connected(const Network& network) {
   return std::all_of(parent.begin(), parent.end(), [&](std::size_t i) { return root(i) == root(0); });
 }
 
-/// ∫t x xᵀ ds along the middle lines.
+/// Second moments ∫t x xᵀ ds along the middle lines.
 Matrix2d line_moments(const Network& network) {
   Matrix2d Q = Matrix2d::Zero();
   for (const Wall& wall : network.walls) {
@@ -76,7 +76,7 @@ Matrix2d line_moments(const Network& network) {
   return Q;
 }
 
-/// Moves the nodes so that the centroid is the origin; returns the area.
+/// Moves the origin to the centroid, and returns the area.
 double move_to_centroid(Network& network, Vector2d& centroid) {
   double area = 0.0;
   centroid.setZero();
@@ -89,13 +89,13 @@ double move_to_centroid(Network& network, Vector2d& centroid) {
   return area;
 }
 
-/// h = y z' − z y' of a wall: distance of its line from the centroid.
+/// Signed distance h = y z' − z y' of a wall's line from the centroid.
 double arm(const Network& network, const Wall& wall) {
   const Vector2d& p = network.nodes[wall.from];
   return p.x() * wall.direction.y() - p.y() * wall.direction.x();
 }
 
-/// Columns: ω, ψ_y, ψ_z at the nodes; ω without its mean.
+/// Potentials at the nodes in columns: ω, ψ_y, ψ_z. ω has mean 0.
 using Potentials = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
 Potentials solve(const Network& network) {
@@ -114,7 +114,7 @@ Potentials solve(const Network& network) {
     load.row(b).tail<2>() += m * (network.nodes[wall.from] + 2.0 * network.nodes[wall.to]).transpose();
     area[a] += 3.0 * m, area[b] += 3.0 * m;
   }
-  const double unit = K.diagonal().maxCoeff();  // the free constant is fixed by Σ area u = 0
+  const double unit = K.diagonal().maxCoeff();  // Σ area u = 0 determines the free constant
   K += unit / area.squaredNorm() * area * area.transpose();
   Potentials u = K.ldlt().solve(load);
   const Eigen::RowVector3d mean = area.transpose() * u / area.sum();
@@ -122,7 +122,7 @@ Potentials solve(const Network& network) {
   return u;
 }
 
-/// ∫t x ω ds.
+/// Integral ∫t x ω ds.
 Vector2d warping_moments(const Network& network, const Potentials& u) {
   Vector2d sum = Vector2d::Zero();
   for (const Wall& wall : network.walls) {
@@ -144,8 +144,8 @@ double torsion_constant(const Network& network, const Potentials& u) {
   return J;
 }
 
-/// ∫t ψ_i' ψ_j' ds = ∫t x_i ψ_j ds: the values at the nodes, and between them −ψ'' = x with x linear, whose energy for
-/// unit values at one end, at either end is length³ (1/45, 7/360).
+/// Integral ∫t ψ_i' ψ_j' ds = ∫t x_i ψ_j ds, by the values at nodes and by −ψ'' = x between them, with x linear. The
+/// energy of the latter is length³/45 for unit values at the same end, 7 length³/360 at opposite ends.
 Matrix2d shear_energies(const Network& network, const Potentials& u) {
   Matrix2d E = Matrix2d::Zero();
   for (const Wall& wall : network.walls) {
@@ -159,7 +159,7 @@ Matrix2d shear_energies(const Network& network, const Potentials& u) {
   return E;
 }
 
-/// ∫t ω_s² ds, ω_s = ω − z_s y + y_s z.
+/// Integral ∫t ω_s² ds, ω_s = ω − z_s y + y_s z.
 double warping_constant(const Network& network, const Potentials& u, const Vector2d& center) {
   double sum = 0.0;
   const auto at = [&](std::size_t node) {

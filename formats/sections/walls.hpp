@@ -1,4 +1,4 @@
-// Thin-walled sections given by the middle lines of their walls: open, closed, with any number of cells.
+// Thin-walled sections given by the middle lines of their walls: open or closed, with any number of cells.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace tisserand::formats {
 
-/// A line of straight walls of one thickness through points (y, z). A closed line repeats its first point. Lines are
-/// joined where they share a point.
+/// Line of straight walls with one thickness through points (y, z). A closed line repeats its first point. Lines are
+/// joined at common points.
 struct WallLine {
   Ring points;
   double thickness = 0.0;
@@ -19,24 +19,23 @@ struct WallLine {
 /// Largest number of straight walls of a section.
 inline constexpr std::size_t largest_wall_count = 500;
 
-/// What is wrong with the walls, or nothing: no wall, a wall without length or thickness, walls that are not connected,
-/// all on one straight line (then a rectangle is meant), more than `largest_wall_count`.
+/// Fault of the walls, or nothing: no wall, a wall without length or thickness, unconnected walls, all walls on one
+/// straight line (better a rectangle), more than `largest_wall_count`.
 std::optional<std::string> walls_fault(const std::vector<WallLine>& lines);
 
-/// (y, z) in the coordinates of the points.
+/// Centroid (y, z) in the coordinates of the points.
 Eigen::Vector2d walls_centroid(const std::vector<WallLine>& lines);
 
-/// Constants by the theory of thin walls, about the centroid, Poisson's ratio 0. Along a wall of thickness t, s from
-/// point to point, the warping functions of sections/flow.hpp depend on s alone, and the flow t dω/ds ... is constant
-/// for torsion: they are the potentials of a network whose conductances are t/length, solved exactly by values at its
-/// nodes.
+/// Section with constants by the theory of thin walls, about the centroid, Poisson's ratio 0. Along a wall of thickness
+/// t, the warping functions of sections/flow.hpp depend on the arc length s alone. The flow t dω/ds ... is constant for
+/// torsion. So the functions are potentials of a network with conductances t/length, solved exactly at its nodes.
 ///   torsion: flow t (ω' + h), h = y z' − z y'; J = ∫t (ω' + h)² ds + Σ length t³/3: Bredt for cells of any number,
 ///            the sum for open walls (Timoshenko and Goodier, Theory of Elasticity, 3rd ed., sections 108 and 115);
 ///   shear:   flow t ψ', (t ψ')' = −t x_i: the shear flow VQ/I with its redundant part in cells; compliance and shear
 ///            centre as in sections/flow.hpp ([Pil02] chapter 6 in its thin-walled form);
 ///   warping constant ∫t ω_s² ds about the shear centre.
-/// Second moments are those of the walls as rectangles, length t³/12 included; corners are counted as the middle lines
-/// cross. walls_fault() is empty.
+/// Second moments are those of the walls as rectangles, with length t³/12. Each wall ends where middle lines meet,
+/// without correction of corners. walls_fault() must be empty.
 Section walls_section(const std::vector<WallLine>& lines);
 
 }  // namespace tisserand::formats

@@ -1,4 +1,4 @@
-// JSON Schemas from lists of fields.
+// Generates JSON Schemas from lists of fields.
 #include <cctype>
 #include <set>
 
@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 Json reference(std::string_view name) { return {{"$ref", fmt::format("#/$defs/{}", name)}}; }
 
-/// Reads the notation of Field::type.
+/// Parser of the notation of Field::type.
 class TypeReader {
  public:
   TypeReader(std::string_view text, const std::set<std::string_view>& names, bool parameters)
@@ -29,7 +29,7 @@ class TypeReader {
  private:
   Json either() {
     Json alternatives = Json::array(), words = Json::array();
-    bool stands_for_value = false;  // numbers, choices and lists; maps and plain texts say themselves what they take
+    bool stands_for_value = false;  // numbers, choices, lists; not maps and plain texts
     do {
       skip_blanks();
       const char first = peek();
@@ -125,7 +125,7 @@ class TypeReader {
   std::string identifier() {
     return span([](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
   }
-  /// A number; the two points of a range do not belong to it.
+  /// Reads a number. The two points of a range do not belong to it.
   std::string digits() {
     return span([this](unsigned char c) { return std::isdigit(c) != 0 || c == '-' || (c == '.' && !starts("..")); });
   }
@@ -142,7 +142,7 @@ std::string description(const Field& field) {
   return std::string(field.meaning) + (says_default ? fmt::format(" (default: {})", without) : "");
 }
 
-/// The words of a choice in the notation of types.
+/// Type of a field in the notation of types; for a choice, its words.
 std::string type_of_field(const Field& field) {
   std::string text(field.type);
   if (!text.empty()) return text;
@@ -150,7 +150,7 @@ std::string type_of_field(const Field& field) {
   return text;
 }
 
-/// One line per key and per definition, whatever its length: an editor reads it, and differences are easy to read.
+/// Writes one line per key and per definition, so that differences between versions are easy to read.
 void write(const Json& json, const std::string& indent, bool open, std::string& text) {
   if (!json.is_structured()) {
     text += json.dump();

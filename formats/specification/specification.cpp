@@ -1,4 +1,4 @@
-// Tables of the pages.
+// Generates the tables of the pages.
 #include "formats/specification/specification.hpp"
 
 #include <algorithm>

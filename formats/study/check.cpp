@@ -1,4 +1,4 @@
-// Names and references of a study.
+// Checks names and references of a study.
 #include "formats/study/check.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ bool is_used(const StudyAxis& axis, const StudySeries& series) {
          std::ranges::any_of(series.parts, [&](const StudyPart& part) { return std::ranges::any_of(part.set, uses); });
 }
 
-/// Ranges of numbers.
+/// Checks ranges of numbers.
 void check_numbers(const Study& study, Faults& faults) {
   const auto positive = [&](const std::string& entry, const char* key, double value) {
     if (value <= 0.0)

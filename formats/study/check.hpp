@@ -1,4 +1,4 @@
-// Findings in a study beyond the types of its values.
+// Checks of a study beyond the types of its values.
 #pragma once
 
 #include "formats/study/study.hpp"
@@ -6,7 +6,7 @@
 
 namespace tisserand::formats {
 
-/// Names that refer to nothing, axes that nothing uses, what is missing.
+/// Finds names without definition, unused axes and missing entries.
 void find_faults(const Study& study, Faults& faults);
 
 }  // namespace tisserand::formats

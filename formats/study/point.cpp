@@ -1,4 +1,4 @@
-// Values of axes in the place of their names.
+// Replaces names of axes by their values.
 #include "formats/scene/expand/parameters.hpp"
 #include "formats/study/study.hpp"
 #include "formats/yaml/emit.hpp"
@@ -6,7 +6,7 @@
 namespace tisserand::formats {
 namespace {
 
-/// $axis and ${formula} in one value.
+/// The value with $axis and ${formula} replaced.
 YamlNode replaced(const Study& study, const YamlNode& value, const StudyPoint& point) {
   ParameterScope scope(nullptr);
   for (const auto& [name, node] : point) {

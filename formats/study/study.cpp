@@ -1,4 +1,4 @@
-// study.yaml to the struct Study.
+// Reads study.yaml into the struct Study.
 #include "formats/study/study.hpp"
 
 #include <algorithm>
@@ -14,13 +14,13 @@ namespace {
 
 constexpr Choice<StudyTiming> timings[] = {{"alone", StudyTiming::alone}, {"together", StudyTiming::together}};
 
-/// The file of a key, relative to the folder of the study.
+/// Path of the file of a key, resolved from the folder of the study.
 std::string file_of(const MapReader& map, std::string_view key) {
   const std::string name = map.text(key);
   return name.empty() ? name : (map.context().reader.folder() / name).lexically_normal().string();
 }
 
-/// Entries of a map from paths or names; a key given twice is an error.
+/// Entries of a map from paths or names. A duplicate key is an error.
 std::vector<const YamlNode*> pairs(const MapReader& map, std::string_view key) {
   return map.entries(key, std::string(key));
 }

@@ -1,4 +1,4 @@
-// study.yaml: which runs show what accuracy costs, and how their errors are measured (formats/STUDY.md).
+// study.yaml: runs that compare accuracy with cost, and the measures of their errors (formats/STUDY.md).
 #pragma once
 
 #include <map>
@@ -13,13 +13,13 @@
 
 namespace tisserand::formats {
 
-/// A setting with its value as it stands in the file: $axis and ${formula} are replaced for each run.
+/// Setting with its value as in the file. $axis and ${formula} are replaced for each run.
 struct StudySetting {
   std::string path;
   YamlNode value;
 };
 
-/// What is varied. A name with a point is itself the path that is set.
+/// Varied quantity. A name with a point is itself the path that is set.
 struct StudyAxis {
   std::string name;
   std::vector<YamlNode> values;  ///< from coarse to fine
@@ -28,7 +28,7 @@ struct StudyAxis {
   bool sets_path() const { return name.find('.') != std::string::npos; }
 };
 
-/// A part that is reduced anew for each of its settings.
+/// Part that is reduced for each of its settings.
 struct StudyPart {
   std::string name;
   std::string file;             ///< resolved path of the part file
@@ -37,15 +37,15 @@ struct StudyPart {
   std::string where;
 };
 
-/// A scene with all combinations of its axes.
+/// Scene with all combinations of its axes.
 struct StudySeries {
   std::string name;
   std::string scene;              ///< resolved path
-  std::string analysis;           ///< one of the scene's; empty: its only one
-  std::vector<StudyAxis> axes;    ///< own ones, then those of the study
-  std::vector<StudySetting> set;  ///< those of the study, then own ones
+  std::string analysis;           ///< analysis of the scene; empty: its only one
+  std::vector<StudyAxis> axes;    ///< axes of the series, then those of the study
+  std::vector<StudySetting> set;  ///< settings of the study, then those of the series
   std::vector<StudyPart> parts;
-  std::map<std::string, YamlNode> channels;  ///< quantity -> channel, where it differs from the study's
+  std::map<std::string, YamlNode> channels;  ///< quantity -> channel, if it differs from the study's
   std::string where;
 };
 
@@ -53,12 +53,12 @@ struct StudyQuantity {
   std::string name;
   YamlNode channel;
   ErrorNorm norm = ErrorNorm::max;
-  std::optional<double> from, to;  ///< instants [time of the scene]; absent: of the whole run
-  std::optional<double> scale;     ///< errors are divided by it; absent: by the size of the reference
+  std::optional<double> from, to;  ///< instants [time of the scene]; absent: whole run
+  std::optional<double> scale;     ///< divisor of errors; absent: size of the reference
   std::string where;
 };
 
-/// A run against which others are measured: an axis without a value has its last one.
+/// Reference run. An axis without a value has its last one.
 struct StudyRun {
   std::string series;
   std::map<std::string, YamlNode> at;
@@ -68,43 +68,43 @@ struct StudyRun {
 
 struct StudyReference {
   std::string file;                            ///< resolved path of CSV or results; empty: runs
-  std::string source;                          ///< where the file comes from
+  std::string source;                          ///< source of the file
   std::string time;                            ///< column of CSV
   std::map<std::string, std::string> columns;  ///< quantity -> column of CSV, or channel of results
-  std::vector<StudyRun> runs;                  ///< one, or two that must agree; empty without file: the finest
-  double agree = 0.01;                         ///< largest error of one against the other
+  std::vector<StudyRun> runs;                  ///< one run, or two that must agree; empty without file: the finest
+  double agree = 0.01;                         ///< largest error of one run relative to the other
 };
 
 enum class StudyTiming { alone, together };
 
 struct Study {
   std::string name;
-  std::string file;  ///< path it was read from
+  std::string file;  ///< path of the study
   std::vector<StudySeries> series;
   std::vector<StudyQuantity> quantities;
   StudyReference reference;
-  std::string along;  ///< the axis that connects the points of a line; empty: the last one of each series
+  std::string along;  ///< axis that connects the points of a line; empty: the last one of each series
   StudyTiming timing = StudyTiming::alone;
-  double within = 0.05;     ///< relative half width to which the median of the times must be known
-  int repeats = 9;          ///< most runs of one setting
-  double run_budget = 0.0;  ///< [s] by the clock; 0: none
+  double within = 0.05;     ///< required relative half width of the interval of the median time
+  int repeats = 9;          ///< largest number of runs of one setting
+  double run_budget = 0.0;  ///< limit of elapsed time [s]; 0: none
   YamlDocument document;    ///< for places of messages
 };
 
 /// Values of the axes of one run, by name.
 using StudyPoint = std::map<std::string, YamlNode>;
 
-/// The settings of a series at a point, axes replaced. Throws Error with the place of a name that is no axis.
+/// Settings of a series at a point, with axes replaced. Throws Error with the place of a name that is no axis.
 std::vector<Override> settings_at(const Study& study, const StudySeries& series, const StudyPoint& point);
 std::vector<Override> settings_at(const Study& study, const std::vector<StudySetting>& set, const StudyPoint& point);
-/// The channel of a quantity in a series at a point.
+/// Channel of a quantity in a series at a point.
 std::string channel_at(const Study& study, const StudySeries& series, const StudyQuantity& quantity,
                        const StudyPoint& point);
 
-/// Reads and checks: names, references, axes that nothing uses. Throws all errors together.
+/// Reads and checks a study: names, references, unused axes. Throws all errors together.
 Study read_study(const std::string& path);
 
-/// The lists of fields of study.yaml and the types that they name.
+/// Lists of the fields of study.yaml and the types that they refer to.
 std::vector<KeySet> study_key_sets();
 std::vector<NamedType> study_types();
 

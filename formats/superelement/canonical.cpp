@@ -1,4 +1,4 @@
-// Congruence to the canonical form and the cut of modes without splitting double frequencies.
+// Congruence to the canonical form, and the cut of modes without splitting clusters of frequencies.
 #include "formats/superelement/canonical.hpp"
 
 #include <Eigen/Cholesky>
@@ -9,9 +9,9 @@
 namespace tisserand::formats {
 namespace {
 
-/// S_II scaled to a unit diagonal must have no eigenvalue below this: the congruence divides by it.
+/// Smallest eigenvalue of S_II, scaled to a unit diagonal, by which the congruence can safely divide.
 constexpr double kSmallestScaledEigenvalue = 1e-12;
-/// Eigenvalues of M_II relative to S_II below this fraction of the largest one are massless directions.
+/// Limit of massless directions: eigenvalues of M_II relative to S_II, as a fraction of the largest.
 constexpr double kMassless = 1e-14;
 
 void check_internal_stiffness(const Eigen::MatrixXd& S_II, const std::string& where) {
@@ -33,7 +33,7 @@ void check_internal_stiffness(const Eigen::MatrixXd& S_II, const std::string& wh
       where, "remove the dependent or rigid internal coordinates from the file");
 }
 
-/// Internal coordinates whose rows of S are zero, and the others.
+/// Internal coordinates with zero rows of S (loose), and the others (elastic).
 struct LooseRows {
   std::vector<Eigen::Index> loose, elastic;
 };
@@ -44,8 +44,8 @@ LooseRows loose_rows(const Eigen::MatrixXd& S, Eigen::Index nb) {
   return rows;
 }
 
-/// With coordinates L without stiffness: y_L = M_LL^(-1/2) η_L − G y_E, G = M_LL⁻¹ M_LE, takes the mass between them and
-/// the others out, and S has no part in it.
+/// Canonical form with coordinates L without stiffness. y_L = M_LL^(-1/2) η_L − G y_E with G = M_LL⁻¹ M_LE removes
+/// their mass coupling to the others and does not change S.
 CanonicalMatrices with_loose(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LooseRows& rows, Eigen::Index nb,
                              const std::string& where) {
   const auto k = static_cast<Eigen::Index>(rows.loose.size()), e = static_cast<Eigen::Index>(rows.elastic.size());
@@ -106,7 +106,7 @@ CanonicalMatrices canonical_form(const PartitionedMatrices& matrices, const std:
   if (const LooseRows rows = loose_rows(S, nb); !rows.loose.empty()) return with_loose(S, M, rows, nb, where);
   const Eigen::MatrixXd S_II = S.bottomRightCorner(m, m), M_II = M.bottomRightCorner(m, m);
   check_internal_stiffness(S_II, where);
-  // M_II q = μ S_II q with S_II = L Lᵀ; ω² = 1/μ, so that massless directions are μ = 0 and do no harm.
+  // M_II q = μ S_II q with S_II = L Lᵀ and ω² = 1/μ: massless directions have μ = 0 and cause no division.
   const Eigen::LLT<Eigen::MatrixXd> cholesky(S_II);
   Eigen::MatrixXd B = cholesky.matrixL().solve(M_II);
   B = cholesky.matrixL().solve(B.transpose()).eval();

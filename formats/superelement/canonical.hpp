@@ -1,4 +1,4 @@
-// Canonical form of reduced matrices by congruence: between a superelement of any form and its use.
+// Canonical form of reduced matrices by congruence, applied to superelements of any form before use.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 
 namespace tisserand::formats {
 
-/// Reduced matrices with boundary rows first. Any form on input.
+/// Reduced matrices of any form, with boundary rows first.
 struct PartitionedMatrices {
   Eigen::MatrixXd stiffness;  ///< (nb + mf)²
   Eigen::MatrixXd mass;
   Eigen::Index boundary_size = 0;
 };
 
-/// S_BI = 0, M_II = 1, S_II = diag(eigenvalue) ascending; y_I(input) = static_part y_B + modal_part η.
+/// Canonical form: S_BI = 0, M_II = 1, S_II = diag(eigenvalue) ascending; y_I(input) = static_part y_B + modal_part η.
 struct CanonicalMatrices {
   Eigen::MatrixXd S_BB;
   Eigen::MatrixXd M_BB;
@@ -23,17 +23,17 @@ struct CanonicalMatrices {
   Eigen::MatrixXd static_part;
   Eigen::MatrixXd modal_part;
   Eigen::Index massless =
-      0;  ///< internal directions without mass: they carry no inertia and no weight and are left out
+      0;  ///< number of dropped internal directions, which have no mass, inertia or weight
 };
 
-/// Coordinates without stiffness, whose rows of S are zero (mechanisms of a part), come first with the eigenvalue 0;
-/// the others are made orthogonal to them in M. Else congruence with y_I = −S_II⁻¹ S_IB y_B + Q η, where S_II Q = M_II
-/// Q Λ and QᵀM_II Q = 1. Nothing is zeroed. Throws Error (at `where`) if S_II is not safely positive definite or M_II
-/// is indefinite.
+/// Canonical form (THEORY (7)) by y_I = −S_II⁻¹ S_IB y_B + Q η with S_II Q = M_II Q Λ and QᵀM_II Q = 1. Coordinates
+/// with
+/// zero rows of S (mechanisms of a part) come first with eigenvalue 0; the others are made orthogonal to them in M. No
+/// entry is set to zero. Throws Error (at `where`) if S_II is not safely positive definite or M_II is indefinite.
 CanonicalMatrices canonical_form(const PartitionedMatrices& matrices, const std::string& where);
 
-/// Number of modes to keep of `eigenvalue` (ascending) so that at least `wanted` are kept and no cluster of eigenvalues
-/// closer than 1e-6 (relative) is split.
+/// Number of modes to keep of `eigenvalue` (ascending): at least `wanted`, without splitting a cluster of eigenvalues
+/// closer than 1e-6 (relative).
 Eigen::Index complete_cluster(const Eigen::VectorXd& eigenvalue, Eigen::Index wanted);
 
 }  // namespace tisserand::formats

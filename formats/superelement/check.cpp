@@ -1,4 +1,4 @@
-// check(): everything that SUPERELEMENT.md demands of the contents of a superelement, in the order of that page.
+// check(): all rules of SUPERELEMENT.md for the contents of a superelement, in the order of that page.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,12 +19,12 @@
 namespace tisserand::formats {
 namespace {
 
-constexpr double symmetry_tolerance = 1e-9;  // of scaled entries: a hundred times what double sums of 1e5 terms lose
-constexpr double semidefinite_tolerance = 1e-9;  // of scaled eigenvalues
-constexpr double rigid_mass_tolerance = 1e-6;    // of the mass: lumping and unit conversion keep much more
-constexpr double triangle_accepted = 0.01;       // of the largest principal moment, with a warning
-constexpr double collinear_tolerance = 1e-6;     // of the characteristic length
-constexpr double largest_value = 1e100;          // products of three such values and a length stay finite
+constexpr double symmetry_tolerance = 1e-9;      // scaled entries; 100 × round-off of sums of 1e5 terms
+constexpr double semidefinite_tolerance = 1e-9;  // scaled eigenvalues
+constexpr double rigid_mass_tolerance = 1e-6;    // relative to the mass; lumping and unit conversion lose less
+constexpr double triangle_accepted = 0.01;       // relative to the largest principal moment, with a warning
+constexpr double collinear_tolerance = 1e-6;     // relative to the characteristic length
+constexpr double largest_value = 1e100;          // limit of entries: products of three and a length stay finite
 constexpr Eigen::Index max_size_for_eigenvectors = 2000;
 
 struct FilePlace {
@@ -69,7 +69,7 @@ void check_names(const Superelement& e, const FilePlace& place) {
   }
 }
 
-/// Each row of the table is a coordinate of its own; each node owns three translations, three rotations, or both.
+/// Checks that each row of the table is a different coordinate, and each node has translations, rotations, or both.
 void check_dof_table(const Superelement& e, const FilePlace& place) {
   const int nodes = count_of(e.node_name), n = count_of(e);
   const int internal = static_cast<int>(std::count(e.dof_node.begin(), e.dof_node.end(), -1));
@@ -141,7 +141,7 @@ void check_diagonal(const Superelement& e, const Eigen::MatrixXd& matrix, const 
           place.dataset(name), "check the reduction that made the file");
 }
 
-/// `scaled` is D A D / scale.
+/// Checks symmetry. `scaled` is D A D / scale.
 void check_symmetry(const Superelement& e, const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& scaled,
                     const std::string& name, const FilePlace& place) {
   Eigen::Index i = 0, j = 0;
@@ -153,7 +153,7 @@ void check_symmetry(const Superelement& e, const Eigen::MatrixXd& matrix, const 
               place.dataset(name), "check the reduction that made the file");
 }
 
-/// Cholesky of A + tolerance 1; only on failure the eigenvector that says where.
+/// Checks by Cholesky of A + tolerance 1. Computes eigenvectors for the message only on failure.
 void check_semidefinite(const Superelement& e, const Eigen::MatrixXd& scaled, const std::string& name,
                         const FilePlace& place) {
   const Eigen::Index n = scaled.rows();
@@ -171,7 +171,7 @@ void check_semidefinite(const Superelement& e, const Eigen::MatrixXd& scaled, co
   throw Error(text, place.dataset(name), "check the reduction that made the file");
 }
 
-/// Every rigid motion must move some retained row: always so once a node owns translations and a node owns rotations.
+/// Checks that every rigid motion moves a retained row. Nodes with translations and nodes with rotations ensure it.
 void check_rigid_rank(const Superelement& e, const FilePlace& place) {
   const std::size_t count = e.node_name.size();
   std::vector<Eigen::Index> translating;
@@ -205,7 +205,7 @@ void check_rigid_rank(const Superelement& e, const FilePlace& place) {
     const Eigen::RowVector3d d = e.node_position.row(node) - a;
     if (d.cross(line.normalized()).norm() > tolerance) return;
   }
-  // The farthest node from node a is one end of the set; the farthest from that end is the other.
+  // The farthest node from node a is one end of the set, and the farthest from that end is the other.
   Eigen::Index other = far;
   for (const Eigen::Index node : translating)
     if ((e.node_position.row(node) - e.node_position.row(far)).norm() >
@@ -214,12 +214,12 @@ void check_rigid_rank(const Superelement& e, const FilePlace& place) {
   fail(fmt::format("turning about the line {}-{}", name(std::min(other, far)), name(std::max(other, far))), remedy);
 }
 
-/// The stiffness, rigid motions and errors of the entries, scaled.
+/// Stiffness, rigid motions and errors of the entries, all scaled.
 struct ScaledStiffness {
   Eigen::MatrixXd S, R, bound;
 };
 
-/// Throws if rigid motions meet more resistance than projection may remove.
+/// Throws Error if rigid motions cause more force than projection may remove.
 void check_rigid_strain(const Superelement& e, const ScaledStiffness& scaled, SuperelementReport& report,
                         const FilePlace& place) {
   static constexpr const char* motions[] = {"moving in x",     "moving in y",     "moving in z",
@@ -274,7 +274,7 @@ void check_rigid_mass(const Superelement& e, double length, const FilePlace& pla
                 place.dataset("/mass"), "check positions and the signs of rotations");
 }
 
-/// Principal moments ≥ 0 and the triangle inequality; a zero moment is a warning that names the axis.
+/// Checks principal moments ≥ 0 and the triangle inequality. A zero moment causes a warning that names the axis.
 void check_inertia(const Superelement& e, double length, SuperelementReport& report, const FilePlace& place) {
   const RigidProperties& rigid = report.rigid;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(rigid.inertia);

@@ -1,4 +1,4 @@
-// Signs of rows, vectors and tensors.
+// Changes signs of rows, vectors and tensors.
 #include "formats/superelement/mirror.hpp"
 
 namespace tisserand::formats {
@@ -8,10 +8,10 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// D J D.
+/// Mirrored tensor D J D.
 Matrix3d mirrored_tensor(const Matrix3d& J, const Vector3d& axes) { return axes.asDiagonal() * J * axes.asDiagonal(); }
 
-/// The same for columns of 9 numbers each.
+/// Mirrors tensors in columns of 9 numbers each.
 void mirror_tensors(const Vector3d& axes, Eigen::Ref<Eigen::MatrixXd> columns) {
   for (Index column = 0; column < columns.cols(); ++column)
     for (Index first = 0; first < columns.rows(); first += 9) {

@@ -1,4 +1,4 @@
-// What may be a name.
+// Check of names.
 #include "formats/superelement/names.hpp"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
-// Names of things in files of superelements: boundary nodes, load cases.
+// Names in files of superelements: boundary nodes, load cases.
 #pragma once
 
 #include <string>
 
 namespace tisserand::formats {
 
-/// [A-Za-z_][A-Za-z0-9_-]*, at most 255 bytes.
+/// Whether the name is [A-Za-z_][A-Za-z0-9_-]*, at most 255 bytes.
 bool valid_name(const std::string& name);
 
 }  // namespace tisserand::formats

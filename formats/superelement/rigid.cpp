@@ -1,4 +1,4 @@
-// Rigid motions of a superelement, the rigid body that its mass matrix represents, and the scales of its coordinates.
+// Rigid motions of a superelement, the rigid body of its mass matrix, and the scales of its coordinates.
 #include <algorithm>
 #include <cmath>
 
@@ -102,7 +102,7 @@ void filter_rigid_motions(Superelement& element) {
   const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(n, qr.rank());
   Eigen::MatrixXd S = s.stiffness_row.asDiagonal() * element.stiffness * s.stiffness_row.asDiagonal();
   S = (0.5 * (S + S.transpose())).eval();
-  // Twice: the second pass removes what rounding of the first has left.
+  // The second pass removes the round-off of the first.
   for (int pass = 0; pass < 2; ++pass) {
     const Eigen::MatrixXd SQ = S * Q;
     const Eigen::MatrixXd QSQ = Q.transpose() * SQ;

@@ -1,4 +1,4 @@
-// Rigid motions against the softest deformations of scaled stiffness matrices, and the digits of their entries.
+// Compares rigid motions with the softest deformations of scaled stiffness matrices, and counts digits of entries.
 #include "formats/superelement/rigid_strain.hpp"
 
 #include <algorithm>
@@ -16,21 +16,21 @@
 namespace tisserand::formats {
 namespace {
 
-constexpr int chosen_digits = 4;           // at most: numbers that somebody chose, such as 12.5
-constexpr int double_digits = 15;          // at least: nothing was rounded
-constexpr int digits_lost_in_fields = 3;   // by sign and exponent, in fields of fixed width
-constexpr double usual_share = 0.3;        // of entries; a tenth of rounded ones ends in 0 and looks shorter
+constexpr int chosen_digits = 4;           // limit of digits of chosen numbers such as 12.5
+constexpr int double_digits = 15;          // from here on entries are not rounded
+constexpr int digits_lost_in_fields = 3;   // by sign and exponent in fields of fixed width
+constexpr double usual_share = 0.3;        // of entries; 10 % of rounded ones end in 0 and look shorter
 constexpr double single_precision = 6e-8;  // 2⁻²⁴
-constexpr double least_digits = 2e-8;      // nine or more: fewer say no less than single precision
-constexpr double entry_error = 1e-9;       // of every entry: what reductions by other programs are good to
-constexpr double reduction_error = 1e-11;  // of max |S|: 2⁻⁵² times stiffness of the mesh over that of the part, rows
-constexpr double zero_stiffness = 1e-12;  // of |S|: hinges within the part, round-off included
-constexpr double rank_tolerance = 1e-9;   // of rigid motions on the rows that S holds
+constexpr double least_digits = 2e-8;      // nine or more digits: compare with single precision
+constexpr double entry_error = 1e-9;       // of every entry: accuracy of reductions by other programs
+constexpr double reduction_error = 1e-11;  // of max |S|: 2⁻⁵² × stiffness of the mesh / that of the part, rows
+constexpr double zero_stiffness = 1e-12;   // of |S|: internal hinges, with round-off
+constexpr double rank_tolerance = 1e-9;    // of rigid motions on the rows of S
 constexpr Eigen::Index most_eigenvectors = 400;
 constexpr Eigen::Index subspace_vectors = 12;
 constexpr int subspace_passes = 4;
 
-/// Digits of the shortest decimal number that is `value`.
+/// Number of digits of the shortest decimal text of `value`.
 int decimal_digits(double value) {
   std::array<char, 32> text{};
   const auto end =
@@ -40,7 +40,7 @@ int decimal_digits(double value) {
   return length > 1 ? length - 1 : length;  // without the point
 }
 
-/// Digits that the entries were rounded to; double_digits if they were not.
+/// Number of digits to which the entries were rounded, or double_digits if they were not.
 int usual_digits(const Eigen::MatrixXd& matrix) {
   std::array<long, double_digits> count{};
   long total = 0;
@@ -63,7 +63,7 @@ int usual_digits(const Eigen::MatrixXd& matrix) {
   return most;
 }
 
-/// Whether every entry is a number of single precision, up to the relative error `decimal` of its text.
+/// Whether every entry is a single-precision number, up to the relative error `decimal` of its text.
 bool has_single_precision(const Eigen::MatrixXd& matrix, double decimal) {
   return std::ranges::all_of(matrix.reshaped(), [&](double value) {
     return std::abs(value) < static_cast<double>(std::numeric_limits<float>::max()) &&
@@ -71,14 +71,13 @@ bool has_single_precision(const Eigen::MatrixXd& matrix, double decimal) {
   });
 }
 
-/// Deformations (columns, orthonormal, free of rigid motions) with their stiffness.
+/// Deformations (columns, orthonormal, without rigid motions) and their stiffness.
 struct Deformations {
   Eigen::MatrixXd vector;
   Eigen::VectorXd stiffness;
 };
 
-/// Softest deformations and those that `forces` cause: Rayleigh-Ritz after inverse iteration. `lifted` is P S P + σ
-/// QQᵀ.
+/// Softest deformations and those caused by `forces`, by inverse iteration and Rayleigh-Ritz. `lifted`: P S P + σ QQᵀ.
 Deformations soft_deformations(const Eigen::MatrixXd& lifted, const Eigen::MatrixXd& Q, double sigma,
                                const Eigen::MatrixXd& forces) {
   const Eigen::Index n = lifted.rows();
@@ -89,7 +88,7 @@ Deformations soft_deformations(const Eigen::MatrixXd& lifted, const Eigen::Matri
     factor.compute(shifted);
     if (factor.info() == Eigen::Success) break;
   }
-  if (factor.info() != Eigen::Success) return {};  // indefinite, which another rule tells
+  if (factor.info() != Eigen::Success) return {};  // indefinite, which another check reports
   const auto orthonormal = [&](Eigen::MatrixXd Y) {
     for (int pass = 0; pass < 2; ++pass) Y -= (Q * (Q.transpose() * Y)).eval();
     const Eigen::Index columns = Y.cols();
@@ -121,7 +120,7 @@ Deformations deformations(const Eigen::MatrixXd& S, const Eigen::MatrixXd& Q, co
   return {eigen.eigenvectors().leftCols(count), eigen.eigenvalues().head(count)};
 }
 
-/// Which motions meet a force beyond (errors + entry_error |S| + reduction_error 11ᵀ) |r|.
+/// Causes of the forces of motions r: unexplained beyond (errors + entry_error |S| + reduction_error 11ᵀ) |r|.
 std::vector<RigidStrainCause> causes_of(const Eigen::MatrixXd& S, const Eigen::MatrixXd& r,
                                         const Eigen::MatrixXd& errors) {
   const Eigen::MatrixXd size = r.cwiseAbs(), force = (S * r).cwiseAbs();
@@ -135,7 +134,7 @@ std::vector<RigidStrainCause> causes_of(const Eigen::MatrixXd& S, const Eigen::M
   return causes;
 }
 
-/// √Σ_j (v_jᵀ f)² / (d_j d_1) and |rᵀ f| / d_1, the larger, for each force f = S r.
+/// The larger of √Σ_j (v_jᵀ f)² / (d_j d_1) and |rᵀ f| / d_1, for each force f = S r.
 Eigen::VectorXd changes(const Deformations& soft, const Eigen::MatrixXd& r, const Eigen::MatrixXd& forces,
                         double zero) {
   Eigen::VectorXd change = Eigen::VectorXd::Zero(r.cols());
@@ -170,7 +169,7 @@ EntryErrors entry_errors(const Eigen::MatrixXd& matrix) {
 RigidStrain rigid_strain(const Eigen::MatrixXd& whole_S, const Eigen::MatrixXd& R,
                          const Eigen::MatrixXd& whole_errors) {
   RigidStrain result;
-  // Rows of zeros (rotations that nothing holds) would mix rigid motions, with the errors of their forces, into hinges.
+  // Zero rows (unheld rotations) would mix rigid motions, with the errors of their forces, into hinges.
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < whole_S.rows(); ++i)
     if ((whole_S.col(i).array() != 0.0).any()) rows.push_back(i);

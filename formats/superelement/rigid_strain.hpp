@@ -1,5 +1,5 @@
-// How much rigid motions strain a superelement, in terms of its softest deformations, and what rounding of its entries
-// explains of that: the judgement of check() on positions, signs and units.
+// Strain that rigid motions cause in a superelement, relative to its softest deformations, and the part that rounding
+// of entries explains. check() finds wrong positions, signs and units by it.
 #pragma once
 
 #include <string>
@@ -8,42 +8,41 @@
 
 namespace tisserand::formats {
 
-inline constexpr double rigid_change_accepted = 1e-6;  ///< of the softest stiffness, whatever the cause
-inline constexpr double rigid_change_rounding = 3e-2;  ///< where rounding of the entries explains it; above: Error
-inline constexpr double rigid_residual_exact = 1e-13;  ///< max |S R| / max |S| that no geometry has to explain
+inline constexpr double rigid_change_accepted = 1e-6;  ///< of the softest stiffness, for any cause
+inline constexpr double rigid_change_rounding = 3e-2;  ///< if rounding of the entries explains it; above: Error
+inline constexpr double rigid_residual_exact = 1e-13;  ///< max |S R| / max |S| that needs no explanation
 
-/// Largest errors of entries that were written with few digits.
+/// Bounds of the errors of entries that were written with few digits.
 struct EntryErrors {
   Eigen::MatrixXd bound;  ///< |δa_ij|, n x n; empty: entries have all digits of double precision
   std::string reason;     ///< "10 digits", "single precision"; empty like `bound`
 };
 
-/// Errors p |a_ij|, p = ½ 10^(1−d) with d the number of decimal digits that the entries have (of fields of fixed width,
-/// in which signs and exponents cost digits, the fewest that are usual), or 2⁻²⁴ if they are numbers of single
-/// precision. Entries that all have four digits at most are chosen numbers, not rounded ones; 15 digits or more are
-/// double precision.
+/// Errors p |a_ij| of entries. For d decimal digits p = ½ 10^(1−d); for single precision p = 2⁻²⁴. In fields of fixed
+/// width, where signs and exponents take digits, d is the smallest usual number. Entries with at most four digits are
+/// chosen numbers without rounding. 15 digits or more mean double precision.
 EntryErrors entry_errors(const Eigen::MatrixXd& matrix);
 
-/// Rounding: every force is within what the errors of the entries allow, 1e-9 of them and 1e-11 of the largest.
-/// Unexplained: positions, signs, units or the ground.
+/// Cause of forces. rounding: all forces are within the errors of entries, 1e-9 of entries and 1e-11 of the largest.
+/// unexplained: positions, signs, units, or parts fixed to the ground.
 enum class RigidStrainCause { rounding, unexplained };
 
-/// With S v_j = d_j v_j on the complement of the rigid motions (scaled coordinates, |v_j| = |r| = 1), d_1 the softest:
-///   change = max over motions r of √Σ_j (v_jᵀS r)² / (d_j d_1) and |rᵀS r| / d_1.
-/// The first is the amplitude of v_1 that strains the part as much as r does, the second what r resists beside v_1. A
-/// node in the wrong place by the fraction δ of the length gives about δ and δ². Projection (filter_rigid_motions())
-/// changes stiffness and eigenvalues of the softest deformations by no more than the order of `change`.
+/// Strain of rigid motions r. With S v_j = d_j v_j on the complement of rigid motions (scaled, |v_j| = |r| = 1):
+///   change = max over motions r of √Σ_j (v_jᵀS r)² / (d_j d_1) and |rᵀS r| / d_1, with the least d_1.
+/// The first is the amplitude of v_1 with equal strain, the second the resistance of r relative to v_1. A node
+/// misplaced by the fraction δ of the length gives about δ and δ². Projection (filter_rigid_motions()) changes
+/// stiffness and eigenvalues of the softest deformations by at most the order of `change`.
 struct RigidStrain {
   double change = 0.0;
-  Eigen::Index motion = 0;  ///< column of R: the worst, of those that rounding does not explain if there are any
-  Eigen::Index row = 0;     ///< with the largest force in that motion
-  double force = 0.0;       ///< |S R| there
+  Eigen::Index motion = 0;  ///< column of R: the worst motion, unexplained ones first
+  Eigen::Index row = 0;     ///< row of the largest force in that motion
+  double force = 0.0;       ///< |S R| at that row
   RigidStrainCause cause = RigidStrainCause::rounding;
 };
 
-/// S: n x n symmetric with max |S| about 1, R: n x 6, both in scaled coordinates; `errors` of the entries of
-/// S (empty: none). Directions with less than 1e-12 of |S| are hinges within the part, no softest deformation. O(n³):
-/// as a Cholesky factorisation above 400 coordinates, as all eigenvalues below.
+/// Strain of the rigid motions R (n x 6) by S (n x n, symmetric, max |S| about 1), in scaled coordinates. `errors`: of
+/// entries of S (empty: none). Directions below 1e-12 of |S| are internal hinges, not deformations. Cost O(n³): a
+/// Cholesky factorisation above 400 coordinates, all eigenvalues below.
 RigidStrain rigid_strain(const Eigen::MatrixXd& S, const Eigen::MatrixXd& R, const Eigen::MatrixXd& errors);
 
 }  // namespace tisserand::formats

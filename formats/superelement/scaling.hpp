@@ -1,4 +1,4 @@
-// Scales in which the entries of S̄ and M̄ can be compared with one another: shared by the checks of superelements.
+// Scales that make the entries of S̄ and M̄ comparable, shared by the checks of superelements.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace tisserand::formats {
 
-inline constexpr double rigid_residual_accepted = 1e-9;  ///< as it is, unless the softest deformation feels it
-inline constexpr double rigid_residual_filtered = 1e-4;  ///< removed by projection at most; above: Error
-inline constexpr Eigen::Index max_coordinates = 10000;   ///< n; bounds the memory that a file can ask for
+inline constexpr double rigid_residual_accepted = 1e-9;  ///< kept, unless it strains the softest deformation
+inline constexpr double rigid_residual_filtered = 1e-4;  ///< largest residual that projection removes; above: Error
+inline constexpr Eigen::Index max_coordinates = 10000;   ///< largest n; limits the memory that a file can request
 
-/// Largest distance of a node from the mean of the nodes; 1 if that is 0.
+/// Largest distance of a node from the mean of the nodes, or 1 if it is 0.
 double characteristic_length(const Superelement& element);
 
-/// Diagonal congruences D S̄ D / s and D M̄ D / m that make entries comparable in any consistent units: translations 1,
-/// rotations 1/l, internal coordinates such that their diagonal equals that of the largest boundary entry.
+/// Diagonal congruences D S̄ D / s and D M̄ D / m that make entries comparable in any consistent units. D is 1 for
+/// translations and 1/l for rotations. For internal coordinates it gives diagonals equal to the largest boundary entry.
 struct ScaledMatrices {
   double length = 1.0;  ///< l
   double stiffness_scale =
@@ -27,13 +27,13 @@ struct ScaledMatrices {
   Eigen::VectorXd mass_row;       ///< D of M̄, n
 };
 
-/// Requires finite values and diagonals ≥ 0.
+/// Scales of a superelement. Its values must be finite and its diagonals ≥ 0.
 ScaledMatrices scale(const Superelement& element);
 
 /// Rigid motions about the mean of the nodes in scaled coordinates, D⁻¹ R diag(1, 1, 1, l⁻¹, l⁻¹, l⁻¹): n x 6.
 Eigen::MatrixXd scaled_rigid_motions(const Superelement& element, const Eigen::VectorXd& row_scale, double length);
 
-/// "row 7 (node 'tip', rotation y)" or "row 12 (internal coordinate 0)".
+/// Text "row 7 (node 'tip', rotation y)" or "row 12 (internal coordinate 0)".
 std::string row_text(const Superelement& element, Eigen::Index row);
 
 }  // namespace tisserand::formats

@@ -1,4 +1,4 @@
-// Superelements between memory and *.superelement.h5, with the identity of their content.
+// Reads and writes *.superelement.h5 files, and computes the identity of their content.
 #include "formats/superelement/superelement.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ const std::vector<std::string> known_attributes{"format",          "version",   
                                                 "mass_unit",       "time_unit",       "length_unit_label",
                                                 "mass_unit_label", "time_unit_label", "content_id"};
 
-/// Length of a one-dimensional dataset, at most `limit`; nothing has been allocated before.
+/// Length of a one-dimensional dataset, checked against `limit` before memory is allocated.
 std::uint64_t bounded_length(const hdf5::InputFile& file, const std::string& dataset, const std::string& meaning) {
   const hdf5::Shape shape = file.info(dataset).shape;
   const std::string where = fmt::format("{}: {}", file.path(), dataset);
@@ -70,7 +70,7 @@ Eigen::MatrixXd read_matrix(const hdf5::InputFile& file, const std::string& data
   return values;
 }
 
-/// One line if the file holds more than version 1.0 knows, else empty.
+/// One-line warning about contents beyond version 1.0, or empty.
 std::string unknown_items(const hdf5::InputFile& file) {
   std::vector<std::string> unknown;
   const auto note = [&](const std::string& group, const std::vector<std::string>& known) {
@@ -110,7 +110,7 @@ Superelement read_fields(const hdf5::InputFile& file) {
   return e;
 }
 
-/// All that is taken from the file, before any rule of check().
+/// Contents of a file before check().
 struct Unchecked {
   Superelement superelement;
   std::optional<std::string> content_id;
@@ -144,7 +144,7 @@ void write_fields(const hdf5::Output& out, const Superelement& e) {
   hdf5::write_dataset(out, "/mass", {n, n}, mass.data());
 }
 
-/// Texts for people: no control characters and of bounded length, so that they fit attributes and messages.
+/// Checks texts for control characters and length, so that they fit attributes and messages.
 void check_labels(const Superelement& e, const std::string& where) {
   const auto check_label = [&](const std::string& name, const std::string& value) {
     bool clean = value.size() <= max_label;

@@ -1,4 +1,4 @@
-// Least-norm affine weights by a truncated singular value decomposition.
+// Computes weights of least norm and sum one by a truncated singular value decomposition.
 #include "formats/superelement/weights.hpp"
 
 #include <Eigen/SVD>

@@ -1,4 +1,4 @@
-// Bounded readers: nothing that a file says is believed before it is checked.
+// Readers that check every number of a file before use.
 #include "formats/surface/surface_file.hpp"
 
 #include <bit>
@@ -40,12 +40,12 @@ std::string read_bytes(const std::string& path) {
   return bytes;
 }
 
-/// Lines and words of a text, with the place for messages.
+/// Splits a text into lines and words, and knows the place for messages.
 class Words {
  public:
   Words(std::string_view text, const std::string& path) : rest_(text), path_(path) {}
 
-  /// The words of the next line that has any; false at the end.
+  /// Reads the words of the next line that has some. False at the end.
   bool next() {
     while (!rest_.empty()) {
       const std::size_t end = rest_.find('\n');
@@ -68,7 +68,7 @@ class Words {
     throw Error(what, fmt::format("{}:{}", path_, line_), again);
   }
 
-  /// The words from `first` on as a point.
+  /// Point given by the words from `first` on.
   Eigen::Vector3d point(std::size_t first) const {
     if (words_.size() < first + 3) fail("expected three coordinates");
     Eigen::Vector3d point;
@@ -91,7 +91,7 @@ class Words {
   std::vector<std::string_view> words_;
 };
 
-/// Triangles by their corners, equal corners joined.
+/// Collects triangles by their corners, and joins equal corners.
 class Joined {
  public:
   explicit Joined(const std::string& path) : path_(path) {}
@@ -163,7 +163,7 @@ TriangleSurface read_text_stl(const std::string& bytes, const std::string& path)
   return joined.take();
 }
 
-/// The vertex of a word of a face, "7", "7/2", "-1//3".
+/// Index of the vertex in a word of a face, "7", "7/2", "-1//3".
 int vertex_of(const Words& words, std::string_view word, std::size_t vertices) {
   const std::string_view first = word.substr(0, word.find('/'));
   long index = 0;
@@ -200,7 +200,7 @@ bool is_obj(const std::string& path) {
   return ending == ".obj";
 }
 
-/// Binary files may begin with "solid" too; their length tells.
+/// Whether an STL file is binary, by its length. Binary files may begin with "solid" too.
 bool is_binary_stl(const std::string& bytes) {
   if (bytes.size() < stl_head) return false;
   const std::uint64_t expected = stl_head + std::uint64_t{stl_triangle} * little_endian(bytes.data() + 80);

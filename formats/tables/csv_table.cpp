@@ -1,4 +1,4 @@
-// Lines of a csv file to times and values.
+// Reads times and values from the lines of a CSV file.
 #include "formats/tables/csv_table.hpp"
 
 #include <fstream>
@@ -11,7 +11,7 @@ namespace tisserand::formats {
 namespace {
 
 struct Cell {
-  std::size_t column;  ///< 0-based
+  std::size_t column;  ///< from 0
   std::string text;
 };
 

@@ -1,4 +1,4 @@
-// A function of time from a text table of two columns.
+// Function of time from a text table of two columns.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace tisserand::formats {
 
-/// Two numbers per line (time, value) with comma, semicolon or blanks between them; lines that begin with # and empty
-/// lines are skipped, and so is a first line of words. Throws Error with path:line:column.
+/// Reads two numbers per line (time, value), separated by comma, semicolon or blanks. Skips lines that begin with #,
+/// empty lines and a first line of words. Throws Error with path:line:column.
 TimeTable read_csv_table(const std::string& path);
 
 }  // namespace tisserand::formats

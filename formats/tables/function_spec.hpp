@@ -1,4 +1,4 @@
-// Functions of time and laws between two quantities, as a scene gives them.
+// Functions of time and laws between two quantities, as given in a scene.
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@ namespace tisserand::formats {
 /// Function of time: a number, a table (linear between points, constant outside) or an expression in t.
 struct TimeExpression {
   std::string text;
-  std::vector<double> breakpoints;  ///< steps end here
+  std::vector<double> breakpoints;  ///< instants at which steps must end
   std::string where;
 };
 using TimeFunctionSpec = std::variant<double, TimeTable, TimeExpression>;
 
-/// A law between two quantities: proportional, or a table y(x) with ascending x.
+/// Law between two quantities: proportional, or a table y(x) with ascending x.
 enum class Interpolation { linear, cubic };
 struct CurveSpec {
   Interpolation interpolation = Interpolation::linear;

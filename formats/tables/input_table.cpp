@@ -1,4 +1,4 @@
-// Columns and datasets to times and values.
+// Reads times and values from columns or datasets.
 #include "formats/tables/input_table.hpp"
 
 #include <charconv>
@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t most_points = 10'000'000;
 constexpr const char* csv_or_hdf5 = "give a csv or HDF5 file";
 
-/// Index of a column by its number or name. `is_header`: tells whether the line names columns, which it then lists.
+/// Index of a column by its number or name. `is_header` returns whether the line names columns; messages list them.
 template <class IsHeader>
 std::size_t find_column(const std::vector<std::string_view>& header, const std::string& wanted,
                         const std::string& where, const IsHeader& is_header) {

@@ -1,4 +1,4 @@
-// Cells and numbers of text tables.
+// Splits text tables into cells and reads their numbers.
 #include "formats/tables/text_cells.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r";
 
-/// By its mark, or by a byte 0 in one of the first two characters. Leaves the stream at its beginning.
+/// Whether the file is UTF-16, by its mark or by a zero byte in the first two characters. Rewinds the stream.
 bool is_utf16(std::ifstream& stream) {
   char bytes[4] = {};
   stream.read(bytes, sizeof bytes);

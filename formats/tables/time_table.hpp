@@ -1,14 +1,14 @@
-// Points of a function of time, as a file of columns or a list in a scene gives them.
+// Points of a function of time, from columns of a file or a list in a scene.
 #pragma once
 
 #include <vector>
 
 namespace tisserand::formats {
 
-/// What a prescribed motion makes of a table (mechanism/forces/motion_table.hpp); loads are linear between points.
+/// Interpolation of a table for a prescribed motion (mechanism/forces/motion_table.hpp). Loads are always linear.
 enum class TableMotion { smooth, natural, linear };
 
-/// Two columns of one length; time ascends.
+/// Two columns of equal length. Time ascends.
 struct TimeTable {
   std::vector<double> time;
   std::vector<double> value;

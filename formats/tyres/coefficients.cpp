@@ -1,4 +1,4 @@
-// Names of the coefficients, by the sections of a file.
+// Names of the coefficients, by sections of a file.
 #include "formats/tyres/coefficients.hpp"
 
 #include <vector>
@@ -22,7 +22,7 @@ constexpr Coefficient with_units[] = {
     {"PRESMIN", &MagicFormula::PRESMIN, Versions::only_6_1, Quantity::pressure},
     {"PRESMAX", &MagicFormula::PRESMAX, Versions::only_6_1, Quantity::pressure}};
 
-/// Numbers without a unit.
+/// Coefficients without a unit.
 struct Number {
   const char* name;
   double MagicFormula::*value;

@@ -1,4 +1,4 @@
-// The coefficients that tyre property files give, by name.
+// Coefficients of tyre property files, by name.
 #pragma once
 
 #include <span>

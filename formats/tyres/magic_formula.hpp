@@ -1,21 +1,21 @@
-// Coefficients of the Magic Formula, named as tyre property files (.tir) and [Pac12] name them.
+// Coefficients of the Magic Formula, with the names of tyre property files (.tir) and [Pac12].
 #pragma once
 
 namespace tisserand::formats {
 
-/// 5.2: MF-Tyre 5.2, which Adams calls PAC2002. 6.1: [Pac12] section 4.3.2, with inflation pressure. 6.2 has the
-/// coefficients of 6.1 for force and moment, and three more of the overturning moment.
+/// Versions. 5.2: MF-Tyre 5.2, called PAC2002 by Adams. 6.1: [Pac12] section 4.3.2, with inflation pressure. 6.2 has
+/// the force and moment coefficients of 6.1 and three more of the overturning moment.
 enum class MagicFormulaVersion { mf_5_2, mf_6_1 };
 
-/// Which forces a file gives (its USE_MODE without the tens).
+/// Forces that a file provides (its USE_MODE without the tens).
 enum class MagicFormulaForces { none, longitudinal, lateral, uncombined, combined };
 
-/// Lengths, forces, pressures and speeds in the units of the scene; all else has no unit, angles are radians. The
-/// formulas are in mechanism/tyres/magic_formula.hpp.
+/// Coefficients. Lengths, forces, pressures and speeds have units of the scene, others have none; angles are radians.
+/// The formulas are in mechanism/tyres/magic_formula.hpp.
 struct MagicFormula {
   MagicFormulaVersion version = MagicFormulaVersion::mf_6_1;
   MagicFormulaForces forces = MagicFormulaForces::combined;
-  bool transient = false;  ///< the file asks for relaxation lengths (tens of USE_MODE)
+  bool transient = false;  ///< the file requests relaxation lengths (tens of USE_MODE)
 
   bool along() const { return forces != MagicFormulaForces::none && forces != MagicFormulaForces::lateral; }
   bool across() const { return forces != MagicFormulaForces::none && forces != MagicFormulaForces::longitudinal; }
@@ -25,7 +25,7 @@ struct MagicFormula {
   double BREFF = 0, DREFF = 0, FREFF = 0, QFZ1 = 0, QFZ2 = 0, PFZ1 = 0;
   double LONGITUDINAL_STIFFNESS = 0, LATERAL_STIFFNESS = 0;
   double LONGVL = 0, VXLOW = 0, NOMPRES = 0, INFLPRES = 0;
-  // Ranges in which the coefficients were fitted: forces are those of their ends beyond.
+  // Ranges of the fit. Beyond them forces are those of the limits.
   double FZMIN = 0, FZMAX = 0, KPUMIN = 0, KPUMAX = 0, ALPMIN = 0, ALPMAX = 0, CAMMIN = 0, CAMMAX = 0, PRESMIN = 0,
          PRESMAX = 0;
   // Scaling factors.

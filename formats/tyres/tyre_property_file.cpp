@@ -1,4 +1,4 @@
-// Lines of a tyre property file to coefficients of the Magic Formula.
+// Reads coefficients of the Magic Formula from the lines of a tyre property file.
 #include "formats/tyres/tyre_property_file.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace tisserand::formats {
 namespace {
 
-/// No property file of the Magic Formula is nearly as large.
+/// Limit of the size of a file. Real property files are much smaller.
 constexpr std::uintmax_t largest_file = 1 << 20;
 
 /// Keys that describe the file.
@@ -34,7 +34,7 @@ struct Entry {
 struct PropertyLines {
   std::string path;
   std::map<std::string, Entry> entries;  ///< keys in capitals; those of [UNITS], where MASS is a unit, as "UNITS.MASS"
-  std::vector<std::string> tables;       ///< sections with rows of numbers: [SHAPE]
+  std::vector<std::string> tables;       ///< sections with rows of numbers, for example [SHAPE]
 
   std::string at(const std::string& key) const {
     const auto entry = entries.find(key);
@@ -56,7 +56,7 @@ std::string capitals(std::string_view given) {
   return text;
 }
 
-/// Without comment, which begins with $ or ! outside of quotes.
+/// The line without its comment, which begins with $ or ! outside quotes.
 std::string_view without_comment(std::string_view line) {
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -71,7 +71,7 @@ std::optional<double> number_of(const std::string& text) {
   return read_finite(text, value) ? std::optional(value) : std::nullopt;
 }
 
-/// Whether a line before names the format or a unit.
+/// Whether an earlier line names the format or a unit.
 bool is_tyre_file(const PropertyLines& file) {
   return file.entries.contains("PROPERTY_FILE_FORMAT") || file.entries.contains("FITTYP") ||
          std::ranges::any_of(file.entries, [](const auto& entry) { return entry.first.starts_with("UNITS."); });
@@ -86,11 +86,11 @@ void read_line(std::string_view text, int number, std::string& section, Property
     section = capitals(trimmed(text.substr(1, text.size() - 2)));
     return;
   }
-  if (text.front() == '{' || text.front() == '(') {  // heading of a table, or of a block of text as Adams writes them
+  if (text.front() == '{' || text.front() == '(') {  // heading of a table or of an Adams text block
     file.tables.push_back(section);
     return;
   }
-  if (!file.tables.empty() && file.tables.back() == section) return;  // its rows
+  if (!file.tables.empty() && file.tables.back() == section) return;  // rows of the table
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) {
     const std::string quoted = is_tyre_file(file) ? fmt::format("'{}'", printable_line(text, 60)) : "the line";
@@ -120,7 +120,7 @@ PropertyLines read_lines(const std::string& path) {
   return file;
 }
 
-/// Factor to SI of a unit that the file names; 1 where it names none.
+/// Factor to SI of a unit that the file names, or 1 if it names none.
 double unit_of(const PropertyLines& file, const std::string& name,
                const std::vector<std::pair<const char*, double>>& known) {
   const std::string key = "UNITS." + name;
@@ -136,7 +136,7 @@ double unit_of(const PropertyLines& file, const std::string& name,
               "use one of " + join(words, ", "));
 }
 
-/// Factors from the units of the file to those of the scene.
+/// Factors that convert units of the file to units of the scene.
 struct Conversion {
   double length = 1.0, force = 1.0, time = 1.0, pressure = 1.0;
 
@@ -199,7 +199,7 @@ Conversion conversion_of(const PropertyLines& file, const Units& units) {
   return to;
 }
 
-/// From FITTYP, or the name of the format.
+/// Name of the version, from FITTYP or the name of the format. Sets it in `p`.
 std::string find_version(const PropertyLines& file, MagicFormula& p) {
   const std::string format = capitals(file.word("PROPERTY_FILE_FORMAT"));
   const Entry* kind = file.find("FITTYP");
@@ -256,7 +256,7 @@ void read_coefficients(const PropertyLines& file, const Conversion& to, TyreProp
     tyre.unused.push_back(fmt::format("[{}]", printable_line(table, 40)));
 }
 
-/// Keys in capitals.
+/// Scaling factors with keys in capitals.
 std::map<std::string, double> scaling(const std::map<std::string, double>& scale) {
   std::map<std::string, double> all;
   for (const auto& [key, value] : scale) all[capitals(key)] = value;
@@ -292,7 +292,7 @@ void require_coefficients(const PropertyLines& file, const MagicFormula& p) {
                 "give a whole file, or a USE_MODE that needs fewer (1: along, 2: across, 3: both uncombined)");
 }
 
-/// What the formulas divide by, and ranges about zero.
+/// Checks values by which formulas divide, and ranges that must include zero.
 void check_values(const PropertyLines& file, const std::map<std::string, double>& scale, const MagicFormula& p) {
   const auto where = [&](const char* key) { return scale.contains(key) ? file.path + ": scale" : file.at(key); };
   const auto positive = [&](double value, const char* key) {

@@ -10,18 +10,17 @@
 
 namespace tisserand::formats {
 
-/// What is read of a file, in the units of a scene.
+/// Data of a file, in units of a scene.
 struct TyreProperties {
   MagicFormula coefficients;
   std::string version;              ///< "205_60R15.tir (MF-Tyre 6.1)"
-  std::vector<std::string> unused;  ///< keys with a value that has no effect here
+  std::vector<std::string> unused;  ///< keys whose values have no effect here
 };
 
-/// Reads a file of MF-Tyre 5.2 (PAC2002), 6.1 or 6.2 in the units that its section [UNITS] names (SI where it has
-/// none); `scale`: values that replace scaling factors of the file. Units of the scene that have no names take those of
-/// the file. Throws Error with file and line: no such file, another kind of tyre, lines that are no `KEY = value`,
-/// numbers that are not finite, keys twice, missing coefficients, ranges that do not enclose zero, angles in degrees,
-/// scaling factors that do not exist.
+/// Reads a file of MF-Tyre 5.2 (PAC2002), 6.1 or 6.2 in the units of its section [UNITS] (default SI). `scale`: values
+/// that replace scaling factors of the file. If the scene's units have no names, those of the file are used. Throws
+/// Error with file and line: no such file, another kind of tyre, lines other than `KEY = value`, numbers that are not
+/// finite, duplicate keys, missing coefficients, ranges without zero, angles in degrees, unknown scaling factors.
 TyreProperties read_tyre_property_file(const std::string& path, const Units& units,
                                        const std::map<std::string, double>& scale = {});
 

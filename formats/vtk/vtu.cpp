@@ -1,4 +1,4 @@
-// VTU by the description of the VTK file formats ("Serial XML, UnstructuredGrid").
+// Writes VTU by the description of the VTK file formats ("Serial XML, UnstructuredGrid").
 #include "formats/vtk/vtu.hpp"
 
 #include <array>
@@ -17,11 +17,11 @@ static_assert(std::endian::native == std::endian::little, "written as little-end
 
 struct VtkCell {
   std::uint8_t type;
-  std::vector<int> order;  ///< VTK's k-th node is gmsh's order[k]; empty: the same
+  std::vector<int> order;  ///< gmsh's node of VTK's k-th node; empty: equal order
 };
 
-/// VTK_LINE, VTK_TRIANGLE, VTK_QUAD, VTK_TETRA, VTK_QUADRATIC_TETRA, ..., VTK_QUADRATIC_WEDGE. The base of a wedge
-/// looks outwards, unlike gmsh's prism.
+/// VTK cell of an element: VTK_LINE, VTK_TRIANGLE, VTK_QUAD, VTK_TETRA, ..., VTK_QUADRATIC_WEDGE. The base of a wedge
+/// faces outwards, unlike that of gmsh's prism.
 const VtkCell& vtk_cell(ElementShape shape) {
   static const std::array<VtkCell, element_shapes> cells{
       {{3, {}},
@@ -36,7 +36,7 @@ const VtkCell& vtk_cell(ElementShape shape) {
   return cells[static_cast<std::size_t>(shape)];
 }
 
-/// Blocks behind the XML, each with its number of bytes in front.
+/// Data blocks after the XML, each preceded by its number of bytes.
 class Appended {
  public:
   template <class T>

@@ -1,4 +1,4 @@
-// yaml-cpp chooses where quotes are needed.
+// Writes trees by yaml-cpp, which quotes texts as needed.
 #include "formats/yaml/emit.hpp"
 
 #include <yaml-cpp/yaml.h>
@@ -39,7 +39,7 @@ std::string text_of(const YamlNode& node, int levels) {
   out.SetNullFormat(YAML::LowerNull);
   emit(out, node, levels);
   std::string text = out.c_str();
-  // yaml-cpp breaks long flow maps into lines; a line end outside of quotes is a blank.
+  // yaml-cpp breaks long flow maps into lines. A line end outside quotes means a blank.
   if (levels == 0)
     for (char& c : text)
       if (c == '\n') c = ' ';

@@ -1,4 +1,4 @@
-// Words of findings about numbers.
+// Texts of findings about numbers.
 #include "formats/yaml/fault.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What a check finds wrong in a part or scene, before it is known whether there is a file to point into.
+// Findings of checks of a part or scene, independent of whether it was read from a file.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ struct Fault {
   std::string remedy;
 };
 
-/// The findings of one check, in the order in which they were made.
+/// Findings of one check, in the order in which they were made.
 struct Faults {
   std::vector<Fault> list;
 
@@ -27,7 +27,7 @@ struct Faults {
     list.push_back({entry, std::move(key), std::move(what), std::move(remedy)});
   }
 
-  /// Throws all of them together if there are any.
+  /// Throws all findings together if there are any.
   void raise() const {
     std::vector<Error> errors;
     for (const Fault& fault : list) errors.emplace_back(fault.what, fault.entry, fault.remedy);
@@ -35,7 +35,7 @@ struct Faults {
   }
 };
 
-/// A thing that is checked. Messages call it by `name`; `where` is the place of its entry; `prefix` precedes its keys.
+/// Subject of a check. Messages call it `name`; `where` is the place of its entry; `prefix` precedes its keys.
 struct Subject {
   std::string name;  ///< "spring 'k1'"; empty: the file
   std::string where;
@@ -43,7 +43,7 @@ struct Subject {
   std::string prefix = {};
 
   void add(const std::string& key, const std::string& what, const std::string& remedy = "") const;
-  /// Each adds a finding, "mass -1 must be positive", unless the number is so, and finite.
+  /// Add a finding, "mass -1 must be positive", unless the number is finite and has the required sign.
   void positive(const std::string& key, std::optional<double> value) const;
   void not_negative(const std::string& key, std::optional<double> value) const;
   void between(const std::string& key, double value, double low, double high) const;

@@ -1,4 +1,4 @@
-// Rows of lists that share a meaning; types and lists of both kinds of files.
+// Fields with a shared meaning, and types and lists of both kinds of files.
 #include "formats/yaml/field.hpp"
 
 #include <algorithm>

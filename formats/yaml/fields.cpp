@@ -1,4 +1,4 @@
-// Values of plain fields.
+// Reads values of plain fields.
 #include "formats/yaml/fields.hpp"
 
 #include <limits>

@@ -1,4 +1,4 @@
-// Fields that are read straight into a member: numbers, counts, texts, vectors, words.
+// Fields that are read directly into a member: numbers, counts, texts, vectors, words.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@
 
 namespace tisserand::formats {
 
-/// The value of the key; an absent one leaves `value` alone. If it is required that is an error, and a number or vector
-/// becomes not-a-number. More of them, for types of one kind of file, stand with its readers.
+/// Reads the value of the key. Without the key `value` is unchanged. If it is required, that is an error, and numbers
+/// and vectors become not-a-number. Overloads for types of one kind of file are declared with its readers.
 void read_value(const MapReader& map, const Field& field, double& value);
 void read_value(const MapReader& map, const Field& field, int& value);
 void read_value(const MapReader& map, const Field& field, std::string& value);
@@ -28,15 +28,15 @@ void read_value(const MapReader& map, const Field& field, std::vector<double>& v
 void read_value(const MapReader& map, const Field& field, std::optional<double>& value);
 void read_value(const MapReader& map, const Field& field, std::optional<int>& value);
 void read_value(const MapReader& map, const Field& field, std::optional<Eigen::Vector3d>& value);
-/// Inertia.
+/// Reads an inertia tensor.
 void read_value(const MapReader& map, const Field& field, Eigen::Matrix3d& value);
 void read_value(const MapReader& map, const Field& field, Eigen::Quaterniond& value);
 void read_value(const MapReader& map, const Field& field, std::optional<Eigen::Quaterniond>& value);
 
-/// The node of the key; null if there is none, an error too where it is required.
+/// Node of the key, or null. A missing required key is an error.
 const YamlNode* find_or_require(const MapReader& map, const Field& field);
 
-/// Values as the pages write them: 0.9, 1e-6, `[0, 0, 1]`; nothing for types without a value that says something.
+/// Text of a value as the pages write it: 0.9, 1e-6, `[0, 0, 1]`. Empty for types without a meaningful text.
 std::string standard_text(double value);
 std::string standard_text(int value);
 std::string standard_text(const Eigen::Vector3d& value);
@@ -54,7 +54,7 @@ struct MemberPointer<Value Struct::*> {
 template <auto member>
 using OwnerOf = typename MemberPointer<decltype(member)>::Owner;
 
-/// Its address stands for the type.
+/// Mark whose address identifies the type.
 template <class Struct>
 inline constexpr char owner_mark = 0;
 
@@ -65,7 +65,7 @@ inline constexpr auto words_of = [] {
   return words;
 }();
 
-/// A key whose value becomes the member. Without `fallback` the page says the value of the member in a new struct.
+/// Field of a key whose value becomes the member. Without `fallback` its default is the member's value in a new struct.
 template <auto member>
 Field plain(std::string_view key, std::string_view type, std::string_view meaning, std::string_view fallback = {}) {
   Field field{key, type, meaning, fallback};
@@ -77,13 +77,13 @@ Field plain(std::string_view key, std::string_view type, std::string_view meanin
   return field;
 }
 
-/// A key with one of some words, read by hand; `choices` is a table of Choice.
+/// Field of a key with one of several words, read by hand. `choices` is a table of Choice.
 template <const auto& choices>
 Field words(std::string_view key, std::string_view meaning, std::string_view fallback = {}) {
   return {key, "", meaning, fallback, words_of<choices>};
 }
 
-/// A key with one of some words, whose value in the table becomes the member.
+/// Field of a key with one of several words, whose value in the table becomes the member.
 template <auto member, const auto& choices>
 Field choice(std::string_view key, std::string_view meaning, std::string_view fallback = {}) {
   Field field = words<choices>(key, meaning, fallback);
@@ -112,7 +112,7 @@ void read_fields(const MapReader& map, Spec& spec) {
     if (field.owner == &owner_mark<Spec>) field.read(map, field, &spec);
 }
 
-/// A key whose value is a map with the keys of the list `noun`, which are members of the member.
+/// Field of a key whose value is a map with the keys of the list `noun`, read into the members of the member.
 template <auto member>
 Field nested(std::string_view key, std::string_view noun, std::string_view meaning, std::string_view fallback = {}) {
   Field field{key, noun, meaning, fallback};
@@ -129,7 +129,7 @@ Field nested(std::string_view key, std::string_view noun, std::string_view meani
   return field;
 }
 
-/// An entry of a collection: its name, its place, and the keys that are its members.
+/// Reads an entry of a collection: its name, its place, and the keys that are its members.
 template <class Spec>
 Spec read_entry(const MapReader& map, Spec spec = {}) {
   spec.name = map.node().key;
@@ -138,8 +138,8 @@ Spec read_entry(const MapReader& map, Spec spec = {}) {
   return spec;
 }
 
-/// The entries of the collection `key`, maps with the keys of the list `noun` (of a "point mass": `point_mass`);
-/// `read_rest` reads what is by hand.
+/// Reads the entries of the collection `key`, maps with the keys of the list `noun` ("point mass" for `point_mass`).
+/// `read_rest` reads the remaining keys.
 template <class Spec, class Rest>
 void read_entries(const MapReader& top, std::string_view key, const std::string& noun, std::vector<Spec>& specs,
                   Rest read_rest) {

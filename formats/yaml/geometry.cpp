@@ -1,4 +1,4 @@
-// Three-vectors, 3 x 3 matrices and the four forms of an orientation.
+// Reads three-vectors, 3 x 3 matrices and the four forms of an orientation.
 #include "formats/yaml/geometry.hpp"
 
 #include <array>
@@ -8,7 +8,7 @@
 namespace tisserand::formats {
 namespace {
 
-constexpr double slack = 1e-6;  ///< of unit norm and orthonormality of what a user types with rounded digits
+constexpr double slack = 1e-6;  ///< tolerance of unit norm and orthonormality, for rounded digits
 
 Eigen::Vector3d unreadable() { return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()); }
 
@@ -47,7 +47,7 @@ Eigen::Quaterniond from_numbers(const Context& context, const YamlNode& node, co
   return quaternion.normalized();
 }
 
-/// A direction of unit length, or not-a-number after an error.
+/// Direction of unit length, or not-a-number after an error.
 Eigen::Vector3d direction(const MapReader& map, std::string_view key) {
   const YamlNode* node = map.require(key);
   if (node == nullptr) return unreadable();
@@ -60,7 +60,7 @@ Eigen::Vector3d direction(const MapReader& map, std::string_view key) {
   return vector.stableNormalized();
 }
 
-/// Gram-Schmidt: `first` is kept, `second` loses its part along it, the third follows right-handed.
+/// Axes by Gram-Schmidt: `first` is kept, `second` is made normal to it, the third follows right-handed.
 Eigen::Quaterniond from_axes(const MapReader& map) {
   constexpr std::array<std::string_view, 3> names{"x", "y", "z"};
   std::vector<int> given;

@@ -1,4 +1,4 @@
-// Vectors, orientations and inertia tensors in the notations that part.yaml and scene.yaml accept.
+// Readers of vectors, orientations and inertia tensors in the notations of part.yaml and scene.yaml.
 #pragma once
 
 #include <optional>
@@ -11,25 +11,24 @@
 
 namespace tisserand::formats {
 
-/// [x, y, z]; not-a-number after an error.
+/// Reads [x, y, z]. Not-a-number after an error.
 Eigen::Vector3d read_vector(const Context& context, const YamlNode& node, const std::string& what);
 Eigen::Vector3d read_vector(const MapReader& map, std::string_view key, const Eigen::Vector3d& fallback);
 std::optional<Eigen::Vector3d> read_optional_vector(const MapReader& map, std::string_view key);
 
-/// Three rows of three numbers.
+/// Reads three rows of three numbers.
 Eigen::Matrix3d read_matrix(const Context& context, const YamlNode& node, const std::string& what);
 
-/// [Ixx, Iyy, Izz], [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] (entries of the tensor, thus minus the products ∫xy dm) or three
-/// rows.
+/// Reads [Ixx, Iyy, Izz], [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] (entries of the tensor, so Ixy = −∫xy dm) or three rows.
 Eigen::Matrix3d read_inertia(const Context& context, const YamlNode& node, const std::string& what);
 
-/// Rotation from the axes described to the axes in which they are written: a quaternion [w, x, y, z], a rotation matrix
-/// (three rows; its columns are the axes), {axis: [..], angle_deg: a}, or {x: [..], y: [..]} or another two of x, y, z
-/// (the first in alphabetical order is kept, the second made normal to it). Unit norm within 1e-6 is demanded of the
-/// quaternion and orthonormality within 1e-6 of the matrix; both are then normalised.
+/// Reads a rotation from the described axes to the axes in which they are written: a quaternion [w, x, y, z], a
+/// rotation matrix (three rows, its columns are the axes), {axis: [..], angle_deg: a}, or {x: [..], y: [..]} or another
+/// two of x, y, z (the first in alphabetical order is kept, the second made normal to it). Unit norm of the quaternion
+/// and orthonormality of the matrix must hold within 1e-6 and are then made exact.
 Eigen::Quaterniond read_orientation(const Context& context, const YamlNode& node, const std::string& what);
 
-/// `yz`, `xz` or `xy` as the index of the axis across; none after an error.
+/// Reads `yz`, `xz` or `xy` and returns the index of the axis normal to it. Empty after an error.
 std::optional<Eigen::Index> read_mirror_plane(const Context& context, const YamlNode& node);
 
 }  // namespace tisserand::formats

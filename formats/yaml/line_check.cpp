@@ -1,4 +1,4 @@
-// Geometry of lines, and inertia tensors that a real body can have.
+// Checks the geometry of lines, and whether a real body can have an inertia tensor.
 #include "formats/yaml/line_check.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace tisserand::formats {
 namespace {
 
-constexpr double smallest_angle = 1e-8;  ///< directions closer than this [rad] are parallel in double precision
+constexpr double smallest_angle = 1e-8;  ///< smaller angles [rad] count as parallel in double precision
 
 std::string text_of(const Eigen::Vector3d& v) { return fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z()); }
 

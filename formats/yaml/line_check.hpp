@@ -1,4 +1,4 @@
-// Findings that beams, masses and directions have in common in parts and scenes.
+// Checks of beams, masses and directions that parts and scenes share.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace tisserand::formats {
 
-/// A straight line or an arc.
+/// Straight line or arc to check.
 struct LineToCheck {
   Eigen::Vector3d from;
   Eigen::Vector3d to;
@@ -18,17 +18,17 @@ struct LineToCheck {
   std::optional<Eigen::Vector3d> orientation;
 };
 
-/// Zero length; arc points that coincide or lie on a line; orientation of zero length or, for a straight line, parallel
-/// to the axis. Silent about values that are not numbers.
+/// Checks for zero length, arc points that coincide or lie on a line, and an orientation of zero length or parallel to
+/// the axis of a straight line. Ignores not-a-number.
 void check_line(const LineToCheck& line, const Subject& subject);
 
 enum class MassSign { positive, zero_allowed };
 
-/// Sign of the mass; inertia finite, symmetric, positive semidefinite, and no principal moment above the sum of the
-/// others by more than 1e-3 of it: four typed digits of a flat body do that.
+/// Checks the sign of the mass, and that inertia is finite, symmetric and positive semidefinite. No principal moment
+/// may exceed the sum of the others by more than 1e-3 of it, which four digits of a flat body can cause.
 void check_mass(double mass, const Eigen::Matrix3d& inertia, MassSign sign, const Subject& subject);
 
-/// A sentence where a principal moment exceeds the sum of the others beyond round-off, which no body's does; else
+/// Warning that a principal moment exceeds the sum of the others beyond round-off, which is impossible for a body; or
 /// empty.
 std::string inertia_doubt(const std::string& subject, const Eigen::Matrix3d& inertia);
 

@@ -1,4 +1,4 @@
-// Spelling of names and references with suggestions.
+// Checks spelling of names and references, with suggestions.
 #include "formats/yaml/name_check.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ bool is_name(const std::string& text) {
 
 namespace {
 
-/// A name, perhaps with the number of a copy: "link[3]".
+/// Whether the text is a name, perhaps with the number of a copy: "link[3]".
 bool is_instance_name(const std::string& text) {
   const std::size_t open = text.find('[');
   if (open == std::string::npos) return is_name(text);

@@ -1,4 +1,4 @@
-// Overrides: path steps through maps and lists of the tree.
+// Applies overrides, whose paths lead through maps and lists of the tree.
 #include "formats/yaml/override.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::vector<std::string> split(const std::string& path) {
   return steps;
 }
 
-/// One walk from the root to the value of one override.
+/// Walk from the root of the tree to the value of one override.
 struct Walk {
   const Override& change;
   int source;

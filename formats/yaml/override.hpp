@@ -9,7 +9,7 @@ namespace tisserand::formats {
 
 struct YamlDocument;
 
-/// --set path.to.key=value: steps are keys of maps, and indices or the `name` of entries in lists; value is YAML.
+/// Option --set path.to.key=value. Steps: keys of maps, and indices or the `name` of entries in lists. Value: YAML.
 struct Override {
   std::string path;
   std::string value;
@@ -18,8 +18,8 @@ struct Override {
 /// Splits "path=value" at the first '='. Throws Error if there is no path or no '='.
 Override parse_override(const std::string& text);
 
-/// Sets the values in the tree, creating maps that are absent. An entry of a collection (a map whose keys are chosen by
-/// the user, such as `bodies`) is not created on the way to a deeper key: that would hide a misspelt name. Throws all
+/// Sets the values in the tree and creates absent maps. A collection is a map with names chosen by the user, such as
+/// `bodies`. Its entries are not created on the path to a deeper key, since that would hide a misspelt name. Throws all
 /// errors together.
 void apply_overrides(YamlDocument& document, const std::vector<Override>& overrides,
                      const std::vector<std::string_view>& collections);

@@ -1,4 +1,4 @@
-// Keys, scalars and choices of the text inputs, with errors that name the place and the remedy.
+// Reads keys, scalars and choices, with errors that give place and remedy.
 #include "formats/yaml/reader.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace tisserand::formats {
 namespace {
 
 struct ParsedNumber {
-  bool whole_text = false;  ///< the text is a number from its first to its last character
+  bool whole_text = false;  ///< the whole text is a number
   double value = 0.0;
 };
 
@@ -47,7 +47,7 @@ bool has_key(const KeySet& set, std::string_view key) {
   return std::ranges::find(set.fields, key, &Field::key) != set.fields.end();
 }
 
-/// A key of an earlier version, and what to do without it.
+/// Key of an earlier version, with the remedy.
 struct FormerKey {
   std::string_view noun, key, remedy;
 };
@@ -99,7 +99,7 @@ void YamlReader::note_place(const std::string& entry, const YamlPlace& place) {
   places_.insert_or_assign({entry, ""}, Noted{place, false});
 }
 
-/// The place of the key of the finding, or of the innermost map around it that stands in the file.
+/// Place of the key of the finding, or of the innermost enclosing map that is in the file.
 const YamlReader::Noted* YamlReader::noted(const Fault& fault) const {
   std::string key = fault.key;
   while (true) {
@@ -227,7 +227,7 @@ std::optional<std::size_t> read_word(const Context& context, const YamlNode& nod
 MapReader::MapReader(Context context, const YamlNode& node, std::string_view noun, std::string prefix)
     : context_(std::move(context)), node_(node), keys_(context_.reader.keys(noun)), prefix_(std::move(prefix)) {
   if (node.kind != YamlKind::map) {
-    const bool is_file = &node == &context_.reader.root();  // perhaps of another kind: not quoted
+    const bool is_file = &node == &context_.reader.root();  // may be another kind of file: not quoted
     const std::string found = is_file && node.kind == YamlKind::scalar ? "a text" : describe(node);
     context_.fail(node.place, fmt::format("must be a map of keys and values, not {}", found),
                   fmt::format("keys are {}", join(key_words(keys_), ", ")));

@@ -1,4 +1,4 @@
-// Strict reading of a tree into structs: legal keys, types, and all errors of a file together.
+// Strict reading of a tree into structs: legal keys, types, and all errors of a file at once.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ namespace tisserand::formats {
 
 class YamlReader;
 
-/// Throws Error if the document has the first key of another kind of file and not its own: a part given as a scene.
+/// Throws Error if the document has the first key of another kind of file but not its own: a part given as a scene.
 void require_kind(const YamlReader& reader, std::string_view own, std::string_view other, const std::string& remedy);
 
 /// Collects the errors of one document.
@@ -31,17 +31,17 @@ class YamlReader {
 
   const YamlNode& root() const { return document_.root; }
   const KeySet& keys(std::string_view noun) const;
-  /// The folder of the first file. The file names in that file are relative to it.
+  /// Folder of the first file. File names in that file are relative to it.
   std::filesystem::path folder() const;
   std::string where(const YamlPlace& place) const { return document_.where(place); }
 
-  /// An error inside the entry whose `where` is given. Findings of the check about that entry are then dropped, except
-  /// those about a scalar that was read without error.
+  /// Records an error inside the entry with the given `where`. Findings of the check about this entry are then dropped,
+  /// except those about a scalar that was read without error.
   void fail(const std::string& entry, const YamlPlace& place, const std::string& what, const std::string& remedy);
-  /// Remembers where the value of a key of an entry stands, for findings of the check.
+  /// Records the place of the value of a key of an entry, for findings of the check.
   void note(const std::string& entry, const std::string& key, const YamlNode& node);
   void note_place(const std::string& entry, const YamlPlace& place);
-  /// Throws the errors collected and the findings of the check, in the order of the lines.
+  /// Throws the recorded errors and the findings of the check, in the order of lines.
   void raise(const Faults& faults) const;
 
  private:
@@ -63,36 +63,36 @@ class YamlReader {
   std::map<std::pair<std::string, std::string>, Noted> places_;
 };
 
-/// What is being read: its words in messages ("section 'tube'") and the `where` of the entry that it belongs to.
+/// Context of reading: its name in messages ("section 'tube'") and the `where` of its entry.
 struct Context {
   YamlReader& reader;
   std::string subject;
   std::string entry;
 
   void fail(const YamlPlace& place, const std::string& what, const std::string& remedy) const;
-  /// Whether the node is a list, of so many entries if that is said; if not, an error: "`what`, not '4.5'".
+  /// Whether the node is a list (of `count` entries, if given). If not, records an error: "`what`, not '4.5'".
   bool require_list(const YamlNode& node, const std::string& what, const std::string& remedy,
                     std::optional<std::size_t> count = std::nullopt) const;
-  /// What stands inside of this: "body 'arm': damping".
+  /// Context of a map inside this one: "body 'arm': damping".
   Context inside(const std::string& what) const;
 };
 
-/// Numbers are finite; not-a-number stands for one that could not be read (the error is recorded).
+/// Reads a finite number. Returns not-a-number after a recorded error.
 double read_number(const Context& context, const YamlNode& node, const std::string& what);
 std::optional<int> read_integer(const Context& context, const YamlNode& node, const std::string& what);
 std::string read_text(const Context& context, const YamlNode& node, const std::string& what);
-/// A text or a list of texts.
+/// Reads a text or a list of texts.
 std::vector<std::string> read_texts(const Context& context, const YamlNode& node, const std::string& what);
-/// A list of numbers of any length.
+/// Reads a list of numbers of any length.
 std::vector<double> read_numbers(const Context& context, const YamlNode& node, const std::string& what);
 
-/// The entries of a list. A value that is no list counts as a list of one.
+/// Entries of a list. A value that is no list counts as a list of one.
 std::span<const YamlNode> items_of(const YamlNode& node);
 
-/// Whether it is a list whose entries are lists: the rows of a matrix.
+/// Whether the node is a list of lists: the rows of a matrix.
 bool has_rows(const YamlNode& node);
 
-/// Whether a scalar can be read as a number (finite or not).
+/// Whether a scalar is a number (finite or not).
 bool looks_like_number(const YamlNode& node);
 
 template <class T>
@@ -103,12 +103,12 @@ struct Choice {
 inline constexpr Choice<bool> on_or_off[] = {{"off", false}, {"on", true}};
 inline constexpr Choice<bool> yes_or_no[] = {{"yes", true}, {"no", false}, {"true", true}, {"false", false}};
 
-/// Records an error with the nearest word if `node` is none of `words`; otherwise its index.
+/// Index of the word `node` in `words`. For an unknown word records an error with the nearest one.
 std::optional<std::size_t> read_word(const Context& context, const YamlNode& node, const std::string& what,
                                      const std::vector<std::string>& words);
 
-/// One map with known keys. The constructor reports unknown and double keys; asking for a key that its KeySet lacks is
-/// a fault of the program.
+/// Map with known keys. The constructor reports unknown and duplicate keys. A request for a key that its KeySet lacks
+/// is a program error.
 class MapReader {
  public:
   /// `prefix` ("damping.") precedes the keys in findings of the check when the map is part of a larger entry.
@@ -118,24 +118,24 @@ class MapReader {
   const YamlNode& node() const { return node_; }
   const std::vector<Field>& fields() const { return keys_.fields; }
   bool has(std::string_view key) const { return find(key) != nullptr; }
-  /// The value or null. A key without a value is found; reading its value is then an error.
+  /// Value of the key, or null. A key without a value is found; reading its value is an error.
   const YamlNode* find(std::string_view key) const;
-  /// The value, or null and an error.
+  /// Value of the key, or null and an error.
   const YamlNode* require(std::string_view key) const;
-  /// The map that stands under a key of this one, with that key in messages ("body 'arm': damping").
+  /// Map at a key of this one, with that key in messages ("body 'arm': damping").
   MapReader inside(const YamlNode& value, std::string_view noun) const;
-  /// Entries of a collection, each once; empty if the key is absent. `noun` ("body") is used in messages.
+  /// Entries of a collection, each once. Empty if the key is absent. `noun` ("body") is used in messages.
   std::vector<const YamlNode*> entries(std::string_view key, const std::string& noun) const;
 
   double number(std::string_view key) const;
   double number(std::string_view key, double fallback) const;
   int integer(std::string_view key, int fallback) const;
   std::string text(std::string_view key) const;
-  /// An error at each of these keys that is there: "'axis' has no effect here".
+  /// Records an error at each of these keys that is present: "'axis' has no effect here".
   void refuse(std::initializer_list<std::string_view> keys, const std::string& why, const std::string& remedy) const;
-  /// An error at the second key if both are there.
+  /// Records an error at the second key if both are present.
   void refuse_both(std::string_view first, std::string_view second, const std::string& remedy) const;
-  /// An error unless exactly one of both is there.
+  /// Records an error unless exactly one of both is present.
   void require_one(std::string_view first, std::string_view second, const std::string& remedy) const;
   void fail(const std::string& what, const std::string& remedy) const { context_.fail(place(), what, remedy); }
 
@@ -149,7 +149,7 @@ class MapReader {
     return index ? choices[*index].value : fallback;
   }
 
-  /// Where the map is: its key, or its first character.
+  /// Place of the map: its key, or its first character.
   YamlPlace place() const;
 
  private:
@@ -159,9 +159,9 @@ class MapReader {
   std::string prefix_;
 };
 
-/// The value of a key that is an entry by itself, as a context: "mesh" at its key.
+/// Context of a key that is an entry itself: "mesh" at its key.
 Context key_context(YamlReader& reader, const YamlNode& node);
-/// The entry of a collection as a context: "beam 'rod'" at its key.
+/// Context of an entry of a collection: "beam 'rod'" at its key.
 Context entry_context(YamlReader& reader, const std::string& noun, const YamlNode& node);
 
 }  // namespace tisserand::formats

@@ -1,4 +1,4 @@
-// Events of yaml-cpp to a bounded tree; everything that can be wrong with a text file before its keys are looked at.
+// Builds a bounded tree from the events of yaml-cpp, and reports everything wrong with a text file except its keys.
 #include "formats/yaml/tree.hpp"
 
 #include <yaml-cpp/eventhandler.h>
@@ -29,7 +29,7 @@ struct Extent {
   std::size_t depth = 1;
 };
 
-/// Recursion is bounded by largest_depth.
+/// Size of a tree. largest_depth limits the recursion.
 Extent measure(const YamlNode& node) {
   Extent extent;
   for (const YamlNode& child : node.children) {
@@ -40,7 +40,7 @@ Extent measure(const YamlNode& node) {
   return extent;
 }
 
-/// Builds the tree from the events of yaml-cpp's parser, which are the only recursion (bounded there and here).
+/// Builds the tree from the events of yaml-cpp's parser. Its recursion is limited there and here.
 class TreeBuilder : public YAML::EventHandler {
  public:
   TreeBuilder(const std::string& text, std::string file) : input_(text), file_(std::move(file)) {}
@@ -87,7 +87,7 @@ class TreeBuilder : public YAML::EventHandler {
   struct Frame {
     YamlNode node;
     YAML::anchor_t anchor;
-    std::optional<YamlNode> key;  ///< of a map, read before its value
+    std::optional<YamlNode> key;  ///< key of a map entry, read before its value
   };
 
   [[noreturn]] void fail(const YAML::Mark& mark, const std::string& what, const std::string& remedy) const {
@@ -102,7 +102,7 @@ class TreeBuilder : public YAML::EventHandler {
       fail(mark, fmt::format("YAML tag '{}' is not supported", tag), "remove it");
   }
 
-  /// yaml-cpp takes the end of the file for a missing closing quote.
+  /// Reports a missing closing quote, for which yaml-cpp takes the end of the file.
   void check_closing_quote(const YAML::Mark& mark) const {
     const auto begin = static_cast<std::size_t>(std::max(mark.pos, 0));
     if (begin >= input_.size() || (input_[begin] != '"' && input_[begin] != '\'')) return;

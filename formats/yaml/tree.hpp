@@ -1,4 +1,4 @@
-// First step from part.yaml and scene.yaml to structs: the text as a plain tree that remembers lines and columns.
+// Text of part.yaml and scene.yaml as a plain tree with lines and columns.
 #pragma once
 
 #include <string>
@@ -13,57 +13,57 @@ enum class YamlKind { null, scalar, sequence, map };
 struct YamlPlace {
   int line = 0;
   int column = 0;
-  int source = 0;  ///< index into YamlDocument::sources
+  int source = 0;  ///< index in YamlDocument::sources
 
   bool operator==(const YamlPlace&) const = default;
 };
 
-/// A value; in a map it carries its key. Children are in the order of the file, double keys included.
+/// A value, with its key if it is in a map. Children are in the order of the file, with duplicate keys.
 struct YamlNode {
   YamlKind kind = YamlKind::null;
   bool quoted = false;  ///< scalar in quotes: text, never a number
-  std::string text;     ///< of a scalar
+  std::string text;     ///< text of a scalar
   YamlPlace place;
-  std::string key;  ///< in a map
+  std::string key;  ///< key in a map
   YamlPlace key_place;
   std::vector<YamlNode> children;
 };
 
-/// A file, or the text of an override.
+/// Kind of a source: a file, or the text of an override.
 enum class YamlSourceKind { file, option };
 struct YamlSource {
   YamlSourceKind kind = YamlSourceKind::file;
   std::string name;
-  std::string folder;  ///< of an included file, relative to that of the first file; "" if it is the same
+  std::string folder;  ///< of an included file, relative to the first file's folder; "": the same
 };
 
-/// A tree and its sources: first the file, then what it includes and the overrides that changed it.
+/// Tree with its sources: first the file, then its includes and the overrides that changed it.
 struct YamlDocument {
   YamlNode root;
   std::vector<YamlSource> sources;
 
-  /// "file:line:column", or the text of the override.
+  /// Text "file:line:column", or the text of the override.
   std::string where(const YamlPlace& place) const;
 };
 
-/// Parses one YAML document (anchors and aliases are resolved by copy; tags and merge keys are not supported). Bounds:
-/// depth 100, one million values, 16 MiB. Throws Error with file:line:column.
+/// Parses one YAML document. Anchors and aliases are resolved by copying; tags and merge keys are not supported.
+/// Limits: depth 100, one million values, 16 MiB. Throws Error with file:line:column.
 YamlDocument parse_yaml(const std::string& text, const std::string& file);
 
 /// Reads a file and parses it. Throws Error (missing, a folder, empty, binary, syntax).
 YamlDocument load_yaml(const std::string& path);
 
-/// Marks the node and all below it as read from source `source`.
+/// Marks the node and everything below it as read from source `source`.
 void mark_source(YamlNode& node, int source);
 
-/// The number of nodes of a tree, itself included.
+/// Number of nodes of a tree, including its root.
 std::size_t count_nodes(const YamlNode& node);
 
-/// The value of a key of a map, or null.
+/// Value of a key of a map, or null.
 const YamlNode* find_child(const YamlNode& node, std::string_view key);
 YamlNode* find_child(YamlNode& node, std::string_view key);
 
-/// "'4.5'", "the text \"4.5\"", "a list of 3", "a map", "nothing": for messages.
+/// Description of a node for messages: "'4.5'", "the text \"4.5\"", "a list of 3", "a map", "nothing".
 std::string describe(const YamlNode& node);
 
 }  // namespace tisserand::formats

@@ -1,4 +1,4 @@
-// Units by label.
+// Reads units by their labels.
 #include "formats/yaml/units_reader.hpp"
 
 namespace tisserand::formats {

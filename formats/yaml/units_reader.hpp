@@ -6,7 +6,7 @@
 
 namespace tisserand::formats {
 
-/// `consistent`, or {length: m, mass: kg, time: s} with all three; SI if the key is absent.
+/// Reads `consistent`, or {length: m, mass: kg, time: s} with all three. SI if the key is absent.
 Units read_units(const MapReader& map);
 
 }  // namespace tisserand::formats
