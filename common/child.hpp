@@ -12,7 +12,7 @@ struct ChildRequest {
   std::string input;                 ///< its standard input
   std::size_t most_text = 1 << 16;   ///< limit of the captured standard output [bytes]
   double seconds = 0.0;              ///< limit of the elapsed time [s]; 0: no limit
-  std::function<bool()> is_stopped;  ///< asked ten times a second; true ends the child. Empty: never
+  std::function<bool()> is_stopped;  ///< called ten times a second; true ends the child; empty: never
   /// Exchange with the child, called once while it runs. The other end of `socket` is descriptor 3 (read) and 4 (write)
   /// of the child. The socket closes when this returns, then the time limit starts. An exception kills the child.
   /// Empty: the child gets no such descriptors.

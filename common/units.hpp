@@ -45,7 +45,7 @@ std::string unit_label(const Units& units, int length, int mass, int time);
 /// Label of an energy, for example "J" for SI. Empty if unnamed.
 std::string energy_label(const Units& units);
 
-/// Label as it stands after a number, for example " N". Empty for unnamed units.
+/// Label as written after a number, for example " N". Empty for unnamed units.
 std::string after_number(const std::string& label);
 
 }  // namespace tisserand

@@ -33,7 +33,7 @@ class Apart {
 
   /// Answer of opening_of() for a file. Throws Error as ask().
   std::string open(std::size_t file, Completeness completeness);
-  /// Stores the answer to a request of entry.hpp about an open file where `place` says. Throws the child's Error, or
+  /// Stores the answer to a request of entry.hpp about an open file at `place`. Throws the child's Error, or
   /// Error if the child died or exceeded the limits.
   void ask(std::size_t file, const std::string& request, const Place& place);
   /// Returns the answer, of at most 256 MiB.

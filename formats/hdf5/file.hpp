@@ -48,7 +48,7 @@ Error last_error(const std::string& action, const std::string& where, const std:
 class Apart;
 
 /// File opened for reading by a process that lives as long as this object. Object names are absolute paths; "/" is the
-/// root group. Functions other than read...() describe the file as of its opening or of the first question.
+/// root group. Functions other than read...() return the state at the opening or at the first request.
 class InputFile {
  public:
   /// Throws Error: no such file, no permission, a folder, not HDF5, cut short, not closed properly, or so damaged that
@@ -65,9 +65,8 @@ class InputFile {
   std::vector<std::string> members(const std::string& group) const;
   std::vector<std::string> attributes(const std::string& object) const;
 
-  // All of these also throw Error if HDF5 crashes or exceeds a limit of time: ten times the processor time of an
-  // ordinary
-  // read (it can loop forever), or much more than a slow disk needs.
+  // All of these also throw Error if HDF5 crashes or exceeds a limit, since it can loop forever. Limits are ten times
+  // the processor time of an ordinary read, or much more than a slow disk needs.
   /// Attribute of one string (variable or fixed length, at most 1 MiB).
   std::string text_attribute(const std::string& object, const std::string& name) const;
   /// Attribute of one number, integer or floating, as double.

@@ -74,8 +74,7 @@ void set_checked_storage(Id creation, Id space, Id file_type, Packing packing) {
 }
 
 /// Creates and writes a dataset. No times are stored, so that equal contents give equal bytes. The last values may
-/// reach
-/// the disk only when the dataset is closed.
+/// reach the disk only when the dataset is closed.
 void write_values(const Output& out, const std::string& dataset, const Handle& space, const Values& values) {
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.id(), false);

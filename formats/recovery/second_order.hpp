@@ -29,8 +29,8 @@ inline constexpr const char* no_second_order_note =
 Eigen::MatrixXd second_order_amplitudes(const std::vector<Eigen::MatrixXd>& forms, const Eigen::MatrixXd& y);
 
 /// Amplitudes of the shapes, shapes x T, zero except at `stiffened` instants (T; 1 or 0). Adds the second-order motion
-/// of
-/// the coordinates `left_out` to y: the body lacks these coordinates. `y`: n x T, of the part in the units of the file.
+/// of the coordinates `left_out` to y: the body lacks these coordinates. `y`: n x T, of the part in the units of the
+/// file.
 Eigen::MatrixXd add_second_order(const SecondOrderForms& forms, const Eigen::RowVectorXd& stiffened,
                                  const std::vector<Eigen::Index>& left_out, Eigen::MatrixXd& y);
 

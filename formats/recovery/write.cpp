@@ -179,7 +179,7 @@ struct RecoveryWriter::Impl {
 
   hdf5::OutputFile file;
   Recovery head;
-  std::vector<Growing> fields;  ///< of field_sets()
+  std::vector<Growing> fields;  ///< datasets of field_sets()
 };
 
 RecoveryWriter::RecoveryWriter(const std::string& path, const Recovery& recovery) {

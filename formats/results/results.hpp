@@ -98,7 +98,7 @@ struct ResultsRow {
   Eigen::VectorXd coupling_first_force, coupling_second_force;  ///< along the two coordinates, as for springs
   Eigen::VectorXd motion_force;                                 ///< force or moment of each drive of layout.motions
   Eigen::VectorXd spring_force, stop_force;  ///< along the coordinate, on b; stops are part of springs
-  Eigen::Matrix3Xd bushing_force, bushing_moment, friction_force, friction_moment;  ///< as of joints
+  Eigen::Matrix3Xd bushing_force, bushing_moment, friction_force, friction_moment;  ///< as for joints
   Eigen::Matrix3Xd tyre_force, tyre_moment;    ///< on the wheel, about the contact centre, in tyre axes (ISO 8855)
   Eigen::Matrix3Xd tyre_contact, tyre_normal;  ///< contact centre, normal of the road
   Eigen::VectorXd tyre_slip, tyre_slip_angle, tyre_camber, tyre_penetration, tyre_rolling_radius, tyre_adhesion;
@@ -137,9 +137,8 @@ std::size_t bytes_of_row(const ResultsLayout& layout);
 void require_unheld_results(const std::string& path);
 
 /// Appends rows to <path>.part, flushes about every second, renames the file to `path` in finish(). The destructor of
-/// an
-/// unfinished writer closes it as a partial file (completed = 0) and leaves it under `path`. A kernel lock on the file,
-/// which readers ignore, keeps other writers from the name until the program ends.
+/// an unfinished writer closes it as a partial file (completed = 0) and leaves it under `path`. A kernel lock on the
+/// file, which readers ignore, keeps other writers from the name until the program ends.
 class ResultsWriter {
  public:
   /// Throws Error if the file cannot be written or another program holds it. Without a path, rows are only counted.
@@ -206,8 +205,7 @@ class ResultsReader {
   /// Values over time. Throws Error with the nearest channel names if the name is unknown.
   std::vector<double> read(const std::string& channel) const;
   /// Rows [first, first + count) of several channels, count x channels.size(), all over instants or all over modes.
-  /// Each
-  /// dataset is read once.
+  /// Each dataset is read once.
   Eigen::MatrixXd read_rows(const std::vector<std::string>& channels, std::size_t first, std::size_t count) const;
   /// The given ascending rows of a whole dataset ("nodes/position"): rows.size() x its columns; no columns if it is not
   /// stored.

@@ -1,9 +1,8 @@
 // Writes the rows of a running analysis to *.results.h5 so that a killed run leaves a readable file.
 //
 // The file appears as <path>.part when its head is complete. HDF5's single-writer mode then keeps it consistent on
-// disk.
-// Rows wait in memory that is allocated at the start. Outside this mode a kill between two writes can damage the file,
-// so the report is written to a copy.
+// disk. Rows wait in memory that is allocated at the start. Outside this mode a kill between two writes can damage the
+// file, so the report is written to a copy.
 #include <hdf5.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -290,8 +289,8 @@ void ResultsWriter::Impl::close() {
 }
 
 /// Writes the report into a copy of the closed file and returns its name, since a kill during write_end() can damage a
-/// file. It writes into the file itself, which risks this for some milliseconds, in three cases: the file is large, the
-/// disk has no space, or a reader in this process keeps the file open. Then the copy has the mark of a running writer.
+/// file. It writes into the file itself, with this risk for some milliseconds, in three cases: the file is large, the
+/// disk has no space, or a reader in this process has the file open, which marks a copy as still running.
 std::string ResultsWriter::Impl::write_end_apart(int completed, const std::string& reason,
                                                  const std::string& report_json) const {
   const std::string copy = part + ".end";

@@ -18,8 +18,8 @@ struct IsoRoadSpec {
 inline constexpr double longest_iso_road = 20e3;  ///< m
 
 /// Heights at points about 2 cm apart, as a sum of 300 waves in bands of equal logarithmic width. Each wave has the
-/// exact
-/// power of its band; the seed gives its phase and frequency, equal on every machine. `metre`: unit of length in m.
+/// exact power of its band; the seed gives its phase and frequency, equal on every machine. `metre`: unit of length in
+/// m.
 CurveSpec iso_road(const IsoRoadSpec& spec, double metre);
 
 }  // namespace tisserand::formats

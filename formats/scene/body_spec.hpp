@@ -40,11 +40,11 @@ struct NodeWeight {
 };
 
 struct Damping {
-  double mass = 0.0;            ///< a of a M̄
-  double stiffness = 0.0;       ///< b of b S̄
-  double ratio = 0.0;           ///< for every elastic mode of the free body, or every mode of a modal body
-  std::vector<double> ratios;   ///< for the lowest of these modes; overrides `ratio`
-  double ratio_internal = 0.0;  ///< for every internal mode (boundary held) of a superelement
+  double mass = 0.0;                         ///< a of a M̄
+  double stiffness = 0.0;                    ///< b of b S̄
+  double ratio = 0.0;                        ///< for every elastic mode of the free body, or every mode of a modal body
+  std::vector<double> ratios;                ///< for the lowest of these modes; overrides `ratio`
+  double ratio_internal = 0.0;               ///< for every internal mode (boundary held) of a superelement
   std::vector<double> ratios_internal = {};  ///< for the first of these modes; overrides `ratio_internal`
   bool operator==(const Damping&) const = default;
 };
@@ -60,7 +60,7 @@ struct SuperelementBodySpec {
   std::string name;
   std::string file;  ///< resolved path
   Eigen::Vector3d mirror =
-      Eigen::Vector3d::Ones();  ///< −1 along mirrored axes (formats/superelement/mirror.hpp)
+      Eigen::Vector3d::Ones();  ///< −1 along axes that are mirrored (formats/superelement/mirror.hpp)
   InitialMotion start;
   bool rigid = false;                          ///< use: rigid
   std::optional<int> modes;                    ///< absent: all modes of the file
@@ -133,7 +133,7 @@ struct ModalBodySpec {
   std::string name;
   std::string file;  ///< resolved path
   Eigen::Vector3d mirror =
-      Eigen::Vector3d::Ones();  ///< −1 along mirrored axes (formats/superelement/mirror.hpp)
+      Eigen::Vector3d::Ones();  ///< −1 along axes that are mirrored (formats/superelement/mirror.hpp)
   InitialMotion start;
   std::optional<int> modes;                ///< absent: all modes of the file
   std::optional<double> cutoff;            ///< [1/time of the scene]

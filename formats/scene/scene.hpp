@@ -250,8 +250,8 @@ struct Scene {
   Units units = Units::si();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   std::vector<EffectSwitch> effects;  ///< applied when the model is built (mechanism/build/effects.hpp)
-  std::string planar_at;    ///< place of the switch for planar equations, once applied; empty: none
-  AutomaticSpec automatic;  ///< settings of automatic effects
+  std::string planar_at;              ///< place of the switch for planar equations, once applied; empty: none
+  AutomaticSpec automatic;            ///< settings of automatic effects
   std::vector<BodySpec> bodies;
   std::vector<JointSpec> joints;
   std::vector<GearSpec> gears;
@@ -274,7 +274,7 @@ struct Scene {
   CheckpointSpec checkpoint;
   std::vector<Analysis> analyses;  ///< in the order of the file; empty: `analysis` alone
   double initial_tolerance =
-      1e-6;  ///< largest correction of given poses (times characteristic length) and velocities
+      1e-6;  ///< largest correction of poses in the file (times characteristic length) and velocities
 };
 
 /// Reads scene.yaml, applies the overrides and checks. Its paths are relative to its folder. Throws all errors at once,

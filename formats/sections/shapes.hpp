@@ -6,8 +6,7 @@
 namespace tisserand::formats {
 
 /// Shear areas follow Cowper, The shear coefficient in Timoshenko's beam theory, J. Appl. Mech. 33 (1966) 335, with ν =
-/// 0,
-/// since a section has no material: 5/6 A for the rectangle, 6/7 A for the circle, A/2 for a thin circular tube. At
+/// 0, since a section has no material: 5/6 A for the rectangle, 6/7 A for the circle, A/2 for a thin circular tube. At
 /// ν = 0.3 his values are larger by 2, 3.4 and 6 %. If that matters, give the constants.
 
 /// Full circle. J = Iy + Iz (exact).

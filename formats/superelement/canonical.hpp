@@ -23,13 +23,12 @@ struct CanonicalMatrices {
   Eigen::MatrixXd static_part;
   Eigen::MatrixXd modal_part;
   Eigen::Index massless =
-      0;  ///< number of dropped internal directions, which have no mass, inertia or weight
+      0;  ///< number of internal directions without mass, which carry no inertia or weight and are dropped
 };
 
 /// Canonical form (THEORY (7)) by y_I = −S_II⁻¹ S_IB y_B + Q η with S_II Q = M_II Q Λ and QᵀM_II Q = 1. Coordinates
-/// with
-/// zero rows of S (mechanisms of a part) come first with eigenvalue 0; the others are made orthogonal to them in M. No
-/// entry is set to zero. Throws Error (at `where`) if S_II is not safely positive definite or M_II is indefinite.
+/// with zero rows of S (mechanisms of a part) come first with eigenvalue 0; the others are made orthogonal to them in
+/// M. No entry is set to zero. Throws Error (at `where`) if S_II is not safely positive definite or M_II is indefinite.
 CanonicalMatrices canonical_form(const PartitionedMatrices& matrices, const std::string& where);
 
 /// Number of modes to keep of `eigenvalue` (ascending): at least `wanted`, without splitting a cluster of eigenvalues
