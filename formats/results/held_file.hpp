@@ -6,8 +6,8 @@
 namespace tisserand::formats {
 
 /// File that this program holds until its end, however it ends: an open-file-description lock of the kernel on a byte
-/// far beyond the data. It cannot become stale, and neither readers nor HDF5's own locks meet it. Disks without locks
-/// hold nothing and refuse nothing.
+/// far beyond the data. It cannot become stale, and does not affect readers or HDF5's own locks. On disks without
+/// locks no file is held or refused.
 class HeldFile {
  public:
   HeldFile() = default;
