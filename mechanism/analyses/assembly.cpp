@@ -28,17 +28,17 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// Largest turn, or displacement over length, of one step.
+/// Largest rotation [rad], or displacement over length, of one step.
 constexpr double largest_step = 0.5;
 constexpr int most_iterations = 200;  ///< per fresh start
 constexpr int most_fresh_starts = 4;
 
-/// The bodies of a state, each with all its nodes, moved as if they were rigid.
+/// The bodies of a state, each with all its nodes, which move as rigid bodies.
 struct RigidBodies {
   const Model& model;
   State& state;
   std::vector<int> of_node;
-  std::vector<Vector3d> center;  ///< about which a body turns
+  std::vector<Vector3d> center;  ///< points about which bodies turn
 
   RigidBodies(const Model& moved, State& moving) : model(moved), state(moving) {
     const Parts parts = find_parts(model);
@@ -60,7 +60,7 @@ struct RigidBodies {
 
   Eigen::Index motions() const { return 6 * static_cast<Eigen::Index>(center.size()); }
 
-  /// [t/L; θ] per body, applied as whole rotations.
+  /// Moves each body by [t/L; θ], its row in d, with finite rotations.
   void move(const VectorXd& d) {
     const auto turn_of = [&d](int body) {
       const Vector3d turn = d.segment<3>(6 * body + 3);
@@ -84,7 +84,7 @@ struct RigidBodies {
 
 double row_scale(const Model& model, int row) { return model.length_row[row] ? 1.0 / model.length : 1.0; }
 
-/// Coordinates that are asked for a value or a rate, as rows after those of the constraints.
+/// A coordinate with a prescribed value or rate; these rows follow those of the constraints.
 struct AskedRow {
   const CoordinateStart* entry;
   double target;
@@ -135,7 +135,7 @@ Sparse jacobian(const AskedRows& asked, const RigidBodies& bodies, const Evaluat
   return J;
 }
 
-/// −(JᵀJ + μ)⁻¹ Jᵀ f.
+/// Damped Gauss-Newton step −(JᵀJ + μ)⁻¹ Jᵀ f.
 VectorXd damped_step(const Sparse& J, const VectorXd& f, double mu) {
   Sparse A = J.transpose() * J;
   Sparse one(A.rows(), A.cols());
@@ -145,7 +145,7 @@ VectorXd damped_step(const Sparse& J, const VectorXd& f, double mu) {
   return -factors.solve(VectorXd(J.transpose() * f));
 }
 
-/// The constraints, and the coordinates that are asked for.
+/// Evaluates the constraints and the prescribed coordinates.
 void evaluate_rows(const Model& model, const AskedRows& asked, const State& state, Evaluation& evaluation) {
   evaluate(model, state, evaluation);
   if (asked.empty()) return;
@@ -153,7 +153,7 @@ void evaluate_rows(const Model& model, const AskedRows& asked, const State& stat
   evaluate_coordinates(model, state, evaluation);
 }
 
-/// `rows` of the constraints and the gaps of what is asked for, scaled.
+/// Scaled vector of the constraint `rows` and the gaps of the prescribed coordinates.
 VectorXd scaled_rows(const Model& model, const AskedRows& asked, const VectorXd& rows,
                      double CoordinateTerms::*quantity, const Evaluation& evaluation) {
   VectorXd f(rows.size() + static_cast<Eigen::Index>(asked.size()));
@@ -164,7 +164,7 @@ VectorXd scaled_rows(const Model& model, const AskedRows& asked, const VectorXd&
   return f;
 }
 
-/// Scaled Φ at the state.
+/// Scaled Φ at the state, followed by the gaps of the prescribed coordinates.
 VectorXd gaps(const Model& model, const AskedRows& asked, State& state, Evaluation& evaluation) {
   evaluate(model, state, evaluation);
   unwrap_hinges(model, evaluation, state);
@@ -174,7 +174,7 @@ VectorXd gaps(const Model& model, const AskedRows& asked, State& state, Evaluati
 
 double largest(const VectorXd& f) { return f.size() > 0 ? f.cwiseAbs().maxCoeff() : 0.0; }
 
-/// Damped steps until the gaps are closed as far as round-off lets them, or no step helps any more.
+/// Makes damped steps until the gaps are closed to round-off, or no step reduces them.
 void close_gaps(const AskedRows& asked, const std::function<bool()>& interrupted, RigidBodies& bodies,
                 Evaluation& evaluation, AssemblyReport& report) {
   const Model& model = bodies.model;
@@ -209,7 +209,7 @@ void close_gaps(const AskedRows& asked, const std::function<bool()>& interrupted
   }
 }
 
-/// Turns a body whose axis meets that of its joint the wrong way round; true if there was one.
+/// Turns over a body whose axis is opposite to that of its joint; true if there was one.
 bool turn_over(RigidBodies& bodies, Evaluation& evaluation) {
   evaluate(bodies.model, bodies.state, evaluation);
   for (const Joint& joint : bodies.model.joints) {
@@ -235,7 +235,7 @@ bool turn_over(RigidBodies& bodies, Evaluation& evaluation) {
   return false;
 }
 
-/// Small turns of all bodies, the same in every run.
+/// Turns all bodies by small random angles, which are the same in every run.
 void disturb(int attempt, RigidBodies& bodies) {
   std::mt19937 random(static_cast<unsigned>(attempt + 1));
   std::uniform_real_distribution<double> uniform(-0.3, 0.3);
@@ -245,7 +245,7 @@ void disturb(int attempt, RigidBodies& bodies) {
   bodies.move(d);
 }
 
-/// Whether a joint keeps a distance of markers that stand at one place: the direction in which they part is round-off.
+/// Whether a joint keeps a distance of markers that coincide: the direction of their separation is then round-off.
 bool is_folded(const Model& model, const State& state, Evaluation& evaluation) {
   constexpr double same_place = 1e-9;  // of the characteristic length
   evaluate(model, state, evaluation);
@@ -256,7 +256,7 @@ bool is_folded(const Model& model, const State& state, Evaluation& evaluation) {
   });
 }
 
-/// The rigid motion [ẋ_c/L; ω] of each body that its nodes have, as far as they have one.
+/// Rigid motion [ẋ_c/L; ω] of each body that fits the velocities of its nodes.
 VectorXd rigid_velocities(const RigidBodies& bodies) {
   const Model& model = bodies.model;
   const State& state = bodies.state;
@@ -297,8 +297,8 @@ void set_rigid_velocities(const VectorXd& w, RigidBodies& bodies) {
   }
 }
 
-/// The smallest change of w with B v = −Φ_t, in repeated damped steps: each leaves μ/(σ² + μ) of the error. Returns the
-/// largest gap relative to the largest velocity.
+/// Makes the smallest change of w with B v = −Φ_t, in repeated damped steps, each of which leaves μ/(σ² + μ) of the
+/// error. Returns the largest gap relative to the largest velocity.
 double close_velocities(const AskedRows& asked, VectorXd w, RigidBodies& bodies, Evaluation& evaluation) {
   double gap = 0.0;
   for (int pass = 0; pass < 20; ++pass) {

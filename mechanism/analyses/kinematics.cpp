@@ -24,11 +24,11 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Smallest reciprocal condition of [M Bᵀ; B 0] with which the constraints determine the motion.
+/// Smallest reciprocal condition of [M Bᵀ; B 0] at which the constraints determine the motion.
 constexpr double dead_point = 1e-15;
 /// Increments below this, relative to length or one radian, are round-off.
 constexpr double increment_floor = 1e-14;
-/// Rows left out may be open by this much (relative to the length): more, and the rank has changed.
+/// Largest gap of an inactive row, relative to the length. A larger one shows that the rank has changed.
 constexpr double left_open = 1e-7;
 
 /// Factors [M Bᵀ; B 0] at the state of the last evaluate().
@@ -61,8 +61,8 @@ StepOutcome close_gaps(const Model& model, const formats::IntegratorSpec& option
   }
 }
 
-/// The joint coordinate that moves most in a motion d (velocity coordinates, after evaluate_coordinates()), or the
-/// node.
+/// Name of the joint coordinate that moves most in a motion d (velocity coordinates, after evaluate_coordinates()), or
+/// of the node.
 std::string name_of_motion(const Model& model, const Evaluation& evaluation, const Eigen::VectorXd& d) {
   double largest = 0.0;
   std::string name;
@@ -147,7 +147,7 @@ bool solve_multipliers(const Model& model, State& state, Workspace& workspace) {
   evaluate(model, state, workspace.now);
   if (!factor_constraints(model, state, workspace).regular) return false;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.sizes.constraints);
-  // Friction depends on the multipliers: Newton's iteration, otherwise one refinement.
+  // Friction depends on the multipliers and needs Newton's iteration. Otherwise one refinement is enough.
   constexpr int most_refinements = 50;
   const bool rubs = !model.frictions.empty();
   bool settled = !rubs;
@@ -180,7 +180,7 @@ StepReport move_along(const Model& model, const formats::IntegratorSpec& options
     find_active_rows(model, state, workspace);
     report.iterations = 0;
     report.outcome = close_gaps(model, options, state, workspace, report);
-    // A row that is left out again although it is open: the drives do not determine the motion here.
+    // If a row is inactive again although it is open, the drives do not determine the motion here.
     if (report.outcome == StepOutcome::accepted &&
         largest_violation(model, workspace.now, Rows::left_out).value > left_open)
       report.outcome = StepOutcome::singular;

@@ -1,4 +1,4 @@
-// Exact tangents of a state as dense matrices, in axes that may turn.
+// Exact tangents of a state as dense matrices, in axes that may rotate.
 #include "mechanism/analyses/linearise.hpp"
 
 #include <vector>
@@ -18,7 +18,7 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-/// Adds the blocks of one superelement, internal coordinates kept.
+/// Adds the blocks of one superelement, with its internal coordinates.
 void add_superelement(const Model& model, std::size_t i, const TangentCoefficients& c, const Evaluation& evaluation,
                       MatrixXd& A) {
   const SuperelementBody& body = body_of(model, i);
@@ -31,7 +31,7 @@ void add_superelement(const Model& model, std::size_t i, const TangentCoefficien
     for (Eigen::Index row = 0; row < local.rows(); ++row) A(rows[row], rows[column]) += local(row, column);
 }
 
-/// What channels in the factors of part loads add to the rows of internal coordinates.
+/// Adds the derivatives of channels in the factors of part loads to the rows of internal coordinates.
 void add_internal_loads(const Model& model, const State& state, const TangentCoefficients& c, Evaluation& evaluation,
                         MatrixXd& A) {
   for (std::size_t use = 0; use < model.channel_uses.size(); ++use) {
@@ -50,7 +50,7 @@ void add_internal_loads(const Model& model, const State& state, const TangentCoe
   }
 }
 
-/// c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q; `matrix` receives the values of the pattern.
+/// The matrix c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q; `matrix` receives the values of the pattern.
 MatrixXd exact_matrix(const Model& model, const State& state, const TangentCoefficients& c, Evaluation& evaluation,
                       MatrixValues& matrix) {
   const int n = model.sizes.velocities(), boundary = model.sizes.boundary;
@@ -65,7 +65,7 @@ MatrixXd exact_matrix(const Model& model, const State& state, const TangentCoeff
   return A;
 }
 
-/// Constraints that are active: the rows of B.
+/// Indices of active constraints, in the order of the rows of B.
 std::vector<int> active_rows(const State& state) {
   std::vector<int> kept;
   for (int row = 0; row < std::ssize(state.active()); ++row)
@@ -84,8 +84,8 @@ MatrixXd jacobian(const Model& model, const State& state, const MatrixValues& ma
   return B(active_rows(state), Eigen::all);
 }
 
-/// Replaces the columns of a node's translations or rotations in each matrix: those of r(q, v, v̇) by those of (ξ, ξ',
-/// ξ''). δq = T0 ξ, δv = T0 ξ' + T01 ξ, δv̇ = T0 ξ'' + T11 ξ' + T12 ξ.
+/// Replaces the columns of a node's translations or rotations in each matrix, from r(q, v, v̇) to (ξ, ξ', ξ''): δq = T0
+/// ξ, δv = T0 ξ' + T01 ξ, δv̇ = T0 ξ'' + T11 ξ' + T12 ξ.
 struct Columns {
   Matrix3d T0, T01, T11, T12;
 };
@@ -151,7 +151,7 @@ Linearisation linearise(const Model& model, const State& state, const Vector3d& 
     const Node& node = model.nodes[i];
     const NodeMotion& motion = evaluation.motion[i];
     if (node.translation >= 0) transform(node.translation, translations_of(model), {one, W, 2.0 * W, W * W}, l);
-    if (node.rotation < 0 || model.planar) continue;  // parallel axes of one rotation: R = 1, and nothing turns them
+    if (node.rotation < 0 || model.planar) continue;  // parallel axes: R = 1, and no terms arise
     const Matrix3d RT = motion.R.transpose(), spin = skew<double>(motion.Omega) * RT;
     transform(node.rotation, 3, {RT, RT * W, 2.0 * RT * W - spin, RT * W * W - spin * W}, l);
     turn_rows(node.rotation, motion.R, l);

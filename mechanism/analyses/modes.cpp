@@ -1,4 +1,4 @@
-// Modes of a linearised mechanism: the eigenproblem on its constraints, what is rigid, what grows, shapes for people.
+// Modes of a linearised mechanism: eigenproblem on its constraints, rigid and growing modes, printed shapes.
 #include "mechanism/analyses/modes.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
-/// The linearised scene, its coordinates ξ = Z T q, and the problem of q.
+/// The linearised scene, its coordinates ξ = Z T q, and the eigenproblem of q.
 struct Problem {
   Linearisation l;
   MatrixXd Z, T;
@@ -40,10 +40,10 @@ struct Problem {
   VectorXd spread(const VectorXcd& q) const { return Z.cwiseAbs() * (T.cast<Complex>() * q).cwiseAbs(); }
 };
 
-/// Whether forces of inertia and damping of the shape Z q with |λ| = `size` are below the round-off of those of
-/// stiffness and of loads that turn with it: nothing tells it from a rigid motion. `spread`: |Z||q|. Componentwise,
-/// spreadᵀ|K|spread times 2√n ε for the two products in ZᵀKZ, of n terms each ([HM19]: errors of sums grow as √n), so
-/// that what no stiff body is tied to keeps its own.
+/// Whether the mode cannot be distinguished from a rigid motion. Then inertia and damping forces of the shape Z q with
+/// λ| = `size` are below the round-off of stiffness and of loads that turn with it. `spread` is |Z||q|. Componentwise,
+/// round-off is spreadᵀ|K|spread times 2√n ε for the two products in ZᵀKZ of n terms each ([HM19]: errors grow as √n),
+/// so that a stiff body does not hide motions of parts that are not tied to it.
 bool drowns(const Model& model, const Evaluation& evaluation, const Problem& problem, double size, const VectorXcd& q) {
   const Linearisation& l = problem.l;
   const VectorXcd shape = problem.shape(q);
@@ -56,7 +56,7 @@ bool drowns(const Model& model, const Evaluation& evaluation, const Problem& pro
   return size * (size * inertia + damping) < round_off * forces;
 }
 
-/// The component that moves most becomes 1.
+/// Scales the shape so that its largest component is 1.
 void normalise(const Model& model, VectorXcd& shape) {
   Complex largest = 0.0;
   for (const Node& node : model.nodes)
@@ -71,8 +71,8 @@ void normalise(const Model& model, VectorXcd& shape) {
   if (largest != Complex(0.0)) shape /= largest;
 }
 
-/// Acceleration of the state in axes that turn with ω, in the coordinates of a linearisation: ẍ − ω×(2ẋ − ω×x) of what
-/// moves, Ω̇ − what a turning axis gives.
+/// Acceleration of the state in axes that turn with ω, in the coordinates of a linearisation: ẍ − ω×(2ẋ − ω×x) of
+/// nodes, Ω̇ less the contribution of a turning axis.
 VectorXd acceleration_in_axes(const Model& model, const State& state, const Eigen::Vector3d& omega,
                               const Evaluation& evaluation) {
   VectorXd a = VectorXd::Zero(model.sizes.velocities());
@@ -86,7 +86,7 @@ VectorXd acceleration_in_axes(const Model& model, const State& state, const Eige
   return a;
 }
 
-/// Whether the inertia forces of these accelerations are more than what statics leaves unbalanced, and round-off.
+/// Whether the inertia forces of these accelerations exceed round-off and the residual that statics leaves.
 bool is_felt(const Model& model, const State& state, const Linearisation& l, const VectorXd& a,
              const Evaluation& evaluation) {
   constexpr double share = 1e-6;
@@ -95,7 +95,7 @@ bool is_felt(const Model& model, const State& state, const Linearisation& l, con
   return n > 0 && force.cwiseAbs().maxCoeff() > allowed_force(model, state, evaluation, share);
 }
 
-/// Where the shape is largest, in words.
+/// Name of the node where the shape is largest.
 std::string moves_most(const Model& model, const VectorXcd& shape) {
   double largest = 0.0;
   std::string name = "an internal mode";
@@ -111,8 +111,8 @@ std::string moves_most(const Model& model, const VectorXcd& shape) {
   return name;
 }
 
-/// Whether a mode grows by more than round-off. What the shifted inverse says of modes above the shift has lost digits:
-/// those that seem to grow slowly are found again by inverse iteration. Round-off of yᴴP(λ)x is that of its products
+/// Whether a mode grows by more than round-off. The shifted inverse loses digits of modes above the shift. Modes that
+/// seem to grow slowly are therefore found again by inverse iteration. Round-off of yᴴP(λ)x is that of its products
 /// with the matrices of the scene, componentwise as in drowns().
 bool grows(const Problem& problem, Complex& value, const VectorXcd& q) {
   const double size = std::abs(value);
@@ -132,8 +132,8 @@ bool grows(const Problem& problem, Complex& value, const VectorXcd& q) {
   return false;
 }
 
-/// How a mode looks from axes that turn with `turn` in those of the linearisation: |λ|/2π there. NaN of a mode that is
-/// neither a circle of one sense about `turn` nor a motion along and about it: it has two frequencies there.
+/// Frequency |λ|/2π of a mode in axes that turn with `turn` in those of the linearisation. NaN if the mode is neither a
+/// circle of one sense about `turn` nor a motion along and about it: it has two frequencies there.
 double frequency_seen_from(const Model& model, const Eigen::Vector3d& turn, const Mode& mode) {
   const Eigen::Vector3d axis = turn.normalized();
   const Eigen::Vector3d e1 = axis.unitOrthogonal(), e2 = axis.cross(e1);
@@ -159,7 +159,7 @@ double frequency_seen_from(const Model& model, const Eigen::Vector3d& turn, cons
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Of eigenvalues with their vectors: one mode of each pair, the rigid ones once.
+/// Collects the modes of a spectrum: one of each conjugate pair, and each rigid motion once.
 void collect(const Model& model, const Evaluation& evaluation, const Problem& problem, const Spectrum& spectrum,
              ModesReport& report) {
   int zeros = 0;
@@ -168,7 +168,7 @@ void collect(const Model& model, const Evaluation& evaluation, const Problem& pr
     Mode mode{spectrum.values[k], problem.shape(q)};
     const double size = std::abs(mode.eigenvalue);
     const bool rigid = size < rigid_tolerance * problem.shift || drowns(model, evaluation, problem, size, q);
-    if (rigid && ++zeros % 2 == 0) continue;  // position and velocity of one rigid motion
+    if (rigid && ++zeros % 2 == 0) continue;  // one rigid motion appears twice: as position and as velocity
     if (!rigid && mode.eigenvalue.imag() < 0.0) continue;
     if (rigid) mode.eigenvalue = 0.0;
     report.rigid += rigid ? 1 : 0;
@@ -179,7 +179,7 @@ void collect(const Model& model, const Evaluation& evaluation, const Problem& pr
     normalise(model, mode.shape);
     report.modes.push_back(std::move(mode));
   }
-  // Of equal size, what grows is first: digits that round-off leaves do not decide.
+  // Among modes of equal |λ| a growing one comes first, so that round-off does not decide the order.
   sort_stably(report.modes, {}, [](const Mode& mode) { return std::abs(mode.eigenvalue); });
   const auto tied = [](const Mode& a, const Mode& b) {
     return std::abs(b.eigenvalue) <= (1.0 + 1e-9) * std::abs(a.eigenvalue);
@@ -194,7 +194,7 @@ void collect(const Model& model, const Evaluation& evaluation, const Problem& pr
   }
 }
 
-/// [δx; δθ] of a node in a mode, world axes: its own coordinates, or through T of the modal body that it follows.
+/// [δx; δθ] of a node in a mode, world axes: from its own coordinates, or from T of the modal body that it follows.
 Eigen::Vector<Complex, 6> motion_of_node(const Model& model, const Evaluation& evaluation, int node,
                                          const VectorXcd& shape) {
   std::vector<int> coordinates;
@@ -236,7 +236,7 @@ MatrixXd null_space(const Model& model, const MatrixXd& B) {
 ModesReport solve_modes(const Model& model, const State& state, const formats::ModesSpec& spec,
                         Evaluation& evaluation) {
   const Eigen::Vector3d omega = to_axes(model, spec.rotation.value_or(Eigen::Vector3d::Zero()));
-  constexpr double slow = 1e-6;  // of the lowest mode: a spin that turns nothing before it has swung
+  constexpr double slow = 1e-6;  // of the lowest mode: a slower spin turns by little during one oscillation
   Problem problem;
   problem.l = linearise(model, state, omega, evaluation);
   FastestSpin fastest = fastest_spin(model, omega, evaluation);
@@ -316,7 +316,7 @@ std::vector<std::string> modes_lines(const Model& model, const ModesReport& repo
   const bool both = report.axes.norm() > 0.0 || report.spin.norm() > 0.0;
   const std::string other =
       !both ? "" : fmt::format(" {:>18}", (report.axes.norm() > 0.0 ? "in axes at rest" : "in turning axes") + unit);
-  // Real eigenvalues are no vibrations: their frequency |λ| / 2π with damping 1 says little.
+  // Real eigenvalues are not vibrations: their frequency |λ| / 2π with damping 1 is not meaningful.
   const auto is_real = [](const Mode& mode) { return std::abs(mode.damping_ratio()) >= 1.0 - 1e-9; };
   const bool has_poles = std::ranges::any_of(report.modes, is_real);
   const std::string poles = has_poles ? fmt::format(" {:>12}", "pole" + (label.empty()     ? ""

@@ -15,44 +15,44 @@
 
 namespace tisserand::mechanism {
 
-/// ξ(t) = Re(shape e^{λt}).
+/// One mode of the small motions ξ(t) = Re(shape e^{λt}).
 struct Mode {
-  std::complex<double> eigenvalue;  ///< λ [1/time], Im λ ≥ 0; 0 of a rigid motion
+  std::complex<double> eigenvalue;  ///< λ [1/time], Im λ ≥ 0; 0 for a rigid motion
   Eigen::VectorXcd shape;           ///< n: per node [δx; δθ] in world axes, then internal coordinates
-  bool unstable = false;            ///< Re λ > 0 beyond round-off: it grows
-  /// |λ|/2π in the other axes of the report; NaN of a motion that has two frequencies there, or 0 in both.
+  bool unstable = false;            ///< Re λ > 0 by more than round-off: the motion grows
+  /// λ|/2π in the other axes of the report. NaN if the motion has two frequencies there, or 0 in both axes.
   double seen_from_other_axes = std::numeric_limits<double>::quiet_NaN();
   double frequency() const { return std::abs(eigenvalue) / (2.0 * std::numbers::pi); }
   double damping_ratio() const { return std::abs(eigenvalue) > 0.0 ? -eigenvalue.real() / std::abs(eigenvalue) : 0.0; }
 };
 
 struct ModesReport {
-  std::vector<Mode> modes;            ///< ascending |λ|; the lowest `count`, and all that are unstable
+  std::vector<Mode> modes;            ///< ascending |λ|: the lowest `count` and all unstable ones
   int degrees_of_freedom = 0;         ///< coordinates − rank of the constraints
   int rigid = 0;                      ///< modes with λ = 0
-  double largest_acceleration = 0.0;  ///< |v̇| of the state relative to the axes; 0 if no inertia force of it is felt
+  double largest_acceleration = 0.0;  ///< v̇| relative to the axes; 0 if its inertia forces are negligible
   Eigen::Vector3d axes = Eigen::Vector3d::Zero();  ///< angular velocity of the axes of the modes
-  Eigen::Vector3d spin = Eigen::Vector3d::Zero();  ///< of `spins` in these axes; with axes at rest, the other axes' own
-  std::string spins;                               ///< the node that spins fastest in the axes; empty if none does
-  std::string undecided;  ///< a body that spins whose internal coordinates are not in the axes (steady_axes.hpp)
-  double change = 0.0;    ///< largest_change() of the coefficients (steady_axes.hpp); above 1e-3 modes are in doubt
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();  ///< spin of node `spins`; if the axes rest, of the other axes
+  std::string spins;                               ///< node that spins fastest in the axes; empty if none does
+  std::string undecided;  ///< spinning body whose internal coordinates stay in its own axes (steady_axes.hpp)
+  double change = 0.0;    ///< largest_change() of the coefficients (steady_axes.hpp); above 1e-3 modes are doubtful
 };
 
 /// Orthonormal basis of the null space of B (columns scaled with 1, or 1/length for rotations) by a rank-revealing QR:
 /// n x (n − rank), in the coordinates of `linearise`.
 Eigen::MatrixXd null_space(const Model& model, const Eigen::MatrixXd& B);
 
-/// The modes of (λ² ZᵀMZ + λ ZᵀCZ + ZᵀKZ) η = 0, ξ = Z η, Z the null space of B. Directions without mass follow the
-/// others quasi-statically. Internal coordinates of bodies that spin count in the axes of the modes (steady_axes.hpp).
-/// Dense, O(n³): eigenvalues μ of the inverse (A − sE)⁻¹E of the first-order form, λ = s +
-/// 1/μ, with a shift s > 0 of the size of the lowest frequency, so that low modes keep all their digits beside stiff
-/// ones.
+/// Solves (λ² ZᵀMZ + λ ZᵀCZ + ZᵀKZ) η = 0 for the modes ξ = Z η, where Z is the null space of B. Directions without
+/// mass follow the others quasi-statically. Internal coordinates of spinning bodies are in the axes of the modes
+/// (steady_axes.hpp). The matrices are dense and the work is O(n³). The solver finds eigenvalues μ of the inverse (A −
+/// sE)⁻¹E of the first-order form, with λ = s + 1/μ. The shift s > 0 has the size of the lowest frequency, so that low
+/// modes keep all digits in the presence of stiff ones.
 ModesReport solve_modes(const Model& model, const State& state, const formats::ModesSpec& spec, Evaluation& evaluation);
 
-/// Shapes at the places that results report.
+/// Shapes of the modes at the points that results report.
 formats::ModesTable modes_table(const Model& model, const Evaluation& evaluation, const ModesReport& report);
 
-/// One line per mode for people: number, frequency, damping ratio, where it moves most.
+/// Table for the terminal, one line per mode: number, frequency, damping ratio, place of the largest motion.
 std::vector<std::string> modes_lines(const Model& model, const ModesReport& report);
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// Limits lie far beyond usual designs. A mistake of units is mostly a factor of 1000.
+// Checks of numbers of a scene. The limits lie far beyond usual designs; a unit error is mostly a factor of 1000.
 #include "mechanism/analyses/number_doubts.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Standard gravity is 9.81 m/s²; the Sun's at its surface 274, that of small moons 0.06 (Mimas).
+/// Standard gravity is 9.81 m/s². The surface of the Sun has 274, a small moon (Mimas) 0.06.
 constexpr double least_gravity = 0.03, most_gravity = 300.0;  // [m/s²]
 constexpr double most_friction = 3.0;                         // rubber on dry ground has 1 to 1.5
 constexpr double most_damping = 2.0;                          // dampers in cars 0.2 to 0.4, critical 1
@@ -29,13 +29,13 @@ constexpr double most_gyration = 100.0;  // of the extents of body and scene: a 
 constexpr double most_section = 5.0;     // radius of gyration of a section, over the length of the beam
 constexpr double most_free_length = 100.0;  // of a spring, over its length at the start
 /// A uniform rod has its ends at 1.73 radii of gyration. A ball on a thin rod has them further away, the lighter the
-/// rod: at 5 radii it weighs an eighth. A compact body is taken for a weight on an arm without mass.
+/// rod: at 5 radii the rod weighs an eighth. A compact body may be a weight on an arm without mass.
 constexpr double most_reach = 5.0;
 constexpr double most_slender = 0.1;  // least over largest principal moment of inertia
 
-constexpr int most_told = 3;  // of one kind: the rest is counted
+constexpr int most_told = 3;  // largest number of messages of one kind; further ones are only counted
 
-/// Doubts by kind: of a thousand links with the same mistake a few are named.
+/// Messages by kind. If many parts share one mistake, only a few are named.
 class Doubts {
  public:
   explicit Doubts(const formats::Scene& scene) : units(scene.units) {}
@@ -90,13 +90,13 @@ void doubt_damping(const std::string& name, const formats::Damping& damping, Dou
                0.01 * largest);
 }
 
-/// A scene of one body has no size to compare with: a disc on an axle with an imbalance of 10 µm is no mistake.
+/// Checks inertias if the scene has a size, that of several bodies: a single disc with 10 µm imbalance is no mistake.
 void doubt_inertia(const formats::Scene& scene, const Model& model, Doubts& doubts) {
   if (scene.bodies.size() < 2) return;
   for (const formats::BodySpec& any : scene.bodies) {
     const auto* body = std::get_if<formats::RigidBodySpec>(&any);
     if (body == nullptr) continue;
-    Eigen::AlignedBox3d box(Vector3d::Zero());  // the part frame is a node, too
+    Eigen::AlignedBox3d box(Vector3d::Zero());  // the part frame is a node too
     for (const formats::RigidNodeSpec& node : body->nodes) box.extend(node.pose.position);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(body->inertia, Eigen::EigenvaluesOnly);
     const double gyration = std::sqrt(principal.eigenvalues()[2] / body->mass);
@@ -137,14 +137,14 @@ void doubt_friction(const std::string& whose, double coefficient, Doubts& doubts
     doubts.add("{} has a coefficient of friction of {:.4g}: rubber on dry ground has 1 to 1.5", whose, coefficient);
 }
 
-/// Tables that end before the run, or begin after it.
+/// Reports tables of time that end before the run or begin after it.
 void doubt_times(const formats::Scene& scene, Doubts& doubts) {
   const double start = scene.integrator.start, end = scene.integrator.end;
   const std::string second = after_number(unit_label(scene.units, 0, 0, 1));
   const auto table = [&](const std::string& whose, const formats::TimeTable& held) {
     if (held.time.empty() || (held.time.front() < end && held.time.back() > start)) return;
     const auto [least, most] = std::ranges::minmax(held.value);
-    if (least == most) return;  // it is meant to be constant
+    if (least == most) return;  // the table is constant on purpose
     doubts.add("the table of {} holds {:g} to {:g}{}, the run goes from {:g} to {:g}{}: the value is constant", whose,
                held.time.front(), held.time.back(), second, start, end, second);
   };

@@ -1,4 +1,4 @@
-// Numbers of a scene that look like slips of the pen or of units (the table "Plausibility checks" in SCENE.md).
+// Numbers of a scene that suggest typing errors or wrong units (table "Numbers that are doubted" in SCENE.md).
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@
 
 namespace tisserand::mechanism {
 
-/// One sentence for each number of the scene that hardly can be meant. `now`: at the poses of the start. What depends
-/// on units is not judged where they have no names.
+/// One sentence for each implausible number of the scene. `now` is at the poses of the start. Quantities with unnamed
+/// units are not checked.
 std::vector<std::string> number_doubts(const formats::Scene& scene, const Model& model, const Evaluation& now);
 
-/// A note on rigid bodies whose centre of mass is far from all that holds them, against their radius of gyration; empty
-/// if there is none. A weight on a light arm is like that, and a centre of mass in other units too.
+/// Note on rigid bodies whose centre of mass is far from all that holds them, relative to the radius of gyration. Empty
+/// if there is none. A weight on a light arm looks like this, and so does a centre of mass in wrong units.
 std::string far_centres(const Model& model);
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// Gaps, groups, null vectors and masses.
+// Gaps, groups, null vectors and doubtful masses.
 #include "mechanism/analyses/preflight.hpp"
 
 #include <algorithm>
@@ -22,13 +22,13 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
 constexpr double shown_gap = 1e-9;
-/// Ratio of masses at which one of them vanishes in round-off when the other is solved for.
+/// Ratio of masses at which round-off of the heavier hides the lighter.
 constexpr double largest_ratio = 1e12;
-/// Squared singular values below this (relative) belong to motions that nothing determines.
+/// Limit of squared singular values (relative). Below it nothing determines the motion.
 constexpr double null_tolerance = 1e-13;
-/// Components of a null vector below this do not count.
+/// Smallest component of a null vector that counts.
 constexpr double visible = 1e-6;
-/// Massless nodes that are connected with each other, up to which null vectors are looked for.
+/// Largest group of connected massless nodes in which null vectors are searched.
 constexpr std::size_t most_nodes = 100;
 
 std::string direction_text(Vector3d v) {
@@ -70,14 +70,14 @@ std::vector<std::vector<int>> massless_groups(const Model& model) {
   return groups;
 }
 
-/// CᵀC of the columns of the group in the scaled iteration matrix.
+/// Products CᵀC of the columns of the group in the scaled iteration matrix.
 MatrixXd column_products(const Model& model, const std::vector<int>& group, const MatrixValues& matrix) {
   std::map<int, std::vector<std::pair<int, double>>> rows;
   int column = 0;
   for (const int node : group)
     for (int k = 0; k < 6; ++k, ++column) {
       const int j = coordinate_of(model, model.nodes[node], k);
-      if (j < 0) {  // what a planar model has not does not move
+      if (j < 0) {  // a planar model has no such coordinate
         rows[-1 - column].emplace_back(column, 1.0);
         continue;
       }
@@ -93,7 +93,7 @@ MatrixXd column_products(const Model& model, const std::vector<int>& group, cons
   return products;
 }
 
-/// What the columns of Z (translations then rotations of the node, times the length) let the node do.
+/// Describes the motions that the columns of Z allow the node (translations, then rotations times the length).
 void describe(const std::string& name, const Eigen::Matrix3d& R, const MatrixXd& Z, std::vector<std::string>& motions) {
   if (Z.norm() < visible) return;
   Eigen::JacobiSVD<MatrixXd> whole(Z);

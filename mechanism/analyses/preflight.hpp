@@ -1,4 +1,4 @@
-// What can be said of a scene before it moves: open joints, what hangs together, what nothing holds, doubtful masses.
+// Checks of a scene before it moves: open joints, connected groups, undetermined motions, doubtful masses.
 #pragma once
 
 #include <string>
@@ -9,44 +9,44 @@
 
 namespace tisserand::mechanism {
 
-/// What a joint, a coupling or an initial value leaves open: a length along the directions that it holds, and the
-/// largest of its other equations [rad, or cosine of two axes].
+/// Gap of a joint, a coupling or an initial value: `length` along the directions that it constrains, and `angle`, the
+/// largest residual of its other equations [rad, or cosine of two axes].
 struct JointGap {
   std::string joint;
   double length = 0.0;
   double angle = 0.0;
 };
 
-/// "'crank' by 0.1 m and 0.02 rad, 'slider' by ..."; `unit`: what stands after lengths.
+/// Text "'crank' by 0.1 m and 0.02 rad, 'slider' by ..."; `unit` follows each length.
 std::string gaps_text(const std::vector<JointGap>& gaps, const std::string& unit);
 
 struct Preflight {
-  std::vector<JointGap> gaps;                    ///< above round-off, before the projection closes them
-  std::vector<std::vector<std::string>> groups;  ///< bodies that are connected; more than one: some go their own way
-  std::vector<std::string> doubts;               ///< masses and inertias that look like slips of the pen or of units
+  std::vector<JointGap> gaps;                    ///< gaps above round-off, before the projection closes them
+  std::vector<std::vector<std::string>> groups;  ///< connected bodies; more than one group: they move independently
+  std::vector<std::string> doubts;               ///< masses and inertias that suggest typing errors or wrong units
 };
 
-/// Of the state before the projection, after evaluate().
+/// Preflight report of the state before the projection, after evaluate().
 Preflight examine(const Model& model, const Evaluation& evaluation);
 
-/// Joints and couplings that are open by more than 1e-9 of the characteristic length or radians, at the last
-/// evaluate(); lengths are distances of their markers.
+/// Joints and couplings that are open by more than 1e-9 (relative to the characteristic length, or rad) at the last
+/// evaluate(). Their lengths are distances of the markers.
 std::vector<JointGap> marker_gaps(const Model& model, const Evaluation& evaluation);
 
-/// Motions of massless bodies that no constraint, stiffness or damping determines: "'hub' can turn about [0, 0, 1]". A
-/// null vector of the columns of [M + C + K; B] that belong to massless nodes ([GA00] section 4: condition for a
-/// regular system of equations). At the state of the last evaluate(); overwrites the iteration matrix.
+/// Motions of massless bodies that no constraint, stiffness or damping determines: "'hub' can turn about [0, 0, 1]".
+/// They are null vectors of the columns of [M + C + K; B] that belong to massless nodes ([GA00] section 4: condition
+/// for a regular system). Uses the state of the last evaluate() and overwrites the iteration matrix.
 std::vector<std::string> undetermined_motions(const Model& model, const State& state, Evaluation& evaluation);
 
-/// Lines "quantity, value" of a table for people.
+/// A line "quantity, value" of a printed table.
 struct PreflightLine {
   std::string name;
   std::string value;
 };
-/// All that `check` tells.
+/// Complete table that `check` prints.
 std::vector<PreflightLine> preflight_table(const Preflight& preflight, const Mobility& mobility, const Units& units);
 
-/// Of these what may be a mistake, which a run tells too: bodies that nothing connects, joints that are open at the
+/// Lines of this table that may be mistakes, which a run reports too: unconnected bodies, joints that are open at the
 /// start, masses and inertias.
 std::vector<PreflightLine> preflight_doubts(const Preflight& preflight, const Units& units);
 

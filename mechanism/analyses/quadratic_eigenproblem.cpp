@@ -1,4 +1,4 @@
-// The eigenvalues of a shifted inverse in first-order form by LAPACK; single ones by inverse iteration.
+// Eigenvalues of a shifted inverse in first-order form by LAPACK; single ones by inverse iteration.
 #include "mechanism/analyses/quadratic_eigenproblem.hpp"
 
 #include <algorithm>
@@ -70,8 +70,8 @@ MatrixXd shifted_inverse(const QuadraticProblem& m, double s) {
   return G;
 }
 
-/// The shift among s, 1.37 s, 1.37² s… at which P(s) is regular: it is singular at real eigenvalues (divergence,
-/// creep).
+/// The first shift among s, 1.37 s, 1.37² s, … at which P(s) is regular. P(s) is singular at real eigenvalues
+/// (divergence, creep).
 double away_from_eigenvalues(const QuadraticProblem& m, double s) {
   double best = s, largest = -1.0;
   for (int attempt = 0; attempt < 6; ++attempt, s *= 1.3717) {
@@ -83,13 +83,13 @@ double away_from_eigenvalues(const QuadraticProblem& m, double s) {
   return best;
 }
 
-/// The finite eigenvalues as the inverse with one shift gives them, ascending |λ|.
+/// The finite eigenvalues from the inverse with one shift, ascending |λ|.
 Spectrum of_one_shift(const QuadraticProblem& m, double s) {
   const Spectrum inverse = eigen(shifted_inverse(m, s), Vectors::right);
   const double infinite = 1e-13 * inverse.values.cwiseAbs().maxCoeff();
   std::vector<Eigen::Index> finite;
   for (Eigen::Index k = 0; k < inverse.values.size(); ++k)
-    if (std::abs(inverse.values[k]) > infinite) finite.push_back(k);  // the others: directions without mass
+    if (std::abs(inverse.values[k]) > infinite) finite.push_back(k);  // the others are massless directions
   const auto value = [&](Eigen::Index k) { return s + 1.0 / inverse.values[k]; };
   sort_stably(finite, {}, [&](Eigen::Index k) { return std::abs(value(k)); });
   Spectrum sorted{VectorXcd(finite.size()), MatrixXcd(m.M.rows(), finite.size())};
@@ -101,7 +101,7 @@ Spectrum of_one_shift(const QuadraticProblem& m, double s) {
   return sorted;
 }
 
-/// How many of the ascending eigenvalues one shift gives well: up to the widest gap below `reach` s.
+/// Number of the ascending eigenvalues that one shift gives accurately: up to the widest gap below `reach` s.
 Eigen::Index well_found(const VectorXcd& values, double reach) {
   Eigen::Index count = 0;
   double widest = 0.0;
@@ -156,7 +156,7 @@ double choose_shift(const QuadraticProblem& m) {
 }
 
 Spectrum eigenpairs(const QuadraticProblem& m, double s, int count) {
-  constexpr double reach = 30.0;  // the errors grow with the fourth power of |λ|/s: 1e-10 at 30
+  constexpr double reach = 30.0;  // errors grow with the fourth power of |λ|/s: 1e-10 at 30
   Spectrum all = of_one_shift(m, s);
   Eigen::Index found = 0;
   for (int slice = 1; slice < 8; ++slice, s *= reach) {
@@ -180,7 +180,7 @@ RefinedPair refined(const QuadraticProblem& m, Complex near, const VectorXcd& x)
   };
   RefinedPair pair{near, x.normalized(), x.normalized(), 0.0};
   for (int pass = 0; pass < 3; ++pass) {
-    // A little beside the eigenvalue: an exact one leaves no inverse, and its direction stays the same.
+    // A small offset from the eigenvalue: at the exact one the matrix has no inverse. The direction is the same.
     const Eigen::PartialPivLU<MatrixXcd> factors(at(pair.value * (1.0 + 1e-10)));
     for (int turn = 0; turn < 2; ++turn) {
       const VectorXcd right = factors.solve(pair.x), left = factors.adjoint().solve(pair.y);

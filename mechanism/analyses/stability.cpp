@@ -1,4 +1,4 @@
-// Inertia of the saddle matrix, and an iteration of Newton's type that goes downhill where the stiffness is negative.
+// Inertia of the saddle matrix, and a Newton-type iteration that goes downhill where the stiffness is negative.
 #include "mechanism/analyses/stability.hpp"
 
 #include <algorithm>
@@ -25,11 +25,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Pivots below this part of the largest entry are zero.
+/// Limit of pivots relative to the largest entry; smaller ones are zero.
 constexpr double zero_pivot = 1e-13;
-/// Asymmetry of the stiffness relative to load/length beyond which the count does not decide.
+/// Largest asymmetry of the stiffness, relative to load/length, up to which the count decides.
 constexpr double most_asymmetry = 1e-6;
-/// Coordinates up to which a direction is found by all eigenvectors.
+/// Number of coordinates up to which all eigenvectors are computed to find a direction.
 constexpr int most_resolved = 1000;
 
 /// LDLᵀ with its inertia.
@@ -84,10 +84,10 @@ struct Scaled {
   MatrixXd K, B;
   VectorXd scale;          ///< of coordinates
   VectorXd row_scale;      ///< of the active constraint rows
-  double stiffness = 1.0;  ///< by which K was divided
+  double stiffness = 1.0;  ///< the divisor of K
   double asymmetry = 0.0;  ///< largest entry of (K − Kᵀ)/2
 
-  /// `load`: of the state, whose ratio to the length is the stiffness where bodies have none.
+  /// `load` is the load of the state. Its ratio to the length replaces the stiffness if bodies have none.
   Scaled(const Model& scaled, const State& state, const Linearisation& l, double load)
       : model(scaled), scale(VectorXd::Ones(l.K.rows())) {
     scale.head(model.sizes.boundary) = model.equation_scale.head(model.sizes.boundary).matrix();
@@ -109,15 +109,15 @@ struct Scaled {
     A.topRightCorner(n, m) = B.transpose();
     return A;
   }
-  /// Largest translation over the characteristic length, and turn, of scaled ξ.
+  /// Size of scaled ξ: the largest translation over the characteristic length, or rotation.
   double size_of_move(const VectorXd& xi) const {
     const Eigen::Index n = model.sizes.boundary;
     return n > 0 ? xi.head(n).cwiseAbs().maxCoeff() / model.length : 0.0;
   }
 };
 
-/// The eigenvector of the least eigenvalue of ZᵀKZ, in coordinates of a linearisation. Of several of this eigenvalue,
-/// the one that moves the coordinate most that they move most: their own basis is round-off.
+/// Eigenvector of the least eigenvalue of ZᵀKZ, in coordinates of a linearisation. If the eigenvalue is multiple, the
+/// result moves the coordinate most that its eigenvectors move most, because their own basis is arbitrary.
 VectorXd lowest_direction(const Linearisation& l, const Scaled& s) {
   constexpr double equal = 1e-6, as_large = 0.9;
   const MatrixXd Z = s.scale.cwiseInverse().asDiagonal() * null_space(s.model, l.B);
@@ -144,13 +144,13 @@ Stability count(const Scaled& s, const Evaluation& evaluation) {
 }
 
 constexpr double farthest_move = 0.1;  ///< of the characteristic length, or radians
-constexpr double first_push = 0.01;    ///< out of an unstable equilibrium
+constexpr double first_push = 0.01;    ///< displacement out of an unstable equilibrium
 constexpr double zero_stiffness =
     32.0 * std::numeric_limits<double>::epsilon();  ///< of the largest: round-off of eigenvalues
 constexpr double least_damping = 1e-13;             ///< of the largest stiffness
-constexpr int most_descents = 500;                  ///< of each way to go
+constexpr int most_descents = 500;                  ///< in each of the two ways to search
 
-/// The constraints at a state and the eigenvalues of the stiffness on them: [Y Z] orthogonal, Y of the rows, V of ZᵀKZ.
+/// Constraints at a state and the eigenpairs (lambda, V) of ZᵀKZ; [Y Z] is orthogonal, Y spans the rows.
 struct StiffnessSpectrum {
   Eigen::HouseholderQR<MatrixXd> rows;
   MatrixXd Y, R, V;  ///< Bᵀ = Y R
@@ -170,9 +170,9 @@ struct StiffnessSpectrum {
   bool has_neutral() const { return lambda.size() > 0 && lambda.cwiseAbs().minCoeff() <= zero_stiffness; }
 };
 
-/// ξ and multipliers of a step (scaled): closes the constraints, and moves along each eigenvector v by −v·r/(|λ| + μ),
-/// with the least μ from `damping` on that keeps the step short: Newton's step where the stiffness is positive,
-/// downhill where it is negative.
+/// Step ξ with multipliers (scaled). It closes the constraints and moves along each eigenvector v by −v·r/(|λ| + μ). μ
+/// is the least value from `damping` on that keeps the step short. Where the stiffness is positive this is Newton's
+/// step, where it is negative it goes downhill.
 struct DownhillStep {
   VectorXd xi, multipliers;
   double damping, decrease;  ///< μ, and Σ (v·r)²/(|λ| + μ)
@@ -194,14 +194,14 @@ struct DownhillStep {
   static constexpr double most_damping = 1e6;
 };
 
-/// r·ξ at the last evaluate(), with turns of ξ in world axes.
+/// Work r·ξ of the last evaluate(), with rotations of ξ in world axes.
 double work_along(const Model& model, const Evaluation& evaluation, const VectorXd& xi) {
   VectorXd r(xi.size());
   gather_residual(model, evaluation, r);
   return r.dot(material_increment(model, evaluation, xi));
 }
 
-/// The eigenvector of the most negative eigenvalue, as long as the first push, downhill.
+/// Displacement `first_push` downhill along the eigenvector of the most negative eigenvalue.
 VectorXd push(const Scaled& s, const StiffnessSpectrum& spectrum, const VectorXd& r) {
   VectorXd xi = s.scale.cwiseProduct(spectrum.V.col(0));
   xi *= first_push / s.size_of_move(spectrum.V.col(0));
@@ -221,8 +221,8 @@ struct Descent {
   DescentReport go(bool cautious) const;
 };
 
-/// Steps with Newton's corrections in stiff directions, however far they overshoot: they follow curved valleys quickly.
-/// Or `cautious`: a step is shorter where the forces along it change sign.
+/// Steps take Newton's corrections in stiff directions, even if they overshoot, because they follow curved valleys
+/// fast. If `cautious`, a step is shortened where the forces along it change sign.
 DescentReport Descent::go(bool cautious) const {
   DescentReport report;
   VectorXd moved;

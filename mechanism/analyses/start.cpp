@@ -1,4 +1,4 @@
-// Pre-flight, initial values, projection and consistent start.
+// Preflight, initial values, projection and consistent start.
 #include "mechanism/analyses/start.hpp"
 
 #include <algorithm>
@@ -23,11 +23,11 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Smallest reciprocal condition of a mass matrix that is solved as it is.
+/// Smallest reciprocal condition of a mass matrix that is solved without regularisation.
 constexpr double massless_condition = 1e-15;
-/// Largest gap of initial values and joints after the bodies were moved: the projection closes what is left.
+/// Largest gap of initial values and joints after the bodies were moved. The projection closes the rest.
 constexpr double value_tolerance = 1e-9;
-/// Iterations for accelerations and reactions that friction couples.
+/// Largest number of iterations for accelerations and reactions that friction couples.
 constexpr int most_refinements = 30;
 
 double largest_velocity(const Model& model, const State& state) {
@@ -40,7 +40,7 @@ double largest_velocity(const Model& model, const State& state) {
   return largest;
 }
 
-/// Asks for the tangent mass M + damping C + stiffness K.
+/// Request for the tangent: mass M + damping C + stiffness K.
 TangentRequest weighted(double mass, double damping, double stiffness) {
   return {{mass, damping, stiffness}, TangentKind::step, {}};
 }
@@ -56,8 +56,8 @@ void require_factors(const Model& model, const FactorReport& factors, const std:
               "give the body mass or inertia there, or hold the direction with a joint");
 }
 
-/// The equations of a joint are also met by axes that point the other way: z_A·z_B > 0 for hinges, all axes for fixed
-/// ones.
+/// Throws Error if axes of a joint are opposite, which its equations also allow. Hinges need z_A·z_B > 0, fixed joints
+/// need it of all axes.
 void require_facing(const Model& model, const std::string& where, const Workspace& workspace) {
   for (const Joint& joint : model.joints) {
     const Eigen::Matrix3d R_AB = marker_rotation(joint.a, motion_of(workspace.now, joint.a.node)).transpose() *
@@ -74,7 +74,7 @@ void require_facing(const Model& model, const std::string& where, const Workspac
   }
 }
 
-/// Throws Error for the largest gap of joints and drives at the start, with all others.
+/// Throws Error that names the largest gap of joints and drives at the start, and lists all others.
 void require_met(const Model& model, const formats::Scene& scene, const Violation& worst, const Workspace& workspace) {
   if (worst.value <= scene.initial_tolerance) return;
   throw Error(
@@ -87,7 +87,7 @@ void require_met(const Model& model, const formats::Scene& scene, const Violatio
       "`analysis: assembly` closes open ones; or raise initial_tolerance to let the program move the bodies");
 }
 
-/// Massless bodies that nothing moves have no equation.
+/// Throws Error if massless bodies can move freely, because then no equation determines their motion.
 void require_determined(const Model& model, const std::string& where, const State& state, Workspace& workspace) {
   const std::vector<std::string> motions = undetermined_motions(model, state, workspace.now);
   if (motions.empty()) return;
@@ -95,8 +95,8 @@ void require_determined(const Model& model, const std::string& where, const Stat
               "tie them with fixed joints, hold these directions with other joints or springs, or give them mass");
 }
 
-/// Moves whole bodies to the values that the scene gives coordinates at the start; returns the largest displacement of
-/// a node. Joints must meet as written; drives are met with the values.
+/// Moves whole bodies to the initial values of coordinates. Returns the largest displacement of a node. Joints must be
+/// closed as written; drives are closed by the values.
 double move_to_values(const formats::Scene& scene, BuiltModel& built, Workspace& workspace) {
   const Model& model = built.model;
   State& state = built.state;
@@ -117,7 +117,7 @@ double move_to_values(const formats::Scene& scene, BuiltModel& built, Workspace&
   return (state.x() - before.x()).colwise().norm().maxCoeff();
 }
 
-/// Deflections of treads move from the start on as the wheels ask, not from rest.
+/// Sets the initial rates of tread deflections to those that the motion of the wheels causes, instead of zero.
 void settle_treads(const Model& model, State& state, Workspace& workspace) {
   if (std::ranges::none_of(model.tyres, &Tyre::relaxes)) return;
   evaluate(model, state, workspace.now);
@@ -130,7 +130,7 @@ void settle_treads(const Model& model, State& state, Workspace& workspace) {
   }
 }
 
-/// Where drives determine everything, contradictions of drives are dead points, which the analysis tells of.
+/// Largest accepted contradiction. Driven analyses report contradictions of drives as dead points themselves.
 double contradiction_limit(const formats::Scene& scene) {
   const bool driven =
       scene.analysis == formats::AnalysisKind::kinematics || scene.analysis == formats::AnalysisKind::inverse_dynamics;
@@ -139,7 +139,7 @@ double contradiction_limit(const formats::Scene& scene) {
   return driven && !rates ? std::numeric_limits<double>::infinity() : scene.initial_tolerance;
 }
 
-/// Regularises massless directions with its square times the stiffness; statics has no step of its own.
+/// Step for the regularisation of massless directions with step² times the stiffness; statics has none of its own.
 double regularising_step(const formats::Scene& scene) {
   return scene.analysis == formats::AnalysisKind::dynamics ? scene.integrator.step : 1e-3;
 }
@@ -151,8 +151,8 @@ void factor_projection(const Model& model, const formats::Scene& scene, const St
                   scene.file);
 }
 
-/// Moves positions onto the constraints in the mass norm; returns what it corrected. Throws Error that names joint and
-/// equation if that is more than the tolerance of the scene.
+/// Moves positions onto the constraints in the mass norm. Returns the correction. Throws Error that names joint and
+/// equation if it exceeds the tolerance of the scene.
 double project_positions(const Model& model, const formats::Scene& scene, State& state, Workspace& workspace) {
   double corrected = 0.0;
   for (int iteration = 0;; ++iteration) {
@@ -178,7 +178,7 @@ double project_positions(const Model& model, const formats::Scene& scene, State&
   return corrected;
 }
 
-/// The same for velocities, at positions on the constraints.
+/// Moves velocities onto the constraints, at positions that satisfy them. Returns the relative correction.
 double project_velocities(const Model& model, const formats::Scene& scene, State& state, Workspace& workspace) {
   evaluate(model, state, workspace.now);
   const double velocity = largest_velocity(model, state);
@@ -198,7 +198,7 @@ double project_velocities(const Model& model, const formats::Scene& scene, State
   return corrected;
 }
 
-/// Norm of the multipliers of joints with friction: those that forces depend on.
+/// Norm of the multipliers of joints with friction, on which forces depend.
 double rubbing_part(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& multipliers) {
   double square = 0.0;
   for (const Friction& friction : model.frictions) {
@@ -208,8 +208,8 @@ double rubbing_part(const Model& model, const Eigen::Ref<const Eigen::VectorXd>&
   return std::sqrt(square);
 }
 
-/// a_0 = v̇_0 + (α_m − α_f) h v̈_0 with v̈_0 by differences along the motion [ABC15]: the start that gives multipliers of
-/// order 2. Needs consistent v̇.
+/// Sets a_0 = v̇_0 + (α_m − α_f) h v̈_0, with v̈_0 by differences along the motion [ABC15]. This start gives multipliers
+/// of order 2. Needs consistent v̇.
 void start_algorithmic_acceleration(const Model& model, const formats::Scene& scene, State& state,
                                     Workspace& workspace) {
   const AlphaParameters alpha = alpha_parameters(scene.integrator);
@@ -217,7 +217,7 @@ void start_algorithmic_acceleration(const Model& model, const formats::Scene& sc
   state.algorithmic() = state.vdot();
   state.step() = step;
   if (shift == 0.0) return;
-  double epsilon = 1e-3 * step;  // on this side of the next jump
+  double epsilon = 1e-3 * step;  // before the next jump
   if (const auto next = std::ranges::upper_bound(model.breakpoints, state.load_time()); next != model.breakpoints.end())
     epsilon = std::min(epsilon, 0.5 * (*next - state.load_time()));
   State ahead = state;
@@ -228,8 +228,8 @@ void start_algorithmic_acceleration(const Model& model, const formats::Scene& sc
   ahead.v() += epsilon * state.vdot();
   evaluate(model, ahead, workspace.now);
   evaluate_bias(model, workspace.now);
-  // With M + h/2 C + h²/4 K in place of M: equal to it up to O(h) where the step resolves the motion; elsewhere the
-  // rate of the acceleration would grow with the frequency squared and mean nothing.
+  // M + h/2 C + h²/4 K replaces M. It differs by O(h) where the step resolves the motion. For higher frequencies the
+  // rate of the acceleration would grow with the frequency squared and be meaningless.
   const FactorReport factors =
       workspace.matrix.factor(model, ahead, weighted(1.0, 0.5 * step, 0.25 * step * step), workspace.now);
   require_factors(model, factors, scene.file);
@@ -252,7 +252,7 @@ bool solve_accelerations(const Model& model, double step, const std::string& whe
     factors = workspace.matrix.factor(model, state, weighted(1.0, 0.0, step * step), workspace.now);
     require_factors(model, factors, where);
   }
-  // With friction the forces depend on the multipliers: Newton's iteration, otherwise one refinement.
+  // With friction the forces depend on the multipliers and need Newton's iteration. Otherwise one refinement is enough.
   const bool rubs = !model.frictions.empty();
   bool settled = !rubs;
   for (int refinement = 0; refinement < (rubs ? most_refinements : 2); ++refinement) {
@@ -267,7 +267,7 @@ bool solve_accelerations(const Model& model, double step, const std::string& whe
     workspace.matrix.solve_increment(model, workspace.matrix.rows, workspace.now);
     state.vdot() += workspace.matrix.increment;
     state.lambda() += workspace.matrix.multipliers;
-    // Directions without mass go on with each refinement, and with them the multipliers of what holds them.
+    // Massless directions move on with each refinement, and so do the multipliers of their constraints.
     settled =
         settled || is_round_off(model, state, workspace.now, workspace.matrix.multipliers) ||
         (massless ? rubbing_part(model, workspace.matrix.multipliers) <= 1e-12 * rubbing_part(model, state.lambda())
@@ -294,7 +294,7 @@ StartReport start(const formats::Scene& scene, StartFrom from, BuiltModel& built
   require_determined(model, where, state, workspace);
   for (const int row : report.mobility.redundant) state.active()[row] = 0.0;
   report.projection.position = project_positions(model, scene, state, workspace);
-  if (scene.analysis == formats::AnalysisKind::statics) {  // at rest, or in a steady rotation of its own
+  if (scene.analysis == formats::AnalysisKind::statics) {  // statics starts at rest, or in its own steady rotation
     state.v().setZero();
     return report;
   }
@@ -340,7 +340,7 @@ void pass_breakpoint(const Model& model, const formats::Scene& scene, State& sta
   workspace.memory.predictor.forget();
   state.load_time() = state.time() + side;
   solve_accelerations(model, scene.integrator.step, scene.file, state, workspace);
-  const double step = state.step();  // to which the velocities belong (index 3)
+  const double step = state.step();  // the velocities belong to this step (index 3)
   start_algorithmic_acceleration(model, scene, state, workspace);
   rebuild_algorithmic_acceleration(step, state);
   evaluate(model, state, workspace.now);

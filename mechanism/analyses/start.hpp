@@ -1,4 +1,4 @@
-// Start of an analysis: pre-flight, initial values, free velocities, projection, consistent accelerations.
+// Start of an analysis: preflight, initial values, free velocities, projection, consistent accelerations.
 #pragma once
 
 #include <string>
@@ -14,16 +14,16 @@
 
 namespace tisserand::mechanism {
 
-/// Largest corrections that the projection made: |Φ| before it relative to the characteristic length (angles as they
-/// are), |B v| relative to the largest velocity.
+/// Largest corrections by the projection. Position: |Φ| before it, relative to the characteristic length (angles in
+/// rad). Velocity: |B v| relative to the largest velocity.
 struct Projection {
   double position = 0.0;
   double velocity = 0.0;
 };
 
-/// v̇ and λ from [M Bᵀ; B 0][v̇; λ] = [F − G; −Ḃ v]. A singular mass matrix is regularised with step² times the stiffness
-/// (its massless directions are in static equilibrium then); returns whether it was. Throws Error that names a
-/// direction without mass, stiffness and constraint.
+/// Solves [M Bᵀ; B 0][v̇; λ] = [F − G; −Ḃ v] for v̇ and λ. A singular mass matrix is regularised with step² times the
+/// stiffness, so that massless directions are in static equilibrium. Returns whether it was regularised. Throws Error
+/// that names a direction without mass, stiffness and constraint.
 bool solve_accelerations(const Model& model, double step, const std::string& where, State& state, Workspace& workspace);
 
 struct StartReport {
@@ -35,16 +35,15 @@ struct StartReport {
   double moved = 0.0;     ///< largest displacement of a node by initial values
 };
 
-/// The start of a scene, with rows that others imply made inactive, for the analysis of the scene: initial values move
-/// the bodies rigidly, free velocities are derived (statics has none), then both are projected; dynamics: also the
-/// consistent start and energies counted from here. Initial values move `poses` alone.
+/// Starts the analysis of the scene. Redundant constraint rows become inactive. Initial values move bodies rigidly
+/// (only with `poses`). Free velocities are derived, except in statics. Then positions and velocities are projected.
+/// Dynamics also gets the consistent start, and its energies count from here.
 StartReport start(const formats::Scene& scene, StartFrom from, BuiltModel& built, Workspace& workspace);
 
-/// Work, dissipation and energy start from zero here.
+/// Sets work, dissipation and energy to zero at this state.
 void begin(const Model& model, State& state, Workspace& workspace);
 
-/// After a step that ended on a breakpoint: where loads jump, accelerations and multipliers are solved anew on its far
-/// side.
+/// Solves accelerations and multipliers again after a step that ended on a breakpoint, with the loads after the jump.
 void pass_breakpoint(const Model& model, const formats::Scene& scene, State& state, Workspace& workspace);
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// Parts, rows and matrices.
+// Parts, rows and matrices of the start.
 #include "mechanism/analyses/start_problem.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// How a body has turned, also where its first node owns no rotation.
+/// Rotation of a body, also if its first node owns no rotation.
 Eigen::Quaterniond body_rotation(const Model& model, const State& state, int node) {
   if (model.nodes[node].rotation < 0)
     for (std::size_t i = 0; i < model.superelements.size(); ++i)
@@ -20,7 +20,7 @@ Eigen::Quaterniond body_rotation(const Model& model, const State& state, int nod
   return quaternion(state.Q().col(node));
 }
 
-/// B at the state of the last evaluate(), with evaluate_coordinates().
+/// Matrix B at the state of the last evaluate(), with evaluate_coordinates().
 StartMatrix start_rows(const StartProblem& problem, const Evaluation& evaluation) {
   const Model& model = problem.model;
   StartTriplets entries;

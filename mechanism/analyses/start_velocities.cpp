@@ -1,4 +1,4 @@
-// One proximal iteration, for rigid motions and, where these do not serve, deformations.
+// One proximal iteration: first for rigid motions, then with deformations if no rigid motion fits.
 #include "mechanism/analyses/start_velocities.hpp"
 
 #include <algorithm>
@@ -16,18 +16,18 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Relative to the largest velocity: below it a state agrees, and a motion was found.
+/// Limits relative to the largest velocity: a state agrees with its rows, and a motion was found.
 constexpr double velocities_agree = 1e-12;
 constexpr double motion_found = 1e-9;
-/// A drive that moves less than this between the points of its differences is at rest: round-off of its formula.
+/// Smallest motion of a drive between the points of its differences; less is round-off of its formula.
 constexpr double drive_round_off = 1e-13;
-/// δ of rigid motions beside deformations, and μ of the rows, in the scaled unknowns: small, so that an iteration
-/// leaves little; far above round-off, so that the factors hold.
+/// δ of rigid motions combined with deformations, and μ of the rows, in the scaled unknowns. They are small, so that
+/// few iterations are needed, and far above round-off, so that the factors are accurate.
 constexpr double rigid_share = 1e-6;
 constexpr double row_share = 1e-8;
-/// Weights that keep massless directions where nothing moves them: of bodies with mass, of their own largest; of
-/// virtual bodies, of the largest of all, so much that the rows between several of them do not drown those of the
-/// masses.
+/// Weights that keep massless directions at rest if nothing moves them. For bodies with mass they are relative to the
+/// largest mass of the body. For virtual bodies they are relative to the largest of all: large enough that rows between
+/// several of them do not hide those of the masses.
 constexpr double massless_share = 1e-12;
 constexpr double virtual_share = 1e-6;
 constexpr int most_passes = 40;
@@ -54,12 +54,12 @@ struct StartSolution {
   Eigen::VectorXd w;     ///< of all parts
   Eigen::VectorXd d;     ///< deformation, boundary coordinates
   Eigen::VectorXd gaps;  ///< c − J w − B d
-  double gap = 0.0;      ///< largest, relative to the largest velocity or row of c
+  double gap = 0.0;      ///< largest gap, relative to the largest velocity or row of c
 };
 
 double largest_entry(const Eigen::VectorXd& values) { return values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0; }
 
-/// Components of w that may change.
+/// Indices of the components of w that may change.
 std::vector<int> free_motions(const StartProblem& problem) {
   std::vector<int> free;
   for (int i = 0; i < std::ssize(problem.starts); ++i)
@@ -68,7 +68,7 @@ std::vector<int> free_motions(const StartProblem& problem) {
   return free;
 }
 
-/// Entries of A in the rows and columns that the indices say; −1 leaves one out.
+/// Adds entries of A at the rows and columns of the given indices; −1 omits one.
 void add_block(const StartMatrix& A, const std::vector<int>& row_at, const std::vector<int>& column_at, double factor,
                StartTriplets& entries) {
   for (Eigen::Index j = 0; j < A.outerSize(); ++j)
@@ -77,13 +77,13 @@ void add_block(const StartMatrix& A, const std::vector<int>& row_at, const std::
         entries.emplace_back(row_at[at.row()], column_at[at.col()], factor * at.value());
 }
 
-/// The unknowns [d w λ]: deformations, free components of w, multipliers of rows.
+/// The linear system of the unknowns [d w λ]: deformations, free components of w, multipliers of rows.
 struct StartSystem {
   int nd = 0, nw = 0, rows = 0;
   Eigen::VectorXd unit_d;  ///< velocity coordinates per unknown
-  StartMatrix M;           ///< of the free components of w, scaled
-  StartMatrix H;           ///< [A 0 Bᵀ; 0 0 Jᵀ; B J 0]; of rigid bodies alone [M Jᵀ; J 0]
-  StartMatrix K;           ///< H and the proximal terms: δM, −μ, and what keeps massless directions
+  StartMatrix M;           ///< mass matrix of the free components of w, scaled
+  StartMatrix H;           ///< [A 0 Bᵀ; 0 0 Jᵀ; B J 0]; for rigid bodies alone [M Jᵀ; J 0]
+  StartMatrix K;           ///< H with the proximal terms: δM, −μ, and the weights of massless directions
   int size() const { return nd + nw + rows; }
 };
 
@@ -120,7 +120,7 @@ StartSystem start_system(const StartProblem& problem, const std::vector<int>& fr
   add_block(problem.M, at_w, at_w, (system.nd > 0 ? rigid_share : 1.0) / largest, masses);
   system.M.resize(system.size(), system.size());
   system.M.setFromTriplets(masses.begin(), masses.end());
-  // In H the mass of rigid motions takes away what rounding leaves in directions that no row determines.
+  // In H the mass of rigid motions removes the round-off in directions that no row determines.
   if (system.nd == 0) entries.insert(entries.end(), masses.begin(), masses.end());
   system.H.resize(system.size(), system.size());
   system.H.setFromTriplets(entries.begin(), entries.end());
@@ -137,7 +137,7 @@ StartSystem start_system(const StartProblem& problem, const std::vector<int>& fr
   return system;
 }
 
-/// The iteration for the first `rows` rows with these components of w free; without `deformations` bodies are rigid.
+/// Iterates on the first `rows` rows with these components of w free. Bodies are rigid if `deformations` is null.
 StartSolution solve_start(const StartProblem& problem, const std::vector<int>& free, const Deformations* deformations,
                           int rows) {
   const StartSystem system = start_system(problem, free, deformations, rows);
@@ -171,7 +171,7 @@ StartSolution solve_start(const StartProblem& problem, const std::vector<int>& f
   return solution;
 }
 
-/// The bodies and rates by which the nearest motion that joints and drives allow differs from what is given.
+/// Text of the bodies and rates in which the nearest motion that joints and drives allow differs from the given one.
 std::string differences_text(const StartProblem& problem, const StartSolution& nearest) {
   const Model& model = problem.model;
   const double shown = 1e-6 * std::max(largest_entry(problem.w), largest_entry(problem.c));
@@ -217,7 +217,7 @@ std::string differences_text(const StartProblem& problem, const StartSolution& n
               "do");
 }
 
-/// v = R w + d of the parts that move otherwise than they did; the rest keeps its bits.
+/// Sets v = R w + d of the parts whose motion changes; other velocities stay bitwise equal.
 void set_velocities_of(const StartProblem& problem, const StartSolution& solution, State& state,
                        Evaluation& evaluation) {
   const Model& model = problem.model;
@@ -230,7 +230,7 @@ void set_velocities_of(const StartProblem& problem, const StartSolution& solutio
   }
   if (solution.d.isZero(0.0)) return;
   state.v().head(model.sizes.boundary) += solution.d;
-  // The internal part of the least dᵀ M d, by the blocks of the mass matrix that find_deformations() left.
+  // Internal part of the least dᵀ M d, from the blocks of the mass matrix that find_deformations() stored.
   Eigen::VectorXd boundary;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const SuperelementBody& body = body_of(model, i);
@@ -302,7 +302,7 @@ StartVelocities derive_velocities(BuiltModel& built, StartFrom from, double tole
     if (!deformations.coordinates.empty()) solution = solve_start(problem, free, &deformations, problem.rows());
   }
   if (!(solution.gap <= motion_found)) {
-    if (before <= tolerance) return {};  // written velocities that agree but for their last digits
+    if (before <= tolerance) return {};  // written velocities that agree up to their last digits
     if (!(solution.gap <= tolerance)) throw_contradiction(problem, deformations, solution, tolerance, where);
   }
   set_velocities_of(problem, solution, state, evaluation);

@@ -27,7 +27,7 @@ double largest_residual(const Model& model, const Workspace& workspace) {
 }
 
 /// Whether forces on internal coordinates are below `least`, or below `force` on a mode of its body, whose shape has
-/// the size 1/√mass: where a load does not excite the modes, their own forces are round-off.
+/// the size 1/√mass. Where a load does not excite the modes, their own forces are round-off.
 bool internal_balance(const Model& model, const Workspace& workspace, double least, double force) {
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const double r = largest_of(workspace.now.superelements[i].forces.r_I);
@@ -36,7 +36,7 @@ bool internal_balance(const Model& model, const Workspace& workspace, double lea
   return true;
 }
 
-/// Brings a state to rest; while it lives tangents hold tyres where they stand.
+/// Brings a state to rest; during its lifetime tangents hold tyres in place.
 class Standing {
  public:
   Standing(State& state, Evaluation& evaluation) : evaluation_(evaluation) {
@@ -52,7 +52,7 @@ class Standing {
   Evaluation& evaluation_;
 };
 
-/// Factors the stiffness at the state that was evaluated; names the motion that nothing holds, or nothing.
+/// Factors the stiffness at the evaluated state. Returns the name of a free motion, or an empty text.
 std::string free_direction(const Model& model, const State& state, Workspace& workspace) {
   const FactorReport factors =
       workspace.matrix.factor(model, state, {{0.0, 0.0, 1.0}, TangentKind::exact, {}}, workspace.now);
@@ -74,7 +74,7 @@ bool in_balance(EquilibriumSearch& search) {
          report.constraint <= options.tolerance * model.length;
 }
 
-/// Newton's iteration for one load factor.
+/// Newton's iteration at one load factor.
 StepOutcome equilibrate(EquilibriumSearch& search) {
   auto& [model, options, interrupted, state, workspace, report] = search;
   for (int iteration = 0;; ++iteration) {
@@ -85,7 +85,7 @@ StepOutcome equilibrate(EquilibriumSearch& search) {
     report.interrupted = interrupted && interrupted();
     if (iteration == options.max_iterations || report.interrupted) return StepOutcome::too_many_iterations;
     report.explanation = free_direction(model, state, workspace);
-    // Only the first state is one of equilibrium: a later one may be singular because the load step is too long.
+    // Only the first state shows a free motion; a later one may be singular because the load step is too long.
     if (!report.explanation.empty()) return iteration == 0 ? StepOutcome::singular : StepOutcome::diverged;
     workspace.matrix.solve_increment(model, -workspace.now.constraint, workspace.now);
     state.lambda() += workspace.matrix.multipliers;
@@ -95,7 +95,7 @@ StepOutcome equilibrate(EquilibriumSearch& search) {
   }
 }
 
-/// Takes the positions of the last evaluate() as those that floating frames and angles go on from.
+/// Takes the positions of the last evaluate() as the reference of floating frames and angles.
 void accept_equilibrium(const Model& model, State& state, const Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
     state.frames().col(i) = wxyz(Eigen::Quaterniond(evaluation.superelements[i].motion.R0).normalized());
@@ -103,7 +103,7 @@ void accept_equilibrium(const Model& model, State& state, const Evaluation& eval
   unwrap_hinges(model, evaluation, state);
 }
 
-/// Completes the explanation of an outcome other than accepted: `reached` of the load, smallest load step.
+/// Completes the explanation of a failure: `reached` is the part of the load, `step` the smallest load step.
 void explain_statics(double reached, double step, StaticsReport& report) {
   if (report.outcome == StepOutcome::singular)
     report.explanation = reached == 0.0
@@ -127,7 +127,7 @@ void judge(const Model& model, const State& state, Evaluation& evaluation, Stati
     report.stable_until = reached;
 }
 
-/// From the present state to an equilibrium without negative directions, under the whole load.
+/// Goes from the present state to an equilibrium without negative directions, under the whole load.
 DescentReport descend(EquilibriumSearch& search) {
   search.workspace.now.load_factor = 1.0;
   const DescentReport descent = descend(
@@ -137,15 +137,15 @@ DescentReport descend(EquilibriumSearch& search) {
   return descent;
 }
 
-/// From zero to the whole of loads and gravity (the evaluation's load factor) in load steps, which are halved where no
-/// equilibrium is found; an outcome other than accepted is explained in the report. Ends with a load factor of one.
+/// Ramps loads and gravity (the load factor) from zero to one. Load steps are halved where no equilibrium is found. A
+/// failure is explained in the report. The load factor is one at the end.
 void ramp_loads(EquilibriumSearch& search) {
   auto& [model, options, interrupted, state, workspace, report] = search;
   double reached = 0.0;
   double size = 1.0 / std::max(1, options.load_steps);
   int halvings = 0;
   constexpr int most_halvings = 12;
-  constexpr double round_off = 1e-12;  // of a sum of load steps: ten of 0.1 are less than 1
+  constexpr double round_off = 1e-12;  // of a sum of load steps: ten times 0.1 is less than 1
   while (reached < 1.0) {
     const State before = state;
     workspace.now.load_factor = reached + size < 1.0 - round_off ? reached + size : 1.0;
@@ -165,10 +165,10 @@ void ramp_loads(EquilibriumSearch& search) {
   explain_statics(reached, size, report);
 }
 
-/// The joint coordinate, or the node, that moves most in a motion of the state that nothing holds, or empty: of the
-/// state at rest, or in the steady rotation of the options, in which centrifugal forces hold too.
+/// Name of the joint coordinate or node that moves most in a free motion of the state, or empty. The state is at rest,
+/// or in the steady rotation of the options, in which centrifugal forces hold too.
 std::string free_motion(const Model& model, const formats::StaticsSpec& options, State state, Workspace& workspace) {
-  // Dense matrices: larger scenes are told by the equation at which the sparse factors fail, or while they are solved.
+  // The matrices are dense. In larger scenes the sparse factors or the solution name the free motion.
   constexpr int most_named = 600;
   const bool small = model.sizes.velocities() <= most_named;
   if (options.rotation) {
@@ -209,8 +209,8 @@ StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& opti
   const Standing standing(state, workspace.now);
   ramp_loads(search);
   const bool failed = report.outcome == StepOutcome::diverged || report.outcome == StepOutcome::too_many_iterations;
-  // Where Newton's iteration finds none, as from a slack cable, or the equilibrium is to be stable.
-  // Singular on the way: load steps were halved until no load was left that holds the scene.
+  // Search for a stable equilibrium if it is required, or if Newton's iteration finds none, as from a slack cable. If
+  // the stiffness became singular on the way, load steps were halved until no load was left that holds the scene.
   const bool lost = failed || (report.outcome == StepOutcome::singular && report.iterations > 0);
   if (!report.interrupted && (lost || (options.stable && report.stability.unstable > 0))) {
     if (descend(search).found) {

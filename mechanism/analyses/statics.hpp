@@ -13,26 +13,26 @@
 
 namespace tisserand::mechanism {
 
-/// Polled before every iteration; true ends the analysis.
+/// Callback before every iteration; true ends the analysis.
 using Interrupt = std::function<bool()>;
 
-/// A stiffness matrix with a smaller reciprocal condition (after scaling) leaves a rigid motion free.
+/// Limit of the reciprocal condition (after scaling) of a stiffness matrix. Below it a rigid motion is free.
 inline constexpr double free_motion_condition = 1e-14;
 struct StaticsReport {
   StepOutcome outcome = StepOutcome::accepted;
   int iterations = 0;
-  int load_steps = 0;     ///< taken, after halvings
+  int load_steps = 0;     ///< number of load steps, including halved ones
   double residual = 0.0;  ///< largest force, largest moment / length
   double constraint = 0.0;
   bool interrupted = false;
-  Stability stability;         ///< of the end
+  Stability stability;         ///< stability of the final state
   double stable_until = 0.0;   ///< load factor of the last stable load step before the first unstable one
   double unstable_from = 2.0;  ///< load factor of the first unstable load step; above 1: none
   int descents = 0;            ///< iterations of the search for a stable equilibrium
-  std::string explanation;     ///< of a failure: equation and likely cause
+  std::string explanation;     ///< for a failure: equation and likely cause
 };
 
-/// A search for equilibrium: of what, how, and what came of it.
+/// Arguments and report of a search for equilibrium.
 struct EquilibriumSearch {
   const Model& model;
   const formats::StaticsSpec& options;
@@ -42,18 +42,18 @@ struct EquilibriumSearch {
   StaticsReport report = {};
 };
 
-/// From a state that can move freely to the equilibrium in which the whole of loads and gravity holds it, as a pendulum
-/// hangs.
+/// Result of a search that starts from a state with a free motion. It ends where all loads and gravity hold the scene,
+/// as a pendulum hangs.
 struct Settled {
-  std::string free;  ///< what nothing holds even there; empty: it was found
-  int descents = 0;  ///< iterations of the search; 0: the state was held as it stood
+  std::string free;  ///< motion that is free even there; empty: an equilibrium was found
+  int descents = 0;  ///< iterations of the search; 0: the first state was already held
 };
 Settled settle_under_load(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
                           State& state, Workspace& workspace);
 
-/// Equilibrium under loads (at the state's time) and gravity, from `state` with all velocities zero, in load steps that
-/// are halved where the iteration fails; in the steady rotation of the options, if there is one. A scene that can move
-/// freely is an outcome `singular` that names the direction.
+/// Finds the equilibrium under loads (at the state's time) and gravity, from `state` with all velocities zero. Load
+/// steps are halved where the iteration fails. If the options have a steady rotation, its inertia forces count. If the
+/// scene can move freely, the outcome is `singular` and names the direction.
 [[nodiscard]] StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options,
                                           const Interrupt& interrupted, State& state, Workspace& workspace);
 

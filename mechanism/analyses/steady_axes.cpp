@@ -1,4 +1,4 @@
-// The state a moment later, as it follows if it is steady; internal coordinates by the nodes that they move with.
+// The state a moment later if it is steady, and the rotation of internal coordinates by the nodes they move with.
 #include "mechanism/analyses/steady_axes.hpp"
 
 #include <algorithm>
@@ -26,13 +26,13 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Internal coordinates of one body: columns of a linearisation.
+/// Internal coordinates of one body, which are columns of a linearisation.
 struct Internal {
   std::string name;
   int first = 0;
   VectorXd frequency_squared;  ///< ascending
   Vector3d spin = Vector3d::Zero();
-  int superelement = -1, modal = -1;  ///< index of one of them
+  int superelement = -1, modal = -1;  ///< index of one of them; the other is −1
 };
 
 /// Angular velocity of a node relative to axes that turn with ω.
@@ -60,8 +60,8 @@ std::vector<Internal> internal_coordinates(const Model& model, const Evaluation&
   return list;
 }
 
-/// `time` later, if the state is steady in axes that turn with ω: positions and velocities turn with the axes, and each
-/// node spins on about its own place. Floating frames are as they were.
+/// The state `time` later, if it is steady in axes that turn with ω. Positions and velocities turn with the axes, and
+/// each node spins about its own position. Floating frames do not change.
 State moved_on(const Model& model, const State& state, const Vector3d& omega, double time,
                const Evaluation& evaluation) {
   const Vector3d turn = omega * time;
@@ -95,13 +95,13 @@ State moved_on(const Model& model, const State& state, const Vector3d& omega, do
   return later;
 }
 
-/// The multipliers that leave the least residual: those of rows whose directions turned with a body are others.
+/// Adds the multipliers that minimise the residual, because rows whose directions turned with a body need other ones.
 void balance(const Linearisation& l, State& state) {
   if (l.B.rows() == 0) return;
   add_to_multipliers(l.B.transpose().completeOrthogonalDecomposition().solve(-l.r), state);
 }
 
-/// From coordinates and equations in world axes to axes that are turned by Q.
+/// Transforms coordinates and equations from world axes to axes that are turned by Q.
 void turn_axes(const Model& model, const Matrix3d& Q, Linearisation& l) {
   for (const Node& node : model.nodes)
     for (const auto& [first, size] :
@@ -125,8 +125,8 @@ MatrixXd logarithm(const MatrixXd& E) {
   return (eigen.eigenvectors() * (i * angle).asDiagonal() * eigen.eigenvectors().adjoint()).real();
 }
 
-/// How the internal coordinates of a body move what is not the body's own, in axes that are turned by Q: M between them
-/// and all other coordinates, and of modal bodies the motion of the nodes on the axis of the spin.
+/// Coupling of the internal coordinates of a body to other parts, in axes that are turned by Q. It contains M between
+/// them and all other coordinates; for modal bodies also the motion of the nodes on the axis of the spin.
 MatrixXd coupling(const Model& model, const Internal& body, const Linearisation& l, const Matrix3d& Q,
                   const Evaluation& evaluation) {
   const auto m = body.frequency_squared.size();
@@ -149,7 +149,7 @@ MatrixXd coupling(const Model& model, const Internal& body, const Linearisation&
   return rows;
 }
 
-/// The rotation E next to A E = B for coordinates of one frequency; none where A and B do not say.
+/// Rotation E that best satisfies A E = B for coordinates of one frequency; none if A and B do not determine it.
 std::optional<MatrixXd> procrustes(const MatrixXd& A, const MatrixXd& B, double least) {
   const Eigen::JacobiSVD<MatrixXd> svd(A.transpose() * B, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const auto m = A.cols();
@@ -159,9 +159,9 @@ std::optional<MatrixXd> procrustes(const MatrixXd& A, const MatrixXd& B, double 
   return E;
 }
 
-/// E = exp(−Γ time) of a body from its couplings, block by block of frequencies that follow each other closely.
+/// Rotation E = exp(−Γ time) of a body from its couplings, in blocks of coordinates with nearly equal frequency.
 std::optional<MatrixXd> turn_of(const Internal& body, const MatrixXd& now, const MatrixXd& later) {
-  constexpr double alike = 1e-2;   // neighbours in ω²: a mesh leaves the two planes of a round shaft a little apart
+  constexpr double alike = 1e-2;   // neighbours in ω²: a mesh separates the two planes of a round shaft a little
   constexpr double least = 1e-10;  // of the square of the largest coupling
   const auto m = body.frequency_squared.size();
   const double largest = now.colwise().squaredNorm().maxCoeff();

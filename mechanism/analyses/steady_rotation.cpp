@@ -1,4 +1,4 @@
-// Newton's iteration in turning axes.
+// Newton's iteration in rotating axes.
 #include "mechanism/analyses/steady_rotation.hpp"
 
 #include <algorithm>
@@ -25,10 +25,10 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double turning_floor = 1e-13;
-/// Forces against a turn of the whole scene, relative to the largest stiffness, that are round-off.
+/// Round-off of forces against a rotation of the whole scene, relative to the largest stiffness.
 constexpr double turn_resistance = 1e-13;
 
-/// Largest internal force of any single term: also the inertia of the boundary, which excites internal modes.
+/// Largest internal force of any single term, including the inertia of the boundary, which excites internal modes.
 double internal_scale(const Model& model, const Evaluation& evaluation) {
   double scale = evaluation.force_scale[2];
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
@@ -40,7 +40,7 @@ double internal_scale(const Model& model, const Evaluation& evaluation) {
   return scale;
 }
 
-/// What the iteration tests: largest force (moments over the length) and internal force against their scales.
+/// Convergence test: largest force (moments over the length) and internal force relative to their scales.
 bool is_balanced(const Linearisation& l, EquilibriumSearch& search) {
   auto& [model, options, interrupted, state, workspace, report] = search;
   const Evaluation& evaluation = workspace.now;
@@ -61,10 +61,10 @@ bool is_balanced(const Linearisation& l, EquilibriumSearch& search) {
 struct Saddle {
   MatrixXd A;
   VectorXd scale;
-  double stiffness = 1.0;  ///< by which K was divided
+  double stiffness = 1.0;  ///< the divisor of K
 };
 
-/// Factors of the equations and unknowns: those of the model for boundary coordinates, 1 for internal ones.
+/// Scales of equations and unknowns: those of the model for boundary coordinates, 1 for internal ones.
 VectorXd scale_of(const Model& model) {
   VectorXd scale = VectorXd::Ones(model.sizes.velocities());
   scale.head(model.sizes.boundary) = model.equation_scale.head(model.sizes.boundary).matrix();
@@ -83,7 +83,7 @@ Saddle saddle(const Model& model, const State& state, const Linearisation& l) {
   return s;
 }
 
-/// The joint coordinate, or the node, that moves most in a null vector of the system, which inverse iteration finds.
+/// Name of the joint coordinate or node that moves most in a null vector of the system, found by inverse iteration.
 std::string name_of_null_vector(const Model& model, const State& state, Saddle s, Evaluation& evaluation) {
   const Eigen::Index n = model.sizes.velocities();
   s.A.diagonal().head(n).array() += 1e-13 * s.A.cwiseAbs().maxCoeff();
@@ -93,8 +93,8 @@ std::string name_of_null_vector(const Model& model, const State& state, Saddle s
   return name_of_direction(model, state, s.scale.cwiseProduct(d).head(n), evaluation);
 }
 
-/// Solves [K Bᵀ; B 0][ξ; δλ] = [−r; −Φ] and moves the state; returns ξ, empty, with the name of the direction in the
-/// report, if the matrix is singular.
+/// Solves [K Bᵀ; B 0][ξ; δλ] = [−r; −Φ] and moves the state. Returns ξ. If the matrix is singular, ξ is empty and the
+/// report names the direction.
 VectorXd improve(const Linearisation& l, EquilibriumSearch& search) {
   auto& [model, options, interrupted, state, workspace, report] = search;
   const Saddle s = saddle(model, state, l);
@@ -122,7 +122,7 @@ struct SteadyTurn {
         about(to_axes(model, rotation.about - model.origin)) {}
 };
 
-/// ẋ = ω×(x − p), Ω = Rᵀω, ẍ = ω×ẋ, Ω̇ = 0, internal coordinates at rest.
+/// Sets ẋ = ω×(x − p), Ω = Rᵀω, ẍ = ω×ẋ, Ω̇ = 0, with internal coordinates at rest.
 void set_velocities(const SteadyTurn& turn, State& state) {
   state.v().setZero();
   state.vdot().setZero();
@@ -139,8 +139,8 @@ void set_velocities(const SteadyTurn& turn, State& state) {
   }
 }
 
-/// The linearisation in the steady rotation. Where no reactions are known, those that balance it best come first: it is
-/// they that hold a blade on a hinge against flapping.
+/// Linearises in the steady rotation. If the reactions are unknown, those of least residual are set first: they hold a
+/// hinged blade against flapping.
 Linearisation linearise_turning(const SteadyTurn& turn, State& state, Evaluation& evaluation) {
   set_velocities(turn, state);
   Linearisation l = linearise(turn.model, state, turn.omega, evaluation);
@@ -151,7 +151,7 @@ Linearisation linearise_turning(const SteadyTurn& turn, State& state, Evaluation
   return linearise(turn.model, state, turn.omega, evaluation);
 }
 
-/// What is open or has other forces once the scene has turned by a radian, in which `passed` of time passes.
+/// Name of what opens or has other forces after the scene has turned by a radian, in which the time `passed` elapses.
 std::string change_by_turn(const SteadyTurn& steady, double passed, const VectorXd& before, State& state,
                            Evaluation& evaluation) {
   constexpr double share = 1e-6;
@@ -174,7 +174,7 @@ std::string change_by_turn(const SteadyTurn& steady, double passed, const Vector
     if (!drive && violation_of(model, evaluation.constraint, row) > share)
       return fmt::format("'{}' does not turn with the scene", constraint_name(model, row));
   }
-  // Moments have material axes and stay, forces turn. What joints and drives take does not move anything.
+  // Moments have material axes and stay, forces turn. Forces on joints and drives do not matter.
   VectorXd change = evaluation.residual - before;
   for (const Node& node : model.nodes)
     if (const int row = node.translation; row >= 0)
@@ -259,7 +259,7 @@ std::string what_does_not_turn(const Model& model, const formats::RotationSpec& 
   const VectorXd before = evaluation.residual;
   const State begin = state;
   std::string found;
-  for (const double passed : {1.0 / rate, 0.0}) {  // forces may turn by functions of time, or not depend on it
+  for (const double passed : {1.0 / rate, 0.0}) {  // forces may turn as functions of time, or not depend on it
     state.block() = begin.block();
     found = change_by_turn(turn, passed, before, state, evaluation);
     if (found.empty()) break;

@@ -1,4 +1,4 @@
-// Relative equilibrium: the scene at rest in axes that turn steadily.
+// Relative equilibrium: the scene at rest in axes that rotate steadily.
 #pragma once
 
 #include <string>
@@ -11,26 +11,25 @@
 
 namespace tisserand::mechanism {
 
-/// The joint coordinate, or the node, that moves most where the scene as a whole turns about the axis of the rotation,
-/// or empty: joints, drives or springs hold it. Away from equilibrium the stiffness does not show that nothing holds
-/// this turn.
+/// Name of the joint coordinate or node that moves most when the whole scene turns about the rotation axis. Empty if
+/// joints, drives or springs hold this turn. Away from equilibrium the stiffness does not reveal that the turn is free.
 std::string free_turn_name(const Model& model, const formats::RotationSpec& rotation, State state,
                            Evaluation& evaluation);
 
-/// The joint coordinate, or the node, that moves most in a motion of the steadily turning state that nothing holds, or
-/// empty.
+/// Name of the joint coordinate or node that moves most in a free motion of the steadily turning state. Empty if there
+/// is none.
 std::string free_motion_name(const Model& model, const formats::RotationSpec& rotation, State state,
                              Evaluation& evaluation);
 
-/// What does not turn with the scene, or empty: a joint or drive that forbids the velocities of the turn, or forces on
-/// a node that are others once the scene has turned by a radian (gravity across the axis, loads, springs and bushings
-/// of the ground). There is no steady state then.
+/// Name of what prevents a steady rotation; empty if nothing does. It is a joint or drive that forbids the velocities
+/// of the turn, or forces on a node that change when the scene turns by a radian. Examples are gravity across the axis,
+/// loads, springs and bushings to the ground.
 std::string what_does_not_turn(const Model& model, const formats::RotationSpec& rotation, State state,
                                Evaluation& evaluation);
 
-/// Equilibrium of loads, gravity and the inertia of the steady rotation of the options under the present load factor,
-/// with whose root the rate grows; by Newton's iteration with the stiffness of `linearise` (dense, with the softening
-/// of the rotation). The state ends with the velocities and accelerations of the rotation.
+/// Finds the equilibrium of loads, gravity and the inertia of the steady rotation under the present load factor. The
+/// rate grows with the root of this factor. Newton's iteration uses the stiffness of `linearise` (dense, with the
+/// softening by the rotation). The final state has the velocities and accelerations of the rotation.
 [[nodiscard]] StepOutcome balance_turning(EquilibriumSearch& search);
 
 }  // namespace tisserand::mechanism
