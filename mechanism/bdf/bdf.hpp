@@ -1,4 +1,4 @@
-// Backward differentiation of variable order and step (SUNDIALS CVODE) on the equations of index 1: the way of [GA00].
+// Backward differentiation of variable order and step (SUNDIALS CVODE) for the index-1 equations, the method of [GA00].
 #pragma once
 
 #include <memory>
@@ -12,38 +12,38 @@
 
 namespace tisserand::mechanism {
 
-/// Whether this build holds CVODE.
+/// Whether this build includes CVODE.
 bool bdf_available();
 
 struct BdfCounts {
   long steps = 0;
-  long iterations = 0;      ///< of CVODE's Newton iteration
-  long evaluations = 0;     ///< accelerations, differences for the Jacobian included
-  long factorisations = 0;  ///< of [M Bᵀ; B 0]: one per evaluation, and those of the projection
-  long error_failures = 0;  ///< steps taken again because of the error
+  long iterations = 0;      ///< iterations of CVODE's Newton solver
+  long evaluations = 0;     ///< accelerations, including differences for the Jacobian
+  long factorisations = 0;  ///< of [M Bᵀ; B 0]: one per evaluation, plus those of the projection
+  long error_failures = 0;  ///< steps that were repeated because of their error
   long convergence_failures = 0;
-  long row_choices = 0;  ///< how often the constraint rows that are solved for were chosen anew
-  int order = 0;         ///< of the last step, 1 to 5
+  long row_choices = 0;  ///< number of times that other constraint rows were chosen
+  int order = 0;         ///< order of the last step, 1 to 5
 };
 
-/// y = [x, p, internal coordinates, v, work, dissipated] with ẋ, ṗ = ½ L(p)ᵀ Ω and [M Bᵀ; B 0][v̇; λ] = [F − G; −Ḃ v]
-/// ([GA00] (14), (16); internal coordinates condensed). Drift is removed by CVODE's projection after each step, in the
-/// mass norm: positions, then velocities, then |p| = 1. The rotation of p is that of p/|p|, so |p| needs no constraint.
-/// Linear algebra of CVODE: dense with differences up to 400 unknowns, GMRES without a matrix above.
+/// Integrates y = [x, p, internal coordinates, v, work, dissipated] with ẋ, ṗ = ½ L(p)ᵀ Ω and [M Bᵀ; B 0][v̇; λ] = [F −
+/// G; −Ḃ v] ([GA00] (14), (16); internal coordinates condensed). After each step CVODE's projection removes the drift
+/// in the mass norm: positions, then velocities, then |p| = 1. Rotations use p/|p|, so |p| needs no constraint. CVODE
+/// uses dense matrices by differences up to 400 unknowns, and matrix-free GMRES above.
 class Bdf {
  public:
-  /// The state is started (consistent). Throws Error if this build has no CVODE, or if a direction has no mass.
+  /// `state` is a consistent start. Throws Error if this build has no CVODE, or if a direction has no mass.
   Bdf(const formats::Scene& scene, const Model& model, State& state, Workspace& workspace);
   ~Bdf();
   Bdf(const Bdf&) = delete;
   Bdf& operator=(const Bdf&) = delete;
 
-  /// One step, not beyond `stop` and loads not beyond `stop.load_time`; empty, or why it failed. The state, with
-  /// accelerations and multipliers, is that at its end.
+  /// Makes one step, at most to `stop`, with loads at most at `stop.load_time`. Returns an empty text or the reason of
+  /// failure. The state, with accelerations and multipliers, is that at the end of the step.
   [[nodiscard]] std::string step(const StepEnd& stop);
-  /// Moves the state to an instant within the last step: interpolated with the order of the step, then projected.
+  /// Moves the state to an instant within the last step: interpolation with the order of the step, then projection.
   void go_to(double time);
-  /// Starts anew from the state: loads of the far side of a jump count from `load_from` on.
+  /// Restarts from the state; after a jump, loads are evaluated from `load_from` on.
   void restart(double load_from);
 
   /// Largest |Φ| of the state (positions, and angles times length).

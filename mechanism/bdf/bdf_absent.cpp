@@ -1,4 +1,4 @@
-// method: bdf in a build without CVODE: a clear error.
+// method: bdf in a build without CVODE: reports an error.
 #include "common/error.hpp"
 #include "mechanism/bdf/bdf.hpp"
 

@@ -22,12 +22,12 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Jacobians up to this size are dense, by differences.
+/// Largest size of dense Jacobians by differences.
 constexpr int dense_limit = 400;
-/// Work and dissipation follow the motion without a say in its steps.
+/// Tolerance of work and dissipation, which excludes them from the error control.
 constexpr double no_say = 1e30;
 
-/// The values of a vector that CVODE hands to a callback.
+/// Values of a vector that CVODE passes to a callback.
 double* values_of(N_Vector vector) { return N_VGetArrayPointer(vector); }
 
 }  // namespace
@@ -39,14 +39,14 @@ struct Bdf::Data {
   State& state;
   Workspace& workspace;
   Index1 equations;
-  int size = 0;  ///< of y, with work and dissipated energy at the end
+  int size = 0;  ///< size of y, with work and dissipated energy at the end
   LoadWindow window;
   double now = 0.0;            ///< end of the last step
-  std::exception_ptr failure;  ///< of a callback: C code must not see it
-  std::string message;         ///< the last of CVODE
+  std::exception_ptr failure;  ///< exception of a callback, which must not reach C code
+  std::string message;         ///< last message of CVODE
   double constraint = 0.0;
   long row_choices = 0;
-  BdfCounts past;  ///< before the last restart, where CVODE counts from zero
+  BdfCounts past;  ///< counts before the last restart, at which CVODE resets its own
   SUNContext context = nullptr;
   N_Vector y = nullptr, tolerance = nullptr;
   SUNMatrix matrix = nullptr;
@@ -76,21 +76,21 @@ struct Bdf::Data {
     state.work() = values[size - 2];
     state.dissipated() = values[size - 1];
   }
-  /// Accelerations and multipliers of the state that the solver has reached.
+  /// Computes accelerations and multipliers at the state that the solver has reached.
   void complete() {
     equations.accelerate();
     equations.settle();
     constraint = equations.violation();
   }
-  /// After a step of this size: other constraint rows, where those that are solved for come near to being dependent.
-  /// The motion does not depend on the choice, so that CVODE goes on.
+  /// Chooses other constraint rows after a step of this size if the active ones become nearly dependent. The motion
+  /// does not depend on the choice, so CVODE continues.
   void renew_rows(double step) {
     workspace.memory.rows.note_turn(model, step, state);
     if (!mechanism::renew_rows(model, state, workspace)) return;
     ++row_choices;
     complete();
   }
-  /// Runs an action of a callback; 0, or −1 (give up) with the exception kept.
+  /// Runs the action of a callback. Returns 0, or −1 (unrecoverable) and stores the exception.
   template <class Action>
   int guard(Action action) {
     try {
@@ -113,7 +113,7 @@ struct BdfCallbacks {
     auto& data = *static_cast<Data*>(user);
     return data.guard([&] {
       data.equations.load(t, data.window, values_of(y));
-      if (!data.equations.try_accelerate()) return 1;  // CVODE may try a shorter step
+      if (!data.equations.try_accelerate()) return 1;  // recoverable: CVODE may try a shorter step
       data.equations.rates(values_of(y), values_of(ydot));
       values_of(ydot)[data.size - 2] = data.workspace.now.load_power;
       values_of(ydot)[data.size - 1] = damping_power(data.model, data.workspace.now);

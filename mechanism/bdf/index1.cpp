@@ -15,12 +15,12 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Smallest ratio of pivots of a mass matrix that is solved.
+/// Smallest ratio of pivots at which a mass matrix counts as regular.
 constexpr double mass_condition = 1e-15;
-/// Violations below this, relative to the characteristic length, are round-off.
+/// Limit of violations, relative to the characteristic length; smaller ones are round-off.
 constexpr double closed = 1e-13;
 constexpr int most_projections = 5;
-/// Iterations for accelerations and reactions that friction couples, and when they have settled.
+/// Largest number of iterations for accelerations and reactions that friction couples, and their tolerance.
 constexpr int most_iterations = 30;
 constexpr double settled = 1e-12;
 
@@ -127,7 +127,7 @@ double Index1::violation() const { return worst_violation() * model_.length; }
 
 bool Index1::project() {
   if (model_.sizes.constraints == 0) return true;
-  // Without reactions there is no friction: its derivatives would turn the projection out of the mass norm.
+  // Without reactions there is no friction, whose derivatives would change the mass norm of the projection.
   reactions_ = state_.lambda();
   state_.lambda().setZero();
   const bool done = project_without_reactions();
@@ -191,7 +191,7 @@ void Index1::tolerances(double* absolute) const {
     std::fill_n(absolute + layout_.positions + at, count, unit);
     std::fill_n(absolute + layout_.size() + at, count, unit);
   }
-  // Velocities move that much in a second, so that other units of the scene choose the same steps.
+  // Velocities may change by this tolerance per second, so that the units of the scene do not influence the steps.
   const double second = model_.units.named() ? model_.units.time.factor : 1.0;
   for (int i = layout_.positions; i < layout_.size(); ++i) absolute[i] *= second;
 }

@@ -1,4 +1,4 @@
-// The equations of motion as an ordinary differential equation: rates of a flat vector of positions and velocities.
+// The equations of motion as an ordinary differential equation for a flat vector of positions and velocities.
 #pragma once
 
 #include "formats/scene/scene.hpp"
@@ -8,17 +8,17 @@
 
 namespace tisserand::mechanism {
 
-/// How large the parts of the flat vector are, for error tests.
+/// Sizes of the parts of the flat vector, for error tests.
 struct FlatLayout {
-  int first = 0;       ///< of the state block: x, Q, further positions, v one after the other
-  int positions = 0;   ///< x and Q and the rest
-  int velocities = 0;  ///< v
-  int rest = 0;        ///< positions after Q: their rates are the last velocities
+  int first = 0;       ///< start in the state block: x, Q, further positions, v follow each other
+  int positions = 0;   ///< number of positions: x, Q and the rest
+  int velocities = 0;  ///< number of velocities v
+  int rest = 0;        ///< positions after Q, whose rates are the last velocities
   int size() const { return positions + velocities; }
 };
 FlatLayout flat_layout(const State& state);
 
-/// Loads are evaluated within these instants: just after the last jump, just before the next.
+/// Time window in which loads are evaluated: from just after the last jump to just before the next.
 struct LoadWindow {
   double from = 0.0;
   double to = 0.0;
@@ -32,22 +32,22 @@ class Index1 {
   long evaluations() const { return evaluations_; }
   long factorisations() const { return factorisations_; }
 
-  /// The flat vector becomes the state, with quaternions of length 1.
+  /// Copies the flat vector to the state and normalises quaternions.
   void load(double time, const LoadWindow& window, const double* y);
-  /// Accelerations and multipliers of the state. Throws Error for a direction without mass. With friction the reactions
-  /// depend on the forces that they cause: Newton's iteration from the last ones; false if it does not converge.
+  /// Computes accelerations and multipliers of the state. Throws Error for a direction without mass. With friction the
+  /// reactions depend on the forces that they cause. Newton's iteration solves this; false if it does not converge.
   [[nodiscard]] bool try_accelerate();
-  /// The same; Error where it does not converge.
+  /// Calls try_accelerate() and throws Error if it does not converge.
   void accelerate();
-  /// ẏ for the state that was loaded from y and accelerated. ṗ = ½ Lᵀ Ω keeps |p|, without a constraint per node.
+  /// Computes ẏ of the state that was loaded from y and accelerated.
   void rates(const double* y, double* ydot) const;
-  /// Positions, then velocities of the state onto the constraints, in the mass norm. False if it does not converge.
+  /// Moves positions, then velocities onto the constraints in the mass norm. False if this does not converge.
   bool project();
-  /// The state was accepted: frames, unwrapped angles, forces for tests. After accelerate().
+  /// Accepts the state: updates frames, unwrapped angles and forces for tests. Requires accelerate().
   void settle();
   /// Largest |Φ| at the last accelerate() (positions, and angles times length).
   double violation() const;
-  /// Absolute tolerance of each entry of y.
+  /// Fills in the absolute tolerance of each entry of y.
   void tolerances(double* absolute) const;
 
  private:
@@ -59,7 +59,7 @@ class Index1 {
   const Model& model_;
   State& state_;
   Workspace& workspace_;
-  Eigen::VectorXd reactions_;  ///< kept while positions are projected
+  Eigen::VectorXd reactions_;  ///< reactions, stored while positions are projected
   FlatLayout layout_;
   long evaluations_ = 0;
   long factorisations_ = 0;
