@@ -10,21 +10,21 @@
 
 namespace tisserand::mechanism {
 
-/// The node sits at the centre of mass with the axes of the part; inertia about it, in these axes.
+/// Constants of a rigid body. Its node is at the centre of mass with the axes of the part, and so is its inertia.
 struct RigidBody {
   std::string name;
   int node = 0;
   double mass = 0.0;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
-  bool gyroscopic = true;  ///< false: Ω × J Ω is left out
+  bool gyroscopic = true;  ///< false: Ω × J Ω is omitted
 };
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// Newton and Euler: r = [m (ẍ − g); J Ω̇ + Ω × J Ω], force in world axes, moment in body axes. J does not leave the
-/// plane of a planar model.
+/// Newton-Euler residual r = [m (ẍ − g); J Ω̇ + Ω × J Ω], force in world axes, moment in body axes. In planar models J
+/// does not couple with rotations out of the plane.
 template <int D>
 CarrierVector<D> residual(const RigidBody& body, const NodeMotion& n, const Eigen::Vector3d& gravity) {
   constexpr int turns = Space<D>::turns;
@@ -36,7 +36,7 @@ CarrierVector<D> residual(const RigidBody& body, const NodeMotion& n, const Eige
   return r;
 }
 
-/// c_m ∂r/∂v̇ + c_c ∂r/∂v; the stiffness is zero.
+/// Computes A = c_m ∂r/∂v̇ + c_c ∂r/∂v; the stiffness is zero.
 inline void tangent(const RigidBody& body, const NodeMotion& n, const TangentCoefficients& c, Matrix6d& A) {
   A.setZero();
   A.diagonal().head<3>().setConstant(c.mass * body.mass);

@@ -56,9 +56,9 @@ void check_data(const formats::Section& section, const formats::Material& materi
   require_positive(length, "length of the beam element", section.where);
 }
 
-/// One quadrature point sees the bending moment of the middle alone. What its linear part, V s, adds to the energy is
-/// put into the shear flexibility: 1/GA + L²/(12 E I) ([Mac78]), I of the plane in which the shear force bends. β: its
-/// share of the whole.
+/// Adds the residual bending flexibility. One quadrature point sees only the bending moment of the middle. The energy
+/// of its linear part, V s, enters through the shear flexibility: 1/GA + L²/(12 E I) ([Mac78]). I belongs to the plane
+/// in which the shear force bends. β is the share of bending in this sum.
 void add_residual_bending(BeamElement2& element) {
   const double share = element.length * element.length / 12.0;
   for (const auto& [force, moment] : {std::pair(1, 2), std::pair(2, 1)}) {

@@ -1,29 +1,29 @@
 // Geometrically exact beam elements (Simo-Reissner) with two and three nodes: constants, forces, tangents, energy.
 //
-// Source keys: [Sim85] Simo 1985 (strains), [CJ99] Crisfield & Jelenic 1999 (objective interpolation of rotations),
-// [Car00] section 8 (the nonlinear beam that superelements are compared with).
+// Sources: [Sim85] (strains), [CJ99] (objective interpolation of rotations),
+// [Car00] section 8 (the nonlinear beam with which superelements are compared).
 //
 // Kinematics. Section triad Λ_i = R_i D_i of node i (columns: beam axis, y, z of the section), D_i constant.
-//   Γ = Λᵀ x' − Γ₀   axial and shear strains,   κ = axial(Λᵀ Λ') − κ₀   torsion and bending, both in section axes;
-//   ' is the derivative by arc length of the reference curve; Γ₀, κ₀ are the values of the same interpolation there,
-//   so that the reference configuration is free of stress, whatever its curvature.
+// Γ = Λᵀ x' − Γ₀ axial and shear strains, κ = axial(Λᵀ Λ') − κ₀ torsion and bending, both in section axes;
+// ' is the derivative by arc length of the reference curve. Γ₀, κ₀ are the values of the same interpolation there,
+// so that a reference configuration of any curvature is free of stress.
 // Axial strain: ε = Γ₁ + e(Γ) + ½ ρ² κ₁², ρ² = (E I_y + E I_z)/E A. The last term is the mean elongation of fibres that
-//   twist about the axis (Wagner): a torsional stiffness N ρ² of the normal force N. e is zero for three nodes.
-// Two nodes: ψ = log(Λ₁ᵀΛ₂), Λ(s) = Λ₁ exp(s ψ), κ = ψ/L; strains at the middle only (free of shear and membrane
-//   locking), with four corrections that make the nodes of straight beams exact for loads at nodes and weight, and the
-//   element of order 4 as long as bending stays in one plane:
-//   - shear stiffness 1/(1/GA + L²/(12 EI)): residual bending flexibility [Mac78], of the linear part of the moment;
+// twist about the axis (Wagner). It is a torsional stiffness N ρ² by the normal force N. e is zero for three nodes.
+// Two nodes: ψ = log(Λ₁ᵀΛ₂), Λ(s) = Λ₁ exp(s ψ), κ = ψ/L. Strains are evaluated in the middle only, which prevents
+// shear and membrane locking. With four corrections straight beams are exact at the nodes for loads at nodes and
+// weight, and the element has order 4 if bending stays in one plane:
+// - shear stiffness 1/(1/GA + L²/(12 EI)): residual bending flexibility [Mac78] of the linear part of the moment;
 //   - e = Σ (2β_k − β_k²) Γ_k²/(|v| + v₁) + β_k² Γ_k²/10, v = Γ + Γ₀, with the share β = (L²/12EI)/(1/GA + L²/12EI) of
 //     bending in the shear strain. That share bends the axis by a cubic: the elongation of the axis is |v| − 1 then,
 //     not v₁ − 1, and its curve is longer than its chord by a tenth of Γ_k². N gives it the stiffness N/5, where shear
 //     of the section has −N. Without e the element becomes unstable at a tension of 12 EI/L²;
 //   - Γ = A(ψ) Λᵀ Δx/L − Γ₀ with A = 1 − ψ~²/24: the element is the arc of its curvature, not the chord Δx;
 //   - mass and weight along a parabola through the nodes that follows their sections (kernels.hpp, Parabola).
-//   What is left of order 2: the change of curvature κ × C_m κ along elements of bent and twisted beams (zero in a
-//   plane), axial and torsional waves, shear and rotary inertia of thick beams.
+// The remaining errors of order 2: the change of curvature κ × C_m κ along elements of bent and twisted beams (zero in
+// a plane), axial and torsional waves, shear and rotary inertia of thick beams.
 // Three nodes: Φ_i = log(Λ₂ᵀΛ_i), Λ(s) = Λ₂ exp(N₁(s)Φ₁ + N₃(s)Φ₃) [CJ99]; two Gauss points.
-// Both depend on relative rotations of the nodes alone: strains do not change under a rigid motion and do not depend on
-// the path. Relative rotations inside an element must stay below π.
+// Both depend on relative rotations of the nodes alone. So strains do not change under a rigid motion and do not depend
+// on the path. Relative rotations inside an element must stay below π.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@
 
 namespace tisserand::mechanism {
 
-/// Constants of an element; per node of the residual [force, world axes; moment, node axes].
+/// Constants of an element. A node has the residual rows [force, world axes; moment, node axes].
 template <int N>
 struct BeamElement {
   static_assert(N == 2 || N == 3);
@@ -48,20 +48,20 @@ struct BeamElement {
   std::array<Eigen::Matrix3d, N> section{};      ///< D_i: section triad in node axes
   Eigen::Vector3d bending_share = {0, 0, 0};     ///< (0, β_y, β_z) of two nodes
   double polar_radius_squared = 0.0;             ///< ρ²
-  Eigen::Vector3d force_stiffness = {0, 0, 0};   ///< C_n = (E A, G A_y, G A_z), of two nodes less residual bending
+  Eigen::Vector3d force_stiffness = {0, 0, 0};   ///< C_n = (E A, G A_y, G A_z); for two nodes with residual bending
   Eigen::Vector3d moment_stiffness = {0, 0, 0};  ///< C_m = (G J, E I_y, E I_z)
   std::array<Eigen::Vector3d, points> initial_gamma{};  ///< Γ₀ (including the 1 of the axis)
   std::array<Eigen::Vector3d, points> initial_kappa{};  ///< κ₀
   double mass = 0.0;                                    ///< ρ A L
   std::array<Eigen::Matrix3d, N> inertia{};             ///< rotary inertia of node i in node axes
-  bool rotary = true;                                   ///< false: inertia is zero, and left out of all sums
-  Eigen::Vector3d gravity = {0, 0, 0};                  ///< of its body, for the caller to scale and pass on
+  bool rotary = true;                                   ///< false: inertia is zero, and all sums omit it
+  Eigen::Vector3d gravity = {0, 0, 0};                  ///< gravity of its body; the caller scales it and passes it on
 };
 
 using BeamElement2 = BeamElement<2>;
 using BeamElement3 = BeamElement<3>;
 
-/// Reference geometry of an element in the axes that its nodes carry there (the part frame: R_i = 1).
+/// Reference geometry of an element in the axes of its nodes in that configuration (the part frame: R_i = 1).
 template <int N>
 struct BeamReference {
   std::array<int, N> nodes{};
@@ -70,21 +70,21 @@ struct BeamReference {
   double length = 0.0;                        ///< arc length
 };
 
-/// Constants of an element. Throws Error if the section has no shear areas (place: section.where) or if a stiffness,
-/// the density or the length is not physical.
+/// Makes the constants of an element. Throws Error if the section has no shear areas (place: section.where) or if a
+/// stiffness, the density or the length is not physical.
 template <int N>
 BeamElement<N> make_beam_element(const BeamReference<N>& reference, const formats::Section& section,
                                  const formats::Material& material);
 
-/// r = G_iner + G_int − gravity of one element, from the motions of all nodes (indexed by element.nodes).
-/// G_int is the exact gradient of `strain`, gravity of `potential` (energies below). gravity: acceleration, world axes.
+/// Computes r = G_iner + G_int − gravity of one element from the motions of all nodes (indexed by element.nodes). G_int
+/// is the exact gradient of `strain`, gravity of `potential` (energies below). gravity: acceleration, world axes.
 void residual(const BeamElement2& element, std::span<const NodeMotion> nodes, const Eigen::Vector3d& gravity,
               Eigen::Matrix<double, 12, 1>& r);
 void residual(const BeamElement3& element, std::span<const NodeMotion> nodes, const Eigen::Vector3d& gravity,
               Eigen::Matrix<double, 18, 1>& r);
 
-/// residual(), and the exact tangent A = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q with rotation increments δR = R skew(δΘ).
-/// Not symmetric away from equilibrium (increments are not coordinates).
+/// Computes residual() and the exact tangent A = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q with rotation increments δR = R
+/// skew(δΘ). A is not symmetric away from equilibrium, because increments are not coordinates.
 void residual_and_tangent(const BeamElement2& element, std::span<const NodeMotion> nodes,
                           const Eigen::Vector3d& gravity, const TangentCoefficients& coefficients,
                           Eigen::Matrix<double, 12, 1>& r, Eigen::Matrix<double, 12, 12>& A);
@@ -95,16 +95,16 @@ void residual_and_tangent(const BeamElement3& element, std::span<const NodeMotio
 struct BeamEnergy {
   double kinetic = 0.0;
   double strain = 0.0;
-  double potential = 0.0;  ///< of gravity: −Σ m_i g · x_i
+  double potential = 0.0;  ///< potential of gravity: −Σ m_i g · x_i
 };
 
 template <int N>
 BeamEnergy energy(const BeamElement<N>& element, std::span<const NodeMotion> nodes, const Eigen::Vector3d& gravity);
 
-/// Strains and stress resultants at one quadrature point, in section axes; resultants act on the side that the negative
-/// axis points to (tension positive). The shear strains of two nodes contain the residual bending; their forces do not.
+/// Strains and stress resultants at one quadrature point, in section axes. Resultants act on the side towards the
+/// negative axis (tension positive). For two nodes the shear strains contain the residual bending, their forces do not.
 struct BeamSectionForces {
-  double arc_length = 0.0;       ///< of the point, from the first node of the element
+  double arc_length = 0.0;       ///< arc length of the point from the first node of the element
   Eigen::Matrix3d axes;          ///< Λ: section triad in world axes
   Eigen::Vector3d gamma, kappa;  ///< strains
   Eigen::Vector3d force;         ///< (normal force, shear y, shear z)

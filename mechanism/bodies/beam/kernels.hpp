@@ -27,8 +27,8 @@ inline constexpr std::array<std::array<double, 3>, 2> shape = {
 inline constexpr std::array<std::array<double, 3>, 2> slope = {
     {{-2 * gauss - 1, 4 * gauss, 1 - 2 * gauss}, {2 * gauss - 1, -4 * gauss, 1 + 2 * gauss}}};
 
-/// A(ψ) v = v − ψ×(ψ×v)/24: an arc of the angle ψ is longer than its chord by (a/2)/sin(a/2) = 1 + a²/24 + O(a⁴) across
-/// ψ, and as long along it. ∂(A v)/∂ψ: chord_gradient; its transpose times n: chord_gradient_transposed.
+/// A(ψ) v = v − ψ×(ψ×v)/24. Across ψ an arc of the angle ψ is longer than its chord by (a/2)/sin(a/2) = 1 + a²/24 +
+/// O(a⁴); along ψ both are equal. ∂(A v)/∂ψ: chord_gradient; its transpose times n: chord_gradient_transposed.
 template <class S>
 inline Vec3<S> chord_to_arc(const Vec3<S>& psi, const S& u, const Vec3<S>& v) {
   return v + (v * u - psi * dot3(psi, v)) * S(1.0 / 24);
@@ -38,8 +38,8 @@ inline Vec3<S> chord_gradient_transposed(const Vec3<S>& psi, const Vec3<S>& v, c
   return (psi * (2.0 * dot3(v, n)) - n * dot3(psi, v) - v * dot3(psi, n)) * S(1.0 / 24);
 }
 
-/// The element state of two nodes: section axes in the middle, g = Λᵀx', strains and resultants (section axes);
-/// on_g = A force and on_psi = moment + L ∂(A g)/∂ψᵀ force are what works on δg (times L) and δψ.
+/// State of a two-node element: section axes in the middle, g = Λᵀx', strains and resultants (section axes). Forces on
+/// δg (times L) and on δψ are on_g = A force and on_psi = moment + L ∂(A g)/∂ψᵀ force.
 template <class S>
 struct State2 {
   Logarithm<S> log;
@@ -116,7 +116,7 @@ struct State3 {
         point{Point3<S>(e, q, middle, log1.psi, log3.psi, 0), Point3<S>(e, q, middle, log1.psi, log3.psi, 1)} {}
 };
 
-/// W of an element.
+/// Strain energy W of an element.
 template <class S>
 S strain_energy(const BeamElement2& e, const Configuration<S, 2>& q) {
   const State2<S> state(e, q);
@@ -128,7 +128,7 @@ S strain_energy(const BeamElement3& e, const Configuration<S, 3>& q) {
   return 0.5 * e.length * (state.point[0].energy + state.point[1].energy);
 }
 
-/// G_int of two nodes: ∂W/∂x_i and ∂W/∂Θ_i. With σ = δθ₁ + δθ₂, δ = δθ₂ − δθ₁ (section axes):
+/// G_int of two nodes: ∂W/∂x_i and ∂W/∂Θ_i. With σ = δθ₁ + δθ₂, δ = δθ₂ − δθ₁ (section axes) the variations are
 ///   δψ = (1 + e ψ~²) δ + ψ×σ/2,   δθ_m = (σ + w×δ)/2,   δg = Λᵀ δx' + g×δθ_m.
 template <class S>
 void internal_force(const BeamElement2& e, const State2<S>& state, Eigen::Matrix<S, 12, 1>& r) {
@@ -193,27 +193,27 @@ struct Shares<3> {
   static constexpr double node[3] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
 };
 
-/// One pointer per node.
+/// Pointers to the motions of the nodes.
 template <class Motion, int N>
 using NodePointers = std::array<const Motion*, static_cast<std::size_t>(N)>;
 
-/// The parabola between two nodes, x(ξ) = (1 − ξ) x₁ + ξ x₂ + ξ(1 − ξ) b: the cubic through both without its odd part.
-/// Mass is spread along it, m ∫ of products of 1 − ξ, ξ and ξ(1 − ξ).
+/// Parabola between two nodes, x(ξ) = (1 − ξ) x₁ + ξ x₂ + ξ(1 − ξ) b: the even part of the cubic through both. The mass
+/// is distributed along it: m ∫ of products of 1 − ξ, ξ and ξ(1 − ξ).
 ///   b = d − 0.6 (d·c) c/L²,   d = L (t₁ − t₂)/2,   c = x₂ − x₁,
-/// with the unit vectors t_i along the beam. d vanishes in every rigid motion of a straight element and is that of an
-/// arc to O(L⁴). It stands across the mean of the tangents, b nearly across the chord: 0.4 of the angle φ between both
-/// turns it. The tension changes along an element by its weight q L: with a slope κ s + φ (6 s² − ½), s from −½ to ½
-/// along L, that is the energy −q L² κ φ/30 (κ: difference of the slopes at the ends), as b has it. With d alone it is
-/// −q L² κ φ/12, and the free end of a chain turns over where q L³ is above 130 EI.
+/// with the unit vectors t_i along the beam. d vanishes in every rigid motion of a straight element. For an arc it is
+/// exact to O(L⁴). d is normal to the mean of the tangents, but b must be nearly normal to the chord: 0.4 of the angle
+/// φ between both turns it. The reason is that the weight q L changes the tension along an element. With the slope κ s
+/// + φ (6 s² − ½), s from −½ to ½ along L, this has the energy −q L² κ φ/30 (κ: difference of the slopes at the ends),
+/// as with b. With d alone it is −q L² κ φ/12, and the free end of a chain turns over if q L³ exceeds 130 EI.
 struct Parabola {
   static constexpr double by_node = 1.0 / 12, by_itself = 1.0 / 30, whole = 1.0 / 6, across = 0.6;
   static constexpr std::array<double, 2> sign = {0.5, -0.5};  ///< d = L Σ sign_i R_i a_i
 };
 
-/// a_i: unit vector along the beam in the axes of node i.
+/// Unit vector a_i along the beam in the axes of node i.
 inline Eigen::Vector3d along(const BeamElement2& e, int i) { return e.section[i].col(0); }
 
-/// d and c with their rates, and b from them. B = ∂b/∂d = 1 − k c cᵀ, H = ∂b/∂c = −k (c dᵀ + (d·c) 1), k = 0.6/L².
+/// d and c with their rates, and b. B = ∂b/∂d = 1 − k c cᵀ, H = ∂b/∂c = −k (c dᵀ + (d·c) 1), k = 0.6/L².
 template <class S>
 struct Bow {
   Vec3<S> d, d_rate, d_acceleration, c, c_rate, c_acceleration;
@@ -245,15 +245,15 @@ struct Bow {
     const Vec3<S> rates = c_rate * (dot3(c, d_rate) + dot3(d, c_rate)) + c * dot3(d_rate, c_rate);
     return on_d(d_acceleration) + by_chord(c_acceleration) - rates * (k + k);
   }
-  /// B f = Bᵀ f: the force on d of a force f on b.
+  /// B f = Bᵀ f: the force on d that a force f on b causes.
   Vec3<S> on_d(const Vec3<S>& f) const { return f - c * (k * dot3(c, f)); }
-  /// Hᵀ f: the force on c.
+  /// Hᵀ f: the force on c that a force f on b causes.
   Vec3<S> on_chord(const Vec3<S>& f) const { return (d * dot3(c, f) + f * dot3(d, c)) * (-k); }
-  /// H u.
+  /// Product H u.
   Vec3<S> by_chord(const Vec3<S>& u) const { return (c * dot3(d, u) + u * dot3(d, c)) * (-k); }
 };
 
-/// The inertia force less weight that works on δb.
+/// Inertia force less weight, which does work on δb.
 template <class S, class Motion>
 Vec3<S> force_on_bow(const BeamElement2& e, const std::array<const Motion*, 2>& node, const Eigen::Vector3d& gravity,
                      const Vec3<S>& acceleration) {
@@ -262,8 +262,8 @@ Vec3<S> force_on_bow(const BeamElement2& e, const std::array<const Motion*, 2>& 
          S(e.mass);
 }
 
-/// r += M ẍ − m_i g and J Ω̇ + Ω × J Ω; with two nodes also what the parabola adds. Motion: NodeMotion or the same with
-/// another scalar.
+/// Adds M ẍ − m_i g and J Ω̇ + Ω × J Ω to r; for two nodes also the contribution of the parabola. Motion: NodeMotion or
+/// its equivalent with another scalar.
 template <class S, int N, class Motion>
 void add_inertia(const BeamElement<N>& e, const NodePointers<Motion, N>& node, const Eigen::Vector3d& gravity,
                  Eigen::Matrix<S, 6 * N, 1>& r) {

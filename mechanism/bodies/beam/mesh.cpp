@@ -38,7 +38,7 @@ CenterLine line(const formats::BeamBodySpec& spec, int intervals) {
   return curve;
 }
 
-/// Arc through three points: center c, radius vector turns from `from` about the axis n by the angle to `to`.
+/// Arc through three points; the radius vector from the center c turns about n by the angle, from `from` to `to`.
 CenterLine arc(const formats::BeamBodySpec& spec, int intervals) {
   const Vector3d a = *spec.through - spec.from, b = spec.to - spec.from;
   const Vector3d normal = a.cross(b);
@@ -52,7 +52,7 @@ CenterLine arc(const formats::BeamBodySpec& spec, int intervals) {
   // From `from` to the center of the circle through 0, a, b: (|a|² b − |b|² a) × (a × b) / (2 |a × b|²).
   const Vector3d center = (a.squaredNorm() * b - b.squaredNorm() * a).cross(normal) * (0.5 / (area * area));
   const Vector3d start = -center;
-  const Vector3d axis = normal / area;  // the way from–through–to is counterclockwise about a × b
+  const Vector3d axis = normal / area;  // from–through–to is counterclockwise about a × b
   const double radius = start.norm();
   const Vector3d end = b - center;
   double angle = std::atan2(axis.dot(start.cross(end)), start.dot(end));
@@ -69,7 +69,7 @@ CenterLine arc(const formats::BeamBodySpec& spec, int intervals) {
   return curve;
 }
 
-/// The global axis most nearly normal to the chords of all elements (stride: node intervals per element).
+/// Global axis that is most nearly normal to the chords of all elements (stride: node intervals per element).
 Vector3d default_orientation(const CenterLine& curve, std::size_t stride) {
   Vector3d largest = Vector3d::Zero();
   for (std::size_t i = 0; i + stride < curve.position.size(); i += stride)
@@ -97,7 +97,7 @@ std::vector<Matrix3d> section_triads(const formats::BeamBodySpec& spec, const Ce
                   spec.where, "give a vector that is nowhere parallel to the beam (for an arc: along its normal)");
     Matrix3d triad;
     triad << tangent, normal.normalized(), tangent.cross(normal.normalized());
-    // Between neighbours the triad turns with the tangent, unless the orientation crosses the tangent.
+    // Between neighbours the triad follows the tangent, unless the orientation vector crosses the tangent.
     if (!triads.empty() && triads.back().col(1).dot(triad.col(1)) < 0.5 * triads.back().col(0).dot(tangent))
       throw Error(
           fmt::format("orientation {} of beam '{}' turns the section over near {}, where it is nearly parallel to "

@@ -8,8 +8,8 @@
 
 namespace tisserand::mechanism::beam {
 
-/// e(Γ) of two nodes with its first and second derivatives (element.hpp): with Q = Σ w_k Γ_k², w = 2β − β², s = |v| and
-/// D = s + v₁, e = Q/D + Σ β_k² Γ_k²/10.
+/// Bent length e(Γ) of two nodes with its first and second derivatives (element.hpp). With Q = Σ w_k Γ_k², w = 2β − β²,
+/// s = |v| and D = s + v₁ it is e = Q/D + Σ β_k² Γ_k²/10.
 template <class S>
 struct BentLength {
   S value;
@@ -50,13 +50,13 @@ struct BentLength {
   S s_, inverse_, q_;
 };
 
-/// W/L = ½ (E A ε² + C_y Γ_y² + C_z Γ_z² + κ·C_m κ) and its derivatives by Γ and κ.
+/// Energy W/L = ½ (E A ε² + C_y Γ_y² + C_z Γ_z² + κ·C_m κ) and its derivatives by Γ and κ.
 template <class S>
 struct Resultants {
   Vec3<S> force, moment;
   S energy, normal;
 
-  /// ε and ∂ε/∂Γ without the part of twist.
+  /// `axial` and `J` are ε and ∂ε/∂Γ without the contribution of twist.
   template <int N>
   Resultants(const BeamElement<N>& e, const Vec3<S>& gamma, const Vec3<S>& kappa, const S& axial, const Vec3<S>& J)
       : force(e.force_stiffness.template cast<S>().cwiseProduct(gamma)),

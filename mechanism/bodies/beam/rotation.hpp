@@ -1,5 +1,5 @@
-// Functions of rotation vectors that the interpolation of beam elements needs beyond common/math/rotation.hpp:
-// logarithm and tangents with series that stay exact over the angles inside an element, for any scalar.
+// Functions of rotation vectors for the interpolation of beam elements, in addition to common/math/rotation.hpp:
+// logarithm and tangents for any scalar, with series that are exact over the angles inside an element.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace tisserand::mechanism::beam {
 
-/// Σ a_k u^k, Horner.
+/// Polynomial Σ a_k u^k by Horner's scheme.
 template <class S, std::size_t K>
 inline S polynomial(const std::array<double, K>& a, const S& u) {
   S sum(a[K - 1]);
@@ -17,7 +17,7 @@ inline S polynomial(const std::array<double, K>& a, const S& u) {
   return sum;
 }
 
-/// e(u) of T⁻¹, u = a²: Σ |B_2k| u^(k−1)/(2k)!. Below `series_limit` nine terms are exact to rounding.
+/// Series of e(u) of T⁻¹, u = a²: Σ |B_2k| u^(k−1)/(2k)!. Below `series_limit` nine terms are exact to round-off.
 inline constexpr double series_limit = 0.25;
 inline constexpr std::array<double, 9> e_series = {1.0 / 12.0,
                                                    1.0 / 720.0,
@@ -28,13 +28,12 @@ inline constexpr std::array<double, 9> e_series = {1.0 / 12.0,
                                                    1.0 / 74724249600.0,
                                                    3617.0 / 10670622842880000.0,
                                                    43867.0 / 5109094217170944000.0};
-/// atan(√z)/√z.
+/// Series of atan(√z)/√z.
 inline constexpr std::array<double, 10> atan_series = {1.0,       -1.0 / 3, 1.0 / 5,   -1.0 / 7, 1.0 / 9,
                                                        -1.0 / 11, 1.0 / 13, -1.0 / 15, 1.0 / 17, -1.0 / 19};
 
-/// ψ = log(E), |ψ| ≤ π, with what variations of ψ need:
-/// w = tan(a/4)/a ψ (so that exp(ψ/2) = 1 + 2 (w~ + w~²)/(1 + w·w)), u = a² = ψ·ψ, e of T⁻¹(ψ) = 1 + ψ~/2 + e ψ~².
-/// No transcendental function below |ψ| = 0.5.
+/// ψ = log(E), |ψ| ≤ π, with quantities for its variations: w = tan(a/4)/a ψ (so that exp(ψ/2) = 1 + 2 (w~ + w~²)/(1 +
+/// w·w)), u = a² = ψ·ψ, e of T⁻¹(ψ) = 1 + ψ~/2 + e ψ~². Needs no transcendental function below |ψ| = 0.5.
 template <class S>
 struct Logarithm {
   Vec3<S> psi, w;
@@ -62,7 +61,7 @@ struct Logarithm {
   }
 };
 
-/// T⁻¹(ψ) a = a + ψ×a/2 + e ψ×(ψ×a); with −ψ: its transpose.
+/// T⁻¹(ψ) a = a + ψ×a/2 + e ψ×(ψ×a). The argument −ψ gives the transpose.
 template <class S>
 inline Vec3<S> inverse_tangent_times(const Vec3<S>& psi, const S& e, const Vec3<S>& a) {
   const Vec3<S> b = cross(psi, a);
@@ -115,14 +114,14 @@ struct CurvatureFunctions {
   S d2(const S& u) const { return real_part(u) < 1.0 ? polynomial(d2_series, u) : (c1 - 5.0 * d1) / u; }
 };
 
-/// T(φ) a = a − c φ×a + d φ×(φ×a); with −φ: its transpose.
+/// T(φ) a = a − c φ×a + d φ×(φ×a). The argument −φ gives the transpose.
 template <class S>
 inline Vec3<S> tangent_times(const Vec3<S>& phi, const CurvatureFunctions<S>& f, const Vec3<S>& a) {
   const Vec3<S> b = cross(phi, a);
   return a - b * f.c + cross(phi, b) * f.d;
 }
 
-/// ∇_φ (m · T(φ) a): with k = a×m, A = φ·k, B = (φ·a)(φ·m) − u a·m: −c k − c1 A φ + d ∇B + d1 B φ.
+/// Gradient ∇_φ (m · T(φ) a) = −c k − c1 A φ + d ∇B + d1 B φ with k = a×m, A = φ·k, B = (φ·a)(φ·m) − u a·m.
 template <class S>
 inline Vec3<S> tangent_gradient(const Vec3<S>& phi, const S& u, const CurvatureFunctions<S>& f, const Vec3<S>& a,
                                 const Vec3<S>& m) {

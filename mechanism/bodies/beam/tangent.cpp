@@ -71,7 +71,7 @@ Matrix3d inverse_tangent_derivative(const Vector3d& psi, double e, double e1, co
   return Z;
 }
 
-/// A = c_m M + c_c (Ω~ J − (JΩ)~) on the diagonal blocks of rotations; every other entry of A is set to zero.
+/// Sets A = c_m M + c_c (Ω~ J − (JΩ)~) on the diagonal blocks of rotations, and all other entries to zero.
 template <int N>
 void set_inertia(const BeamElement<N>& e, std::span<const NodeMotion> nodes, const TangentCoefficients& c,
                  Square<N>& A) {
@@ -87,7 +87,7 @@ void set_inertia(const BeamElement<N>& e, std::span<const NodeMotion> nodes, con
   }
 }
 
-/// Derivatives of b̈ by c and ċ of a bow, weighted with the coefficients of their changes and of that of c̈.
+/// Sum of the derivatives of b̈ by c, ċ and c̈ of a bow, weighted with the coefficients of their changes.
 Matrix3d by_chord(const beam::Bow<double>& b, const TangentCoefficients& c) {
   const Vector3d on_c = c.stiffness * b.d_acceleration + 2.0 * c.damping * b.d_rate + c.mass * b.d;
   const Vector3d on_d = c.stiffness * b.c_acceleration + 2.0 * c.damping * b.c_rate + c.mass * b.c;
@@ -99,15 +99,15 @@ Matrix3d by_chord(const beam::Bow<double>& b, const TangentCoefficients& c) {
   return D;
 }
 
-/// B X for the columns of X.
+/// Product B X, column by column.
 template <class Columns>
 Columns on_d(const beam::Bow<double>& b, const Columns& X) {
   return X - (b.k * b.c) * (b.c.transpose() * X);
 }
 
-/// What the parabola of two nodes adds to A. With node i change, weighted with the coefficients, d by c_k D_i, D_i =
-/// −s_i R_i a~, ḋ by −s_i R_i [c_c a~ + c_k (Ω×a)~], d̈ by −s_i R_i [c_m a~ + c_c ((Ω×a)~ + Ω~ a~) + c_k (Ω̇×a +
-/// Ω×(Ω×a))~], s_i = ±L/2, and c, ċ, c̈ by ∓c_k, ∓c_c, ∓c_m.
+/// Adds the contribution of the parabola of two nodes to A. A motion of node i, weighted with the coefficients, changes
+/// d by c_k D_i, D_i = −s_i R_i a~, ḋ by −s_i R_i [c_c a~ + c_k (Ω×a)~], d̈ by −s_i R_i [c_m a~ + c_c ((Ω×a)~ + Ω~ a~) +
+/// c_k (Ω̇×a + Ω×(Ω×a))~], s_i = ±L/2, and c, ċ, c̈ by ∓c_k, ∓c_c, ∓c_m.
 void add_parabola(const BeamElement2& e, const beam::NodePointers<NodeMotion, 2>& node, const Vector3d& gravity,
                   const TangentCoefficients& c, Square<2>& A) {
   using beam::Parabola;
@@ -115,9 +115,9 @@ void add_parabola(const BeamElement2& e, const beam::NodePointers<NodeMotion, 2>
   const beam::Bow<double> bow(e, node);
   const Vector3d f = beam::force_on_bow<double>(e, node, gravity, bow.acceleration()), f_d = bow.on_d(f);
   const double cf = bow.c.dot(f), cd = bow.c.dot(bow.d);
-  // Changes of b̈, and of the forces on d and on c by f itself.
+  // Changes of b̈ and of the forces on d and c that f itself causes.
   Wide acceleration, at_d, at_chord;
-  std::array<Matrix3d, 2> arm;  // s_i a_i~ R_iᵀ, of forces on d
+  std::array<Matrix3d, 2> arm;  // s_i a_i~ R_iᵀ, for forces on d
   Matrix3d d_by_c = (-c.stiffness * bow.k) * bow.c * f.transpose();
   d_by_c.diagonal().array() -= c.stiffness * bow.k * cf;
   const Matrix3d c_by_c = (-c.stiffness * bow.k) * (bow.d * f.transpose() + f * bow.d.transpose());
@@ -159,16 +159,16 @@ void add_parabola(const BeamElement2& e, const beam::NodePointers<NodeMotion, 2>
   for (int i = 0; i < 2; ++i) A.middleRows<3>(6 * i + 3).noalias() += arm[i] * at_d;
 }
 
-/// ∂(A(ψ) v)/∂ψ of chord_to_arc.
+/// Derivative ∂(A(ψ) v)/∂ψ of chord_to_arc.
 Matrix3d chord_gradient(const Vector3d& psi, const Vector3d& v) {
   Matrix3d B = (2.0 * v * psi.transpose() - psi * v.transpose()) / 24.0;
   B.diagonal().array() -= psi.dot(v) / 24.0;
   return B;
 }
 
-/// Second derivatives of the strain energy by g and ψ, times c: by_g = c A D A, mixed = c ∂(on_g)/∂ψ,
-/// by_psi = c ∂(on_psi)/∂ψ. D: of W/L by Γ, E A J Jᵀ + N e'' + C of the shear strains, J = ∂ε/∂Γ. With ε also by κ₁:
-/// E A (ρ² κ₁) of J and κ₁, N ρ² + E A (ρ² κ₁)² of κ₁ twice.
+/// Second derivatives of the strain energy by g and ψ, times c: by_g = c A D A, mixed = c ∂(on_g)/∂ψ, by_psi = c
+/// ∂(on_psi)/∂ψ. D is that of W/L by Γ: E A J Jᵀ + N e'' + C of the shear strains, J = ∂ε/∂Γ. ε also depends on κ₁: E A
+/// (ρ² κ₁) of J and κ₁, N ρ² + E A (ρ² κ₁)² of κ₁ twice.
 struct Stiffness2 {
   Matrix3d by_g, mixed, by_psi;
 
@@ -197,9 +197,9 @@ struct Stiffness2 {
   }
 };
 
-/// A += c ∂G_int/∂q, two nodes. With P_i = ∂θ_m/∂Θ_i, G_i = ∂ψ/∂Θ_i, N, M what works on δg and δψ, N_g, N_ψ, M_ψ their
-/// derivatives and H = N~ − g~ N_g: K_θθ = P_iᵀ L H g~ P_j + Y_i G_j − L P_iᵀ g~ N_ψ G_j + its transpose (i, j
-/// exchanged), K_θx = (P_iᵀ H + G_iᵀ N_ψᵀ) Λᵀ = K_xθᵀ, K_xx = Λ N_g Λᵀ/L.
+/// Adds c ∂G_int/∂q of two nodes to A. P_i = ∂θ_m/∂Θ_i, G_i = ∂ψ/∂Θ_i. N and M are the forces on δg and δψ, N_g, N_ψ,
+/// M_ψ their derivatives, and H = N~ − g~ N_g. K_θθ = P_iᵀ L H g~ P_j + Y_i G_j − L P_iᵀ g~ N_ψ G_j + its transpose (i,
+/// j exchanged), K_θx = (P_iᵀ H + G_iᵀ N_ψᵀ) Λᵀ = K_xθᵀ, K_xx = Λ N_g Λᵀ/L.
 void add_stiffness(const BeamElement2& e, const beam::State2<double>& state, double c, Square<2>& A) {
   const LogarithmDerivatives f(state.log);
   const Vector3d &psi = state.log.psi, &w = state.log.w;
@@ -209,7 +209,7 @@ void add_stiffness(const BeamElement2& e, const beam::State2<double>& state, dou
   const Matrix3d H = c * skew(state.on_g) - skew_g * second.by_g;
   const Matrix3d Jh = e.length * (H * skew_g), across = -e.length * (skew_g * second.mixed);
 
-  // Derivatives of the half sum and the half difference of the end moments by ψ.
+  // Derivatives by ψ of the half sum and the half difference of the end moments.
   const Matrix3d mean = 0.5 * (c * skew(state.on_psi) - skew_psi * second.by_psi);
   const Vector3d b = psi.cross(state.on_psi);
   Matrix3d even = skew(Vector3d(c * (0.5 * f.t * h - state.log.e * b)));
@@ -255,7 +255,7 @@ Matrix3d tangent_derivative(const Vector3d& phi, const beam::CurvatureFunctions<
   return X;
 }
 
-/// ∂²(m · T(φ) a)/∂φ², symmetric (notation of tangent_gradient).
+/// Second derivative ∂²(m · T(φ) a)/∂φ², symmetric (notation of tangent_gradient).
 Matrix3d tangent_hessian(const beam::Point3<double>& p) {
   const Vector3d &phi = p.phi, &a = p.a, &m = p.moment;
   const Vector3d k = a.cross(m);
@@ -268,9 +268,8 @@ Matrix3d tangent_hessian(const beam::Point3<double>& p) {
   return X;
 }
 
-/// Contribution of one quadrature point, scaled by c: K by (Φ₁, Φ₃, θ₂), Kx: their forces by (x₁, x₂, x₃).
-/// Coefficients of the variations δφ, δa, δθ₂, with δθ = T δφ + exp(−φ) δθ₂ and δκ = T δa + Ξ δφ; δφ = Σ n_i δΦ_i, δa =
-/// Σ n_i' δΦ_i.
+/// Adds the contribution of one quadrature point, scaled by c: K by (Φ₁, Φ₃, θ₂), and Kx, their forces by (x₁, x₂, x₃).
+/// The variations are δφ, δa, δθ₂ with δθ = T δφ + exp(−φ) δθ₂, δκ = T δa + Ξ δφ, δφ = Σ n_i δΦ_i, δa = Σ n_i' δΦ_i.
 void add_point(const BeamElement3& e, const beam::Point3<double>& p, int point, double c, Matrix9& K, Matrix9& Kx,
                Square<3>& A) {
   const double weight = 0.5 * c * e.length;
@@ -286,7 +285,7 @@ void add_point(const BeamElement3& e, const beam::Point3<double>& p, int point, 
   by_kappa[0] += weight * e.polar_radius_squared * p.force[0] + axial * twist * twist;
   const Matrix3d J = H * skew_g, JT = J * T, JE = J * p.turn.transpose();
   const Matrix3d CT = by_kappa.asDiagonal() * T, CX = by_kappa.asDiagonal() * Xi;
-  // ε holds κ₁: E A (ρ² κ₁) of δΓ₁ = g~₁ᵀ δθ + (Λᵀ δx')₁ and δκ₁, both ways.
+  // ε depends on κ₁: E A (ρ² κ₁) of δΓ₁ = g~₁ᵀ δθ + (Λᵀ δx')₁ and δκ₁, in both orders.
   const Vector3d turned = (axial * twist) * skew_g.row(0).transpose();
   const Vector3d by_phi_1 = T.transpose() * turned;
   const Vector3d kappa_by_phi = Xi.row(0).transpose(), kappa_by_a = T.row(0).transpose();
@@ -320,8 +319,8 @@ void add_point(const BeamElement3& e, const beam::Point3<double>& p, int point, 
   }
 }
 
-/// A += c ∂G_int/∂q, three nodes: K by (Φ₁, Φ₃, θ₂) carried to nodes by V = ∂(Φ₁, Φ₃, θ₂)/∂(Θ₁, Θ₂, Θ₃), and the change
-/// of V at constant forces P.
+/// Adds c ∂G_int/∂q of three nodes to A. V = ∂(Φ₁, Φ₃, θ₂)/∂(Θ₁, Θ₂, Θ₃) transforms K by (Φ₁, Φ₃, θ₂) to the nodes. The
+/// change of V at constant forces P is added.
 void add_stiffness(const BeamElement3& e, const beam::State3<double>& state, const beam::Moments3<double>& P, double c,
                    Square<3>& A) {
   Matrix9 K = Matrix9::Zero(), Kx = Matrix9::Zero();
@@ -330,7 +329,7 @@ void add_stiffness(const BeamElement3& e, const beam::State3<double>& state, con
   const std::array<Vector3d, 2> force = {c * P.on1, c * P.on3};
   const std::array<int, 2> end = {0, 2};
   const Matrix3d& D2 = e.section[1];
-  std::array<Matrix3d, 2> outer, inner;  // V: by the rotation of the end node and of the middle node
+  std::array<Matrix3d, 2> outer, inner;  // V by the rotation of the end node and of the middle node
   for (int i = 0; i < 2; ++i) {
     const Matrix3d G = inverse_tangent(*logs[i]);
     outer[i] = G * e.section[end[i]].transpose();

@@ -1,4 +1,4 @@
-// Sums of [GA00] (8) and (12) over constants of the body, at one instant.
+// Sums of [GA00] (8) and (12) over the constants of a body, at one instant.
 #include "mechanism/bodies/modal/body.hpp"
 
 #include "mechanism/frames/space.hpp"
@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// What a turn meets of a sum P = Σ a bᵀ.
+/// Terms of a sum P = Σ a bᵀ in rotations.
 template <int D>
 struct Sum;
 
@@ -26,12 +26,12 @@ struct Sum<3> {
   static auto transposed(const P& block) {
     return block.transpose();
   }
-  /// Σ a × b.
+  /// The vector Σ a × b.
   template <class P>
   static Vector3d spin(const P& block) {
     return {block(1, 2) - block(2, 1), block(2, 0) - block(0, 2), block(0, 1) - block(1, 0)};
   }
-  /// Σ a × (ω × b), with b and a the other way round, and the matrix of the first.
+  /// Vector Σ a × (ω × b), the same with a and b exchanged, and the matrix of the first.
   template <class P>
   static Vector3d turned(const P& block, const Vector3d& omega) {
     return block.trace() * omega - block.transpose() * omega;
@@ -44,14 +44,14 @@ struct Sum<3> {
   static Matrix3d turning(const P& block) {
     return block.trace() * Matrix3d::Identity() - block.transpose();
   }
-  /// V and W with Σ_kl P_kl V_kl = spin(P)·e and Σ_kl P_kl W_kl = ω·turned(P, ω).
+  /// Weights V and W with Σ_kl P_kl V_kl = spin(P)·e and Σ_kl P_kl W_kl = ω·turned(P, ω).
   static Block spin_weights(const Vector3d& e) { return -skew<double>(e); }
   static Block turn_weights(const Vector3d& omega) {
     return omega.squaredNorm() * Matrix3d::Identity() - omega * omega.transpose();
   }
 };
 
-/// In the plane a block holds the trace and the spin, xy − yx.
+/// In the plane a block holds its trace and its spin, xy − yx.
 template <>
 struct Sum<2> {
   using Block = Vector2d;
@@ -70,13 +70,13 @@ struct Sum<2> {
 template <int D>
 constexpr int sum_size = Sum<D>::Block::SizeAtCompileTime;
 
-/// Block j of many.
+/// Block j of a vector of blocks.
 template <int D>
 Map<const typename Sum<D>::Block> block(const VectorXd& blocks, Index j) {
   return Map<const typename Sum<D>::Block>(blocks.data() + sum_size<D> * j);
 }
 
-/// The parts of the scratch that a model of this space has.
+/// Parts of the scratch that a model in D dimensions has.
 template <int D>
 struct Parts {
   VectorOf<D> c, cd, ga;
@@ -89,11 +89,11 @@ struct Parts {
         om(Space<D>::turn_part(s.om)),
         omd(Space<D>::turn_part(s.omd)),
         A(s.A.topLeftCorner<D, D>()) {}
-  /// ω × (ω × v).
+  /// Centripetal term ω × (ω × v).
   VectorOf<D> centripetal(const VectorOf<D>& v) const { return Space<D>::across(om, Space<D>::across(om, v)); }
 };
 
-/// Σ_j C.col(j) w_j.
+/// Linear combination Σ_j C.col(j) w_j.
 template <int D>
 VectorOf<D> sum_of(const Eigen::Matrix3Xd& C, const VectorXd& w) {
   VectorOf<D> sum = VectorOf<D>::Zero();
@@ -101,14 +101,14 @@ VectorOf<D> sum_of(const Eigen::Matrix3Xd& C, const VectorXd& w) {
   return sum;
 }
 
-/// Forces on the masses in axes of the frame, without those of its translation.
+/// Sum of mass times acceleration in axes of the frame, without the acceleration of its origin.
 template <int D>
 VectorOf<D> pull_of(const ModalBody& body, const ModalScratch& s, const Parts<D>& p) {
   return Space<D>::across(p.omd, p.c) + sum_of<D>(body.C1, s.wdd) + p.centripetal(p.c) +
          2.0 * Space<D>::across(p.om, p.cd);
 }
 
-/// Entry (j, i) += weights : P2_ij.
+/// Adds weights : P2_ij to entry (j, i).
 template <int D, class Target>
 void add_contraction(const ModalBody& body, const typename Sum<D>::Block& weights, Target&& target) {
   constexpr int n = sum_size<D>;
@@ -141,7 +141,7 @@ void add_mass(const ModalBody& body, double factor, ModalScratch& s) {
   }
 }
 
-/// −∂s/∂v and the damping of the modes.
+/// Adds −∂s/∂v and the damping of the modes.
 template <int D>
 void add_damping(const ModalBody& body, double factor, ModalScratch& s) {
   constexpr int turns = Space<D>::turns, turn = Space<D>::first_turn;
@@ -168,7 +168,7 @@ void add_damping(const ModalBody& body, double factor, ModalScratch& s) {
   K.diagonal().tail(m) += factor * body.damping;
 }
 
-/// ∂(M v̇ − s − g)/∂q at fixed velocities and accelerations, and the stiffness of the modes.
+/// Adds ∂(M v̇ − s − g)/∂q at fixed velocities and accelerations, and the stiffness of the modes.
 template <int D>
 void add_stiffness(const ModalBody& body, double factor, ModalScratch& s) {
   constexpr int turns = Space<D>::turns, turn = Space<D>::first_turn;

@@ -1,10 +1,10 @@
-// Modal body: floating frame with lumped masses and modes; constants of a body, residual, tangent and energy at one
+// Modal body: floating frame with lumped masses and modes. Constants of a body; residual, tangent and energy at one
 // instant.
 //
-// [GA00] (1)-(16) in the corrected and completed form: mass matrix (8) and (16) with J = −Σ m b~ b~ + Σ μ, quadratic
-// velocity terms (12) with the gyroscopic part − ω~ Σ μ (ω + θ̇), which the source leaves out and which energy does not
-// see. Velocities are [ṙ world; ω body axes; ẇ]; sums over the nodes are done once, so that the cost of an evaluation
-// is that of 9 m² products.
+// [GA00] (1)-(16), corrected and completed: mass matrix (8) and (16) with J = −Σ m b~ b~ + Σ μ, quadratic velocity
+// terms (12) with the gyroscopic part − ω~ Σ μ (ω + θ̇). The source omits this part, which does no work. Velocities are
+// [ṙ world; ω body axes; ẇ]. Sums over the nodes are computed once, so that an evaluation costs as much as 9 m²
+// products.
 #pragma once
 
 #include <string>
@@ -15,39 +15,39 @@
 
 namespace tisserand::mechanism {
 
-/// Sums over the nodes k of a body with masses m_k, inertias μ_k, positions x_k and rows Xd_k, Xt_k (3 x m) of the
-/// modes; modes are mass-normalised, so w has the unit √mass length.
+/// Constants of a modal body: sums over its nodes k with masses m_k, inertias μ_k, positions x_k and rows Xd_k, Xt_k (3
+/// x m) of the modes. Modes are mass-normalised, so w has the unit √mass length.
 struct ModalBody {
   std::string name;
-  int node = 0;                                  ///< the frame, at the centre of mass: r, A
+  int node = 0;                                  ///< node of the frame (r, A), at the centre of mass
   int modes = 0;                                 ///< m
-  int offset = 0;                                ///< of its w in State::w
+  int offset = 0;                                ///< index of its first w in State::w
   double mass = 0.0;                             ///< Σ m_k
   Eigen::Vector3d c0 = Eigen::Vector3d::Zero();  ///< Σ m_k x_k
   Eigen::Matrix3Xd C1;                           ///< Σ m_k Xd_k
   Eigen::Matrix3d P0 = Eigen::Matrix3d::Zero();  ///< Σ m_k x_k x_kᵀ
-  /// 9 m: Σ m_k x_k Xd_kjᵀ, column by column, for each j. Of planar bodies 2 m: its trace and its spin xy − yx, all
-  /// that a turn in the plane meets; so do P2, S, Sd, Sdd and D.
+  /// 9 m: Σ m_k x_k Xd_kjᵀ, column by column, for each j. Planar bodies have 2 m, trace and spin xy − yx of each, which
+  /// suffice for rotations in the plane. The same holds for P2, S, Sd, Sdd and D.
   Eigen::VectorXd P1;
   Eigen::MatrixXd P2;                                  ///< 9 m x m: column i holds Σ m_k Xd_ki Xd_kjᵀ for each j
   Eigen::Matrix3d J_mu = Eigen::Matrix3d::Zero();      ///< Σ μ_k
   Eigen::Matrix3Xd N_mu;                               ///< Σ μ_k Xt_k
   Eigen::VectorXd stiffness;                           ///< ω_j²
   Eigen::VectorXd damping;                             ///< 2 ζ_j ω_j, and mass- and stiffness-proportional parts
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();   ///< for the caller to scale and pass on
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of the frame in axes of the part
-  bool planar = false;                                 ///< of make_planar(), with sums of the plane
-  Eigen::MatrixXd lift;  ///< of planar bodies: w of the body in space = lift w, of orthonormal columns, maybe none
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();   ///< the caller scales it and passes it on
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< axes of the frame in axes of the part
+  bool planar = false;                                 ///< result of make_planar(), with sums of the plane
+  Eigen::MatrixXd lift;  ///< of planar bodies: w of the spatial body = lift w, orthonormal columns, may have none
 
   int modes_in_space() const { return planar ? static_cast<int>(lift.rows()) : modes; }
 };
 
-/// What residual and tangent share, sized once.
+/// Quantities that residual and tangent share, allocated once.
 struct ModalScratch {
-  Eigen::Vector3d om, omd;  ///< of the frame, body axes
+  Eigen::Vector3d om, omd;  ///< rates of the frame, body axes
   Eigen::Vector3d ga;       ///< Aᵀ (r̈ − gravity)
   Eigen::Vector3d c, cd;    ///< c0 + C1 w and its rate
-  Eigen::Matrix3d A;        ///< of the frame
+  Eigen::Matrix3d A;        ///< rotation of the frame
   Eigen::Matrix3d J;        ///< inertia about the frame's origin
   Eigen::Matrix3Xd N;       ///< coupling of ω and ẇ: vee(S_j) + N_mu_j
   Eigen::VectorXd w, wd, wdd;
@@ -65,24 +65,24 @@ struct ModalEnergy {
 
 ModalScratch make_scratch(const ModalBody& body);
 
-/// m numbers each.
+/// Pointers to m numbers each: w and its two time derivatives.
 struct ModalCoordinates {
   const double* w;
   const double* wd;
   const double* wdd;
 };
 
-/// `frame`: motion of the body's node.
+/// Computes the shared quantities; `frame` is the motion of the body's node.
 void update_kinematics(const ModalBody& body, const NodeMotion& frame, const ModalCoordinates& modes,
                        const Eigen::Vector3d& gravity, ModalScratch& scratch);
 
-/// r = M v̇ − s − g + K w + D ẇ, rows [force world; moment body axes; modes]. Needs update_kinematics().
+/// Computes r = M v̇ − s − g + K w + D ẇ, rows [force world; moment body axes; modes]. Needs update_kinematics().
 void residual(const ModalBody& body, ModalScratch& scratch);
 
-/// scratch.tangent = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q, exact. Needs update_kinematics().
+/// Computes scratch.tangent = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q, exact. Needs update_kinematics().
 void tangent(const ModalBody& body, const TangentCoefficients& coefficients, ModalScratch& scratch);
 
-/// Needs update_kinematics(). The potential is −gravity·(mass r + A c).
+/// Energies of the body. Needs update_kinematics(). The potential is −gravity·(mass r + A c).
 ModalEnergy energy(const ModalBody& body, const NodeMotion& frame, const Eigen::Vector3d& gravity,
                    const ModalScratch& scratch);
 

@@ -1,4 +1,4 @@
-// Kinematics of nodes of modal bodies and its derivatives.
+// Kinematics of nodes of modal bodies, with derivatives.
 #include "mechanism/bodies/modal/node.hpp"
 
 #include "mechanism/frames/space.hpp"
@@ -10,8 +10,8 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// ∂(T(θ) h)/∂θ = c h~ + (−c₁ θ~ h + d₁ θ~² h) θᵀ − d [(θ~ h)~ + θ~ h~], with c₁, d₁ the derivatives of c and d divided
-/// by the angle.
+/// Derivative ∂(T(θ) h)/∂θ = c h~ + (−c₁ θ~ h + d₁ θ~² h) θᵀ − d [(θ~ h)~ + θ~ h~]. c₁ and d₁ are the derivatives of c
+/// and d divided by the angle.
 Matrix3d tangent_derivative(const Vector3d& theta, const Vector3d& h) {
   const double a2 = theta.squaredNorm();
   const AngleFunctions<double> f(a2);
@@ -72,7 +72,7 @@ void update_node(const ModalNode& node, const ModalScratch& body, const NodeMoti
   t.T.block<turns, turns>(turn, turn) = Space<D>::material_map(t.E);
   const Turns carried = Space<D>::material(t.E, om);
   t.bias.head<D>() = A * Space<D>::across(om, Space<D>::across(om, b) + 2.0 * moved);
-  if constexpr (D == 3) {  // in the plane rotations add up
+  if constexpr (D == 3) {  // in the plane rotations simply add
     const Matrix3d T = tangent_so3<double>(theta);
     t.L = T.transpose();
     for (Index j = 0; j < node.Xd.cols(); ++j) t.T.col(6 + j).tail<3>() = T * node.Xt.col(j);
@@ -112,7 +112,7 @@ void add_geometric_stiffness(const ModalNode& node, const ModalNodeTerms& t, con
   const Vector3d g = t.A.transpose() * force.head<3>(), h = t.E * force.tail<3>();
   const Matrix3d g_skew = skew<double>(g);
   K.block<3, 3>(3, 3) += skew<double>(t.b) * g_skew;
-  // Derivative of the modal moments Xtᵀ Lᵀ h: L changes with θ, and h turns with the node.
+  // Derivative of the modal moments Xtᵀ Lᵀ h: L depends on θ, and h turns with the node.
   const Matrix3d L_h = tangent_derivative(t.theta, h) - t.L.transpose() * skew<double>(h) * t.L;
   for (Index i = 0; i < m; ++i) {
     const Vector3d turned = t.L * node.Xt.col(i), bent = L_h * node.Xt.col(i);

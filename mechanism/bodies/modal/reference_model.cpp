@@ -1,4 +1,4 @@
-// The first frequency of a modal body with some of its components held, by its modes and with what they leave out.
+// First frequency of a modal body with held components: by its modes, and with residual vectors.
 #include "mechanism/bodies/modal/reference_model.hpp"
 
 #include <algorithm>
@@ -19,9 +19,9 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double same_motion = 1e-8;  ///< singular values below this share are none
+constexpr double same_motion = 1e-8;  ///< singular values below this share are zero
 
-/// Directions whose singular values are no round-off, and what is orthogonal to them.
+/// Null space and rank of a matrix, with round-off singular values as zero.
 struct Spaces {
   MatrixXd null;
   Index rank = 0;
@@ -43,7 +43,7 @@ Spaces spaces_of(MatrixXd rows) {
   return spaces;
 }
 
-/// The first elastic frequency of M q̈ + K q = 0 with G q = 0, behind `rigid` motions; infinite: nothing elastic moves.
+/// First elastic frequency of M q̈ + K q = 0 with G q = 0, above `rigid` motions. Infinite if nothing elastic moves.
 double first_frequency(const MatrixXd& M, const VectorXd& K, const MatrixXd& G, Index rigid) {
   const VectorXd scale = M.diagonal().cwiseSqrt().cwiseInverse();
   const MatrixXd free = spaces_of(G * scale.asDiagonal()).null;
@@ -55,7 +55,7 @@ double first_frequency(const MatrixXd& M, const VectorXd& K, const MatrixXd& G, 
   return std::sqrt(std::max(eigen.eigenvalues()[rigid], 0.0));
 }
 
-/// Residual vectors of the held rows, made orthonormal by mass: columns on the f components.
+/// Residual vectors of the held rows, mass-orthonormal: columns of coefficients of the f components.
 MatrixXd residual_vectors(const formats::ModalResidual& residual, const MatrixXd& held) {
   if (held.rows() == 0) return MatrixXd(held.cols(), 0);
   const MatrixXd gram = held * residual.mass * held.transpose();
@@ -112,7 +112,7 @@ ReferenceModel reference_model(const formats::ModalBody& file, int modes, const 
     model.mass.row(6 + j).head<6>() = momentum.transpose();
   }
   model.residual = residual;
-  // Modes of the file that the body does not use belong to what is left out.
+  // Modes of the file that the body does not use belong to the residual.
   const MatrixXd rest = [&] {
     MatrixXd rows(f, file.modes() - modes);
     for (Index k = 0; k < f; ++k)
@@ -154,7 +154,7 @@ HeldFrequencies held_frequencies(const ReferenceModel& model, const MatrixXd& he
   M.topLeftCorner(n, n) = model.mass;
   M.block(0, n, 6, r) = model.residual.coupling * V;
   M.block(n, 0, r, 6) = M.block(0, n, 6, r).transpose();
-  // Elastic energy of the residual vectors is not diagonal: turned to where it is.
+  // Diagonalises the elastic energy of the residual vectors.
   const Eigen::SelfAdjointEigenSolver<MatrixXd> turn(V.transpose() * model.residual.flexibility * V);
   MatrixXd all(held.rows(), n + r);
   all << G, held * model.residual.flexibility * V * turn.eigenvectors();

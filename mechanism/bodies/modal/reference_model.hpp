@@ -1,4 +1,4 @@
-// Modal bodies that the scene holds otherwise than their modes are: what their static flexibility there would change.
+// Effect of static flexibility on modal bodies whose boundary conditions in the scene differ from those of the modes.
 #pragma once
 
 #include <string>
@@ -11,30 +11,29 @@
 
 namespace tisserand::mechanism {
 
-/// A modal body at rest in its own frame and in units of its file: rigid motions, modes, and what the modes leave out
-/// of the static answers to forces at some components of its nodes (MODAL_BODY.md, residual), f of them.
+/// A modal body at rest in its own frame and in units of its file: rigid motions, modes, and the residual. The residual
+/// is what the modes lack of the static answers to forces at f components of its nodes (MODAL_BODY.md, residual).
 struct ReferenceModel {
   std::string name;
-  int frame = 0;                   ///< node of the model
+  int frame = 0;                   ///< node in the model
   std::vector<std::string> nodes;  ///< f: names in the model
   std::vector<int> component;      ///< f: 0 to 2 translations, 3 to 5 rotations
-  std::vector<bool> held;          ///< f: by the reference of the modes
-  Eigen::MatrixXd rigid;           ///< f x 6: motion of the components per rigid motion
-  Eigen::MatrixXd modes;           ///< f x m: per mode
-  Eigen::MatrixXd mass;            ///< (6 + m)²: of rigid motions and modes
+  std::vector<bool> held;          ///< f: whether the boundary conditions of the modes hold it
+  Eigen::MatrixXd rigid;           ///< f x 6: displacement of the components in each rigid motion
+  Eigen::MatrixXd modes;           ///< f x m: displacement of the components in each mode
+  Eigen::MatrixXd mass;            ///< (6 + m)²: mass matrix of rigid motions and modes
   Eigen::VectorXd omega2;          ///< m
   formats::ModalResidual residual;
-  UnitConversion units;  ///< to those of the scene
+  UnitConversion units;  ///< conversion to the units of the scene
 };
 
-/// The model of the body `name` with the first `modes` modes of its file. It has no components (f = 0) if the file does
-/// not hold what the modes leave out.
+/// Reference model of the body `name` with the first `modes` modes of its file. It has no components (f = 0) if the
+/// file has no residual.
 ReferenceModel reference_model(const formats::ModalBody& file, int modes, const std::string& name, int frame,
                                const UnitConversion& units);
 
-/// The lowest elastic frequencies [rad/time of the file] with the rows of `held` (r x f) at zero: of the modes alone,
-/// and with their residual flexibility at these rows. Infinite where nothing elastic is left, zero if they were not
-/// found.
+/// Lowest elastic frequencies [rad/time of the file] with the rows of `held` (r x f) at zero: of the modes alone, and
+/// with their residual flexibility at these rows. Infinite if nothing elastic remains, zero if the search failed.
 struct HeldFrequencies {
   double by_modes = 0.0, with_residual = 0.0;
 };

@@ -1,4 +1,4 @@
-// Congruences y = T y_p, and checks of the couplings that they leave out.
+// Congruences y = T y_p, and checks of the couplings that they omit.
 #include "mechanism/bodies/planar/planar_body.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Boundary coordinates of the planar body, and the rest, in those of the body.
+/// Basis of the boundary coordinates of the planar body, and of the others, in coordinates of the body.
 Split split_boundary(const SuperelementBody& body, const Matrix3d& axes, SuperelementBody& planar) {
   int in = 0, out = 0;
   Split split{MatrixXd::Zero(body.boundary_size, body.boundary_size), {}};
@@ -41,7 +41,7 @@ Split split_boundary(const SuperelementBody& body, const Matrix3d& axes, Superel
   return split;
 }
 
-/// Throws if inᵀ A out is not negligible against the diagonals.
+/// Throws LeavesPlane if inᵀ A out is not negligible relative to the diagonals.
 void require_apart(const MatrixXd& A, const Split& split, const std::string& what) {
   const MatrixXd mixed = split.in.transpose() * A * split.out;
   const VectorXd in = (split.in.transpose() * A * split.in).diagonal().cwiseAbs().cwiseSqrt(),
@@ -54,7 +54,7 @@ void require_apart(const MatrixXd& A, const Split& split, const std::string& wha
                         what, mixed(i, j), in[i] * in[i], out[j] * out[j])};
 }
 
-/// By columns of M_BI in units of the diagonal of M̄, of which 1 is the mass of a mode.
+/// Splits the internal modes by columns of M_BI in units of the diagonal of M̄, in which a mode has mass 1.
 Split split_internal_modes(const SuperelementBody& body, const Split& boundary) {
   const auto scaled = [&body](const MatrixXd& E) {
     const VectorXd mass = (E.transpose() * body.M_BB * E).diagonal().cwiseMax(1e-300);
@@ -63,7 +63,7 @@ Split split_internal_modes(const SuperelementBody& body, const Split& boundary) 
   return split_modes({scaled(boundary.in), scaled(boundary.out)}, body.S_II, "internal mode");
 }
 
-/// Boundary and modes in one.
+/// Block diagonal basis of boundary and modes.
 MatrixXd joined(const MatrixXd& boundary, const MatrixXd& modes) {
   MatrixXd T = MatrixXd::Zero(boundary.rows() + modes.rows(), boundary.cols() + modes.cols());
   T.topLeftCorner(boundary.rows(), boundary.cols()) = boundary;
@@ -114,12 +114,12 @@ std::vector<MatrixXd> dense(const QuadraticForms& forms) {
   return out;
 }
 
-/// Σ_k axis_k A_k of three matrices from `first` on.
+/// Combination Σ_k axis_k A_k of three matrices from `first` on.
 MatrixXd along(const std::vector<MatrixXd>& A, std::size_t first, const Eigen::Vector3d& axis) {
   return axis[0] * A[first] + axis[1] * A[first + 1] + axis[2] * A[first + 2];
 }
 
-/// Σ_jk a_j b_k A_jk of the six pairs from `first` on.
+/// Combination Σ_jk a_j b_k A_jk of the six pairs from `first` on.
 MatrixXd along(const std::vector<MatrixXd>& A, std::size_t first, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   MatrixXd sum = MatrixXd::Zero(A[first].rows(), A[first].cols());
   for (int j = 0; j < 3; ++j)
@@ -127,12 +127,12 @@ MatrixXd along(const std::vector<MatrixXd>& A, std::size_t first, const Eigen::V
   return sum;
 }
 
-/// Checks forms that do not exist in the plane: their values for y in the plane must vanish.
+/// Requires that a form which has no planar counterpart vanishes for y in the plane.
 void require_none(const MatrixXd& A, const Split& split, double size, const std::string& what) {
   require_nothing(split.in.transpose() * A * split.in, size, what);
 }
 
-/// The form for y in the plane, whose derivative stays there.
+/// Restriction of a form to y in the plane. Throws LeavesPlane if its derivative has components out of the plane.
 MatrixXd staying(const MatrixXd& A, const Split& split, double size, const std::string& what) {
   require_nothing(split.out.transpose() * A * split.in, size, what);
   return split.in.transpose() * A * split.in;
@@ -200,7 +200,7 @@ FullInertia planar_inertia(const FullInertia& from, const Matrix3d& axes, const 
   return to;
 }
 
-/// Rows of the strain that y in the plane has; each must pull in the plane alone.
+/// Rows of the generalised strains that y in the plane causes. Each must act in the plane alone.
 Stiffening planar_stiffening(const Stiffening& from, const Split& whole, const SuperelementBody& planar) {
   const std::vector<MatrixXd> Gamma = dense(from.Gamma);
   const double L_size = from.L.cwiseAbs().maxCoeff(), size = largest_of(Gamma, 0, Gamma.size(), whole);

@@ -1,4 +1,4 @@
-// Sums in other axes and of other modes, and checks of the couplings that they leave out.
+// Sums in other axes and of other modes, and checks of the couplings that they omit.
 #include "mechanism/bodies/planar/planar_modal_body.hpp"
 
 #include <cmath>
@@ -11,7 +11,7 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A sum Σ a bᵀ, nine numbers in a column.
+/// A sum Σ a bᵀ, stored as nine numbers in a column.
 using Block = Eigen::Map<Matrix3d>;
 
 void turn_sums(const Matrix3d& axes, ModalBody& body, const std::vector<ModalNode*>& nodes) {
@@ -33,10 +33,10 @@ void turn_sums(const Matrix3d& axes, ModalBody& body, const std::vector<ModalNod
   }
 }
 
-/// Rows of the sums Σ a bᵀ that stay in the plane, and those that lead from it or to it; zz says nothing in it.
+/// Rows of the sums Σ a bᵀ within the plane, and those that couple with it; zz has no effect in it.
 const std::vector<int> rows_in_plane{0, 1, 3, 4}, rows_across{2, 5, 6, 7};
 
-/// ModeUnits in which 1 is what a mode of mass 1 can do at most.
+/// Units in which a mode of mass 1 has entries of at most 1.
 struct ModeUnits {
   double mass, arm, inertia;  ///< of C1, of P1, of N_mu
 
@@ -44,7 +44,7 @@ struct ModeUnits {
       : mass(std::sqrt(body.mass)), arm(std::sqrt(body.P0.trace())), inertia(std::sqrt(body.J_mu.trace())) {}
 };
 
-/// `part` over `unit`; what has no unit is nothing.
+/// Returns `part` over `unit`, or zero if the unit is zero.
 MatrixXd in_units(const MatrixXd& part, double unit) {
   return unit > 0.0 ? MatrixXd(part / unit) : MatrixXd(MatrixXd::Zero(part.rows(), part.cols()));
 }
@@ -77,8 +77,8 @@ ModePulls pulls_of(const ModalBody& body, const std::vector<ModalNode*>& nodes, 
   return {stack(in), stack(out)};
 }
 
-/// Second moments of the modes: of those in the plane, and of one in it with one out of it (what a spin and its changes
-/// drive it by), mass-normalised.
+/// Checks the second moments of the modes, mass-normalised: of modes in the plane, and of one in it with one out of it.
+/// Spin and its changes drive the modes through them.
 void require_apart(const MatrixXd& P2, const Split& modes) {
   const Index m = modes.in.rows();
   const auto product = [&](int a, const MatrixXd& left, const MatrixXd& right) {
@@ -94,7 +94,7 @@ void require_apart(const MatrixXd& P2, const Split& modes) {
                   "what a change of spin does to its modes");
 }
 
-/// The sums of the modes w = W w_p.
+/// Transforms the sums to the modes w_p of w = W w_p.
 void keep_modes(const MatrixXd& W, ModalBody& body) {
   const Index m = body.modes, kept = W.cols();
   body.C1 = (body.C1 * W).eval();
@@ -125,7 +125,7 @@ MatrixXd traces_and_spins(const MatrixXd& blocks) {
   return out;
 }
 
-/// Makes exact what counts as zero.
+/// Sets entries that count as zero to exactly zero.
 void clear_normal(ModalBody& body) {
   const auto clear = [](auto&& A) {
     A.row(2).setZero();

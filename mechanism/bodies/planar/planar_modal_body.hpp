@@ -1,4 +1,4 @@
-// From a modal body in space to the one that moves in a plane.
+// Planar modal body from a modal body in space.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,11 @@
 
 namespace tisserand::mechanism {
 
-/// Turns the sums of the body and its nodes into the axes of the plane, which are given in its frame, z normal, and
-/// leaves the modes that move in it, those of one frequency turned apart before. `reach`: places that are nearer to the
-/// plane through the centre of mass than 1e-10 of it lie in it. Couplings of motion in the plane with motion out of it
-/// up to 1e-10, in units of the mass of a mode, count as zero; larger ones throw LeavesPlane. Nodes off the plane keep
-/// their motion out of it: nothing may be attached to them.
+/// Transforms the sums of the body and its nodes to the `axes` of the plane, given in its frame, z normal. Keeps the
+/// modes that move in the plane, after modes of one frequency were separated. Nodes closer than 1e-10 `reach` to the
+/// plane through the centre of mass lie in it. Couplings between motions in and out of the plane up to 1e-10, in units
+/// of the mass of a mode, count as zero. Larger ones throw LeavesPlane. Nodes off the plane keep their motion out of
+/// it, so that nothing may be attached to them.
 void make_planar(const Eigen::Matrix3d& axes, double reach, ModalBody& body, const std::vector<ModalNode*>& nodes);
 
 }  // namespace tisserand::mechanism

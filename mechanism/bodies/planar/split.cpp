@@ -1,4 +1,4 @@
-// Modes of one frequency turned apart.
+// Separation of modes of one frequency.
 #include "mechanism/bodies/planar/split.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Splits a body into motion in a plane and motion out of it.
+// Split of a body into motion in a plane and motion out of it.
 #pragma once
 
 #include <string>
@@ -7,15 +7,15 @@
 
 namespace tisserand::mechanism {
 
-/// Why a body does not stay in the plane: "entry 0.2 of its stiffness ...".
+/// Reason why a body does not stay in the plane: "entry 0.2 of its stiffness ...".
 struct LeavesPlane {
   std::string what;
 };
 
-/// Couplings up to this share of the diagonals, or of the largest entry, count as zero.
+/// Largest coupling that counts as zero, relative to the diagonals or to the largest entry.
 inline constexpr double planar_share = 1e-10;
 
-/// Columns of the coordinates of a body: those in the plane, and the others.
+/// Basis of the coordinates of a body: columns in the plane, and the others.
 struct Split {
   Eigen::MatrixXd in, out;
 };
@@ -28,9 +28,9 @@ struct ModePulls {
   Eigen::MatrixXd in, out;
 };
 
-/// The modes in the plane and those out of it, orthonormal combinations of modes of one frequency; `stiffness`: ω²,
-/// ascending; `kind`: "internal mode", "mode". A mode without couplings counts as out of it: nothing in the plane moves
-/// it. Throws LeavesPlane for a mode with both couplings.
+/// Splits modes into those in the plane and those out of it, as orthonormal combinations of modes of one frequency.
+/// `stiffness` is ω², ascending; `kind` is "internal mode" or "mode". A mode without couplings counts as out of the
+/// plane, because nothing in the plane moves it. Throws LeavesPlane for a mode with both couplings.
 Split split_modes(const ModePulls& pulls, const Eigen::VectorXd& stiffness, const std::string& kind);
 
 }  // namespace tisserand::mechanism
