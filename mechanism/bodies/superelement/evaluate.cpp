@@ -52,7 +52,7 @@ double coupling_form(const Eigen::MatrixXd& A, const Eigen::VectorXd& row, const
   return sum;
 }
 
-/// ẏᵀ D ẏ of D = b S̄ + diag(…) + a full matrix.
+/// Dissipated power ẏᵀ D ẏ with D = b S̄ + diag(…) + a full matrix.
 double power_at(const SuperelementBody& body, const Eigen::VectorXd& rate_B, const Eigen::VectorXd& rate_I) {
   const SuperelementDamping& damping = body.damping;
   double power = damping.stiffness * quadratic_form(body.S_BB, rate_B) + rate_I.cwiseAbs2().dot(damping.internal);
@@ -62,7 +62,7 @@ double power_at(const SuperelementBody& body, const Eigen::VectorXd& rate_B, con
   return power;
 }
 
-/// Coordinates of the body, or their rates, in those of the file.
+/// Converts coordinates of the body, or their rates, to rows of the file.
 void to_file_rows(const SuperelementBody& body, const Eigen::VectorXd& boundary, const Eigen::VectorXd& internal,
                   Eigen::Ref<Eigen::VectorXd> out) {
   for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i)
@@ -149,7 +149,7 @@ void strain_coordinates(const SuperelementBody& body, const SuperelementScratch&
 FrameAcceleration frame_acceleration_of(const SuperelementBody& body, SuperelementScratch& scratch,
                                         const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity) {
   LocalMotion<double>& motion = scratch.motion;
-  if (body.inertia != formats::InertiaOption::M && !body.second_order.inertia) {  // otherwise update_kinematics() has
+  if (body.inertia != formats::InertiaOption::M && !body.second_order.inertia) {  // else update_kinematics() has
     deformation_rates(body, nodes, motion);
     deformation_accelerations(body, nodes, motion);
   }

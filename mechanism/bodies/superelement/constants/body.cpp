@@ -1,4 +1,4 @@
-// From a superelement file to the constants of the body: order of rows, units, canonical form, weights.
+// Constants of a body from a superelement file: order of rows, units, canonical form, weights.
 #include "mechanism/bodies/superelement/constants/body.hpp"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ int find_node(const SuperelementBody& body, const std::string& name, const std::
               "its nodes are " + node_list(names));
 }
 
-/// Rows of the boundary vector per node [x, Θ] and the file's row of each; internal rows in the order of their numbers.
+/// Orders the rows of the boundary vector per node [x, Θ] and the file's row of each; internal rows keep their order.
 void order_rows(const formats::Superelement& element, const std::string& where, SuperelementBody& body) {
   const std::size_t nodes = element.node_name.size();
   std::vector<std::array<int, 6>> row(nodes, {-1, -1, -1, -1, -1, -1});
@@ -76,8 +76,8 @@ void order_rows(const formats::Superelement& element, const std::string& where, 
     throw Error("no boundary node has translations", where, "keep the translations of at least one boundary node");
 }
 
-/// Boundary rows first, in units of the scene: S with energy/(unit of row · unit of column), M with mass instead.
-/// Internal coordinates keep their numbers.
+/// Boundary rows first, in units of the scene: S has energy/(unit of row · unit of column), M has mass instead of
+/// energy. Internal coordinates keep their numbers.
 PartitionedMatrices partition(const formats::Superelement& element, const UnitConversion& units,
                               const SuperelementBody& body) {
   const Eigen::Index nb = body.boundary_size, n = element.size();
@@ -113,7 +113,7 @@ Eigen::Index modes_to_keep(const Eigen::VectorXd& eigenvalue, const Superelement
 }
 
 void cut_modes(const SuperelementOptions& options, CanonicalMatrices& matrices, SuperelementBody& body) {
-  const Eigen::Index loose = (matrices.S_II.array() <= 0.0).count();  // mechanisms move whatever is cut
+  const Eigen::Index loose = (matrices.S_II.array() <= 0.0).count();  // mechanisms move with any cut
   const Eigen::Index wanted = std::max(loose, modes_to_keep(matrices.S_II, options));
   const Eigen::Index kept = complete_cluster(matrices.S_II, wanted);
   if (kept != wanted)
@@ -133,7 +133,7 @@ void cut_modes(const SuperelementOptions& options, CanonicalMatrices& matrices, 
   body.file.modal_part = matrices.modal_part.leftCols(kept);
 }
 
-/// alpha of the nodes in `members`: by the user, by the frame node, or from the centre of mass.
+/// Weights alpha of the nodes in `members`: given by the user, by the frame node, or from the centre of mass.
 Eigen::VectorXd choose_weights(const std::vector<int>& members, const std::vector<formats::NodeWeight>& given,
                                int frame_node, const Eigen::Matrix3Xd& position, const Eigen::Vector3d& center,
                                const char* what, const std::string& where, SuperelementBody& body) {

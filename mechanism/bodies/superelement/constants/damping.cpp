@@ -1,4 +1,4 @@
-// Damping of a superelement body: from the options of the scene to the matrices on the deformation rates.
+// Damping of a superelement body: matrices on the deformation rates from the options of the scene.
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -38,8 +38,8 @@ double ratio_of(const std::vector<double>& ratios, double others, Eigen::Index k
 }
 
 /// The bracket of THEORY (41), a (M̄ − M̄R (RᵀM̄R)⁻¹ RᵀM̄) with the rigid motions R: a M̄ on what is M̄-orthogonal to them.
-/// Rates of deformation count from a frame, whose choice adds a rigid motion to them; this makes no difference here,
-/// and every elastic mode of the free body has the ratio a/2ω.
+/// The choice of the frame adds a rigid motion to the rates of deformation; this has no effect here. Every elastic mode
+/// of the free body has the ratio a/2ω.
 Eigen::MatrixXd mass_damping(const SuperelementBody& body, double factor) {
   const Eigen::MatrixXd M = whole_matrices(body).M, R = rigid_columns(body), MR = M * R;
   return factor * (M - MR * (R.transpose() * MR).completeOrthogonalDecomposition().pseudoInverse() * MR.transpose());
@@ -73,7 +73,7 @@ Eigen::MatrixXd rigid_columns(const SuperelementBody& body) {
 }
 
 FreeModes free_modes(const SuperelementBody& body, const std::string& where) {
-  constexpr double massless = 1e-13;  // of the largest 1/ω²: round-off of the products below
+  constexpr double massless = 1e-13;  // relative to the largest 1/ω²: round-off of the products below
   const Eigen::Index n = body.boundary_size + body.modes;
   FreeModes modes;
   modes.force.resize(n, 0);
@@ -83,7 +83,7 @@ FreeModes free_modes(const SuperelementBody& body, const std::string& where) {
   const Eigen::MatrixXd R = unit.cwiseInverse().asDiagonal() * rigid_columns(body);
   const Eigen::MatrixXd S = unit.asDiagonal() * whole.S * unit.asDiagonal();
   const Eigen::MatrixXd M = unit.asDiagonal() * whole.M * unit.asDiagonal();
-  // Deformations: Z normal to the rigid motions R, and rigid motions added so that RᵀM φ = 0.
+  // Deformations: Z is normal to the rigid motions R. Rigid motions are then added so that RᵀM φ = 0.
   const Eigen::MatrixXd Q = Eigen::HouseholderQR<Eigen::MatrixXd>(R).householderQ();
   const Eigen::MatrixXd Z = Q.rightCols(n - 6), MR = M * R, coupling = MR.transpose() * Z;
   Eigen::MatrixXd S_Z = Z.transpose() * S * Z;
@@ -96,7 +96,7 @@ FreeModes free_modes(const SuperelementBody& body, const std::string& where) {
                             "cannot be counted",
                             body.name),
                 where, "damp it by 'stiffness', or its internal modes by 'ratio_internal'");
-  // 1/ω² of M_Z a = (1/ω²) S_Z a, ascending: soft modes keep all digits, and those without mass come first as zeros.
+  // 1/ω² of M_Z a = (1/ω²) S_Z a, ascending. Soft modes keep all digits, and massless ones come first as zeros.
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (M_Z + M_Z.transpose()), S_Z);
   const Eigen::VectorXd& inverse = solver.eigenvalues();
   const Eigen::Index count = (inverse.array() > massless * inverse.maxCoeff()).count();

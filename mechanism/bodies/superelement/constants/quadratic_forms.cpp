@@ -1,4 +1,4 @@
-// From matrices to runs of their common entries, and combinations of them.
+// Conversion of matrices to runs of their common entries, and linear combinations.
 #include "mechanism/bodies/superelement/constants/quadratic_forms.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int block = QuadraticForms::block;
 
-/// Runs of blocks that are not all zero in `entries`, the numbers of all matrices at (k, l).
+/// Appends the runs of blocks that are not all zero in `entries`, the values of all matrices at (k, l).
 void add_runs(int k, int l, const Eigen::VectorXd& entries, QuadraticForms& forms) {
   bool open = false;
   for (int b = 0; b < forms.count / block; ++b) {
@@ -27,7 +27,7 @@ void add_runs(int k, int l, const Eigen::VectorXd& entries, QuadraticForms& form
   }
 }
 
-/// The symmetric parts at (k, l), zero where they are nothing.
+/// Sets the symmetric parts at (k, l); values within round-off become zero.
 void set_entries(const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& unit,
                  const Eigen::VectorXd& scale, int k, int l, Eigen::VectorXd& entries) {
   for (std::size_t a = 0; a < matrices.size(); ++a) {

@@ -1,4 +1,4 @@
-// Symmetric matrices that are applied together, for every scalar: the arrays of a second-order superelement.
+// Symmetric matrices that are applied together, for any scalar: the arrays of a second-order superelement.
 #pragma once
 
 #include <type_traits>
@@ -16,34 +16,34 @@ struct FormRun {
   int first = 0, blocks = 0;
 };
 
-/// Symmetric matrices A_a (size x size), a = 0 .. count − 1, by the pairs of coordinates at which four of them that
-/// follow one another have an entry. One pass through memory serves all of them, and zeros are not stored: the
+/// Symmetric matrices A_a (size x size), a = 0 .. count − 1. They are stored by pairs of coordinates at which one of
+/// four consecutive matrices has an entry. One pass through memory serves all of them, and zeros are not stored: the
 /// rows of a straight beam keep a thirtieth of their numbers.
 struct QuadraticForms {
-  static constexpr int block = 4;  ///< matrices of a run, one register
-  /// Entries up to this share of the largest count as zero. Symmetry makes entries zero, and solutions with K_II and
-  /// congruences fill them with round-off of up to some thousand ε.
+  static constexpr int block = 4;  ///< number of matrices in a run, one register
+  /// Largest entry that counts as zero, relative to the largest of all. Symmetry makes entries zero; solutions with
+  /// K_II and congruences fill them with round-off of up to some thousand ε.
   static constexpr double round_off = 1e-12;
 
   int size = 0;
-  int count = 0;  ///< a multiple of `block`: matrices of zeros fill the last one
+  int count = 0;  ///< multiple of `block`; zero matrices fill the last block
   std::vector<FormRun> runs;
-  std::vector<double> entry;  ///< of each run in turn, `block` numbers for each of its blocks
+  std::vector<double> entry;  ///< values of all runs in sequence, `block` numbers for each block
 };
 
-/// The symmetric parts of `matrices`. unit: the size of each coordinate. scale: entries of matrix a up to `round_off`
-/// times scale[a], in these units, are left out.
+/// Stores the symmetric parts of `matrices`. unit: the size of each coordinate. scale: entries of matrix a up to
+/// `round_off` times scale[a], in these units, are omitted.
 QuadraticForms quadratic_forms(const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& unit,
                                const Eigen::VectorXd& scale);
 
-/// The largest entry of any of them, in these units.
+/// Largest entry of all matrices, in these units.
 double largest_entry(const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& unit);
 
-/// Scratch of the kernels of this file for any scalar: column k holds the row k of every A_a times y.
+/// Scratch of the kernels of this file for any scalar: column k holds row k of every A_a times y.
 template <class S>
 using FormRows = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// rows (count x size): column k becomes [(A_a y)_k].
+/// Computes rows (count x size), whose column k is [(A_a y)_k].
 template <class S, class Vector>
 void apply_forms(const QuadraticForms& forms, const Vector& y, FormRows<S>& rows) {
   rows.setZero();
@@ -70,29 +70,29 @@ void apply_forms(const QuadraticForms& forms, const Vector& y, FormRows<S>& rows
   }
 }
 
-/// Lower triangle of `sum` (size x size) += scale Σ factor_a A_a.
+/// Adds scale Σ factor_a A_a to the lower triangle of `sum` (size x size).
 void add_combination(const QuadraticForms& forms, double scale, const Eigen::VectorXd& factor,
                      Eigen::Ref<Eigen::MatrixXd> sum);
 
-/// Few symmetric matrices A_a, all of which have an entry wherever one has: at each pair k ≤ l of coordinates `count`
-/// numbers, the pairs column by column (l), k upwards.
+/// A few symmetric matrices A_a with one common sparsity pattern. Each pair k ≤ l of coordinates has `count` numbers.
+/// The pairs are stored column by column (l), with ascending k.
 struct PairedForms {
   static constexpr int block = QuadraticForms::block;
 
   int size = 0;
-  int count = 0;           ///< a multiple of `block`: matrices of zeros fill the last one
-  std::vector<int> first;  ///< size + 1: where the pairs of column l begin in `row`
+  int count = 0;           ///< multiple of `block`; zero matrices fill the last block
+  std::vector<int> first;  ///< size + 1: index in `row` of the first pair of column l
   std::vector<int> row;    ///< k of each pair
   std::vector<double> entry;
 };
 
-/// As quadratic_forms().
+/// Counterpart of quadratic_forms() for a common pattern.
 PairedForms paired_forms(const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& unit,
                          const Eigen::VectorXd& scale);
 
 namespace paired_forms_kernel {
 
-/// In double numbers: the sums of column l and of the values stay in registers.
+/// Kernel for double: the sums of column l and of the values stay in registers.
 template <int Count, int Values>
 void apply(const PairedForms& forms, const double* y, const double* x, double* rows, double* values) {
   using namespace column_kernels;
@@ -120,7 +120,7 @@ void apply(const PairedForms& forms, const double* y, const double* x, double* r
 
 }  // namespace paired_forms_kernel
 
-/// rows (Count x size): column k becomes [(A_a y)_k]; values: [xᵀ A_a x] of the first Values matrices.
+/// Computes rows (Count x size), whose column k is [(A_a y)_k], and values [xᵀ A_a x] of the first Values matrices.
 template <int Count, int Values, class S>
 void apply_pairs(const PairedForms& forms, const Eigen::Matrix<S, Eigen::Dynamic, 1>& y,
                  const Eigen::Matrix<S, Eigen::Dynamic, 1>& x, FormRows<S>& rows,

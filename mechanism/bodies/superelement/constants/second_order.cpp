@@ -1,4 +1,4 @@
-// From arrays on the coordinates of a body to the constants of its second-order terms and load cases.
+// Constants of second-order terms and load cases of a body from arrays in its coordinates.
 #include "mechanism/bodies/superelement/constants/second_order.hpp"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ MatrixXd whole_mass(const SuperelementBody& body) {
   return M;
 }
 
-/// J₀⁻¹, zero for the axis of a line of masses without rotary inertia; rotations measured by `length`.
+/// J₀⁻¹ with rotations scaled by `length`; zero for the axis of a line of masses without rotary inertia.
 Eigen::Matrix<double, 6, 6> invert_inertia(const Eigen::Matrix<double, 6, 6>& J0, double length) {
   constexpr double no_inertia = 1e-12;
   Eigen::Matrix<double, 6, 1> unit;
@@ -42,7 +42,7 @@ Eigen::Matrix<double, 6, 6> invert_inertia(const Eigen::Matrix<double, 6, 6>& J0
          unit.asDiagonal();
 }
 
-/// Rows of the file (columns of the body's coordinates with all modes of `matrices`): y(file) = A y.
+/// Matrix A of y(file) = A y: rows of the file, columns for the coordinates of the body with all modes of `matrices`.
 MatrixXd file_congruence(const formats::CanonicalMatrices& matrices, const SuperelementBody& body) {
   const auto nb = static_cast<Eigen::Index>(body.file.boundary_row.size());
   const auto internal = static_cast<Eigen::Index>(body.file.internal_row.size());
@@ -56,7 +56,7 @@ MatrixXd file_congruence(const formats::CanonicalMatrices& matrices, const Super
   return A;
 }
 
-/// M̄ and the rigid motions about `point` (part frame) with all modes.
+/// M̄ and the rigid motions about `point` (part frame), with all modes.
 struct WholeMotions {
   MatrixXd M, R;
 };
@@ -102,7 +102,7 @@ PivotedRows pivoted_rows(MatrixXd A) {
   return rows;
 }
 
-/// The order of rows in which those with entries at the same pairs of coordinates follow one another.
+/// Order in which rows with entries at the same pairs of coordinates are adjacent.
 std::vector<int> order_by_entries(const std::vector<MatrixXd>& Gamma, const VectorXd& unit, double round_off) {
   std::vector<std::vector<bool>> present;
   for (const MatrixXd& A : Gamma) {
@@ -117,7 +117,7 @@ std::vector<int> order_by_entries(const std::vector<MatrixXd>& Gamma, const Vect
   return order;
 }
 
-/// N x rows of the triangular L of the boundary and the diagonal one of the internal coordinates; zero for rows Λ.
+/// N x rows: inverse of the triangular L of the boundary and the diagonal one of internal coordinates; zero for rows Λ.
 MatrixXd inverse_rows(const MatrixXd& L, const std::vector<int>& pivot, int modes) {
   const auto strained = static_cast<Eigen::Index>(pivot.size()), nb = L.cols() - modes;
   MatrixXd inverse = MatrixXd::Zero(L.cols(), L.rows());
@@ -128,7 +128,7 @@ MatrixXd inverse_rows(const MatrixXd& L, const std::vector<int>& pivot, int mode
   return inverse;
 }
 
-/// C_x, C_y, C_z (or W) one above the other, without entries below `nothing` in the units of the coordinates.
+/// Stack of C_x, C_y, C_z (or W), without entries below `nothing` in the units of the coordinates.
 BlockColumns turning_blocks(const std::array<MatrixXd, 3>& C, const VectorXd& unit, double nothing) {
   const Eigen::Index n = unit.size();
   MatrixXd stack(3 * n, n);
@@ -139,7 +139,7 @@ BlockColumns turning_blocks(const std::array<MatrixXd, 3>& C, const VectorXd& un
   return block_columns(stack, 0.0);
 }
 
-/// −Φᵀ K_G[K⁻¹ f] Φ: with the share of the modes that are kept, which `stiffness` of the file leaves to H.
+/// Matrix −Φᵀ K_G[K⁻¹ f] Φ with the share of the kept modes, which `stiffness` of the file leaves to H.
 Eigen::MatrixXd whole_stiffness(const SuperelementBody& body, const formats::Companion& companion,
                                 const formats::LoadCase& load) {
   Eigen::MatrixXd K = load.stiffness;
@@ -192,7 +192,7 @@ Stiffening make_stiffening(const SuperelementBody& body, const formats::Companio
     Gamma.emplace_back(companion.H[nb + i] / L(strained + i, nb + i));
   }
   Gamma.insert(Gamma.end(), companion.Lambda.begin(), companion.Lambda.end());
-  const auto trapped = count_of(companion.Lambda);  // rows that no coordinate stretches
+  const auto trapped = count_of(companion.Lambda);  // number of rows that no coordinate strains
   L.conservativeResizeLike(MatrixXd::Zero(strained + m + trapped, nb + m));
   const MatrixXd inverse = inverse_rows(L, boundary.pivot, m);
   const double largest = largest_entry(Gamma, unit);
@@ -237,7 +237,7 @@ FullInertia make_full_inertia(const SuperelementBody& body, const formats::Compa
     case Foreshortening::on: {
       std::vector<MatrixXd> forms(companion.N.begin(), companion.N.end());
       forms.insert(forms.end(), companion.T.begin(), companion.T.end());
-      VectorXd scale(18);  // N of translations, and a length more
+      VectorXd scale(18);  // N of translations has one more factor length
       scale << VectorXd::Constant(3, largest_entry({forms.begin(), forms.begin() + 3}, unit)),
           VectorXd::Constant(9, largest_entry({forms.begin() + 3, forms.end()}, unit)), E_scale;
       forms.insert(forms.end(), E.begin(), E.end());

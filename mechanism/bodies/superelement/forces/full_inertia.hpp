@@ -1,4 +1,4 @@
-// Inertia option F of a superelement body, for every scalar: the kinetic energy THEORY (48) of all its mass, with the
+// Inertia option F of a superelement body, for any scalar: the kinetic energy THEORY (48) of all its mass, with the
 // second-order displacement of the interior. Letters are those of docs/THEORY.md, section 8; R in the code is Φ₀ there.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace tisserand::mechanism {
 
-/// Numbers per pair jk in the order xx yy zz yz xz xy as a symmetric matrix.
+/// Symmetric matrix from six numbers, one per pair jk in the order xx yy zz yz xz xy.
 template <class S>
 Mat3<S> symmetric3(const Eigen::Ref<const Eigen::Matrix<S, 6, 1>>& a) {
   Mat3<S> A;
@@ -17,7 +17,7 @@ Mat3<S> symmetric3(const Eigen::Ref<const Eigen::Matrix<S, 6, 1>>& a) {
   return A;
 }
 
-/// Σ_jk aⱼ b_k A_jk as factors of the six A_jk.
+/// Factors of the six A_jk in Σ_jk aⱼ b_k A_jk.
 template <class S>
 Eigen::Matrix<S, 6, 1> pair_factors(const Vec3<S>& a, const Vec3<S>& b) {
   Eigen::Matrix<S, 6, 1> out;
@@ -26,7 +26,7 @@ Eigen::Matrix<S, 6, 1> pair_factors(const Vec3<S>& a, const Vec3<S>& b) {
   return out;
 }
 
-/// Terms of THEORY (46) to (52) at one motion; axes of the frame; N coordinates y.
+/// Terms of THEORY (46) to (52) at one motion, in axes of the frame, with N coordinates y.
 template <class S>
 struct InertiaTerms {
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
@@ -37,7 +37,7 @@ struct InertiaTerms {
   Vector Wy, Wyd;       ///< 3N, padded: W_x y, W_y y, W_z y; zero without W
   Vector xi, p, xid, pd;
   Vector quadratic;  ///< 12: ẏᵀ N_a ẏ, ẏᵀ T_jk ẏ
-  Vector G_y;        ///< inertia and weight without the elastic force
+  Vector G_y;        ///< inertia and weight, without the elastic force
   Vector turned;     ///< 3N, padded: scratch
   Vec3<S> sigma = Vec3<S>::Zero(), nu = Vec3<S>::Zero();
   Mat3<S> TT = Mat3<S>::Zero(), JJ = Mat3<S>::Zero(), JJd = Mat3<S>::Zero();
@@ -57,7 +57,7 @@ InertiaTerms<S> make_inertia_terms(const FullInertia& inertia) {
   return t;
 }
 
-/// rows x with the first Rows of `rows`.
+/// Product of the first Rows of `rows` with x.
 template <int Rows, class S>
 Eigen::Matrix<S, Rows, 1> rows_times(const FormRows<S>& rows, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x) {
   Eigen::Matrix<S, Rows, 1> out = Eigen::Matrix<S, Rows, 1>::Zero();
@@ -66,7 +66,7 @@ Eigen::Matrix<S, Rows, 1> rows_times(const FormRows<S>& rows, const Eigen::Matri
   return out;
 }
 
-/// Rᵀ x.
+/// Product Rᵀ x.
 template <class S>
 Eigen::Matrix<S, 6, 1> rigid_part(const FullInertia& inertia, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x) {
   const Eigen::Index nb = inertia.boundary_size;  // R is zero for internal coordinates
@@ -75,7 +75,7 @@ Eigen::Matrix<S, 6, 1> rigid_part(const FullInertia& inertia, const Eigen::Matri
   return out;
 }
 
-/// [xᵀ C_k y]_k of `stack`, the three vectors C_k y.
+/// Vector [xᵀ C_k y]_k from `stack`, the three vectors C_k y.
 template <class S>
 Vec3<S> turning_part(const Eigen::Matrix<S, Eigen::Dynamic, 1>& x, const Eigen::Matrix<S, Eigen::Dynamic, 1>& stack) {
   Vec3<S> out;
@@ -83,14 +83,14 @@ Vec3<S> turning_part(const Eigen::Matrix<S, Eigen::Dynamic, 1>& x, const Eigen::
   return out;
 }
 
-/// out += Σ_k a_k (C_k y).
+/// Adds Σ_k a_k (C_k y) to out.
 template <class S>
 void add_turned(const Vec3<S>& a, const Eigen::Matrix<S, Eigen::Dynamic, 1>& stack,
                 Eigen::Matrix<S, Eigen::Dynamic, 1>& out) {
   for (int k = 0; k < 3; ++k) out += a[k] * stack.segment(k * out.size(), out.size());
 }
 
-/// J₀⁻¹ a.
+/// Product J₀⁻¹ a.
 template <class S>
 Eigen::Matrix<S, 6, 1> solve_rigid(const FullInertia& inertia, const Eigen::Matrix<S, 6, 1>& a) {
   if constexpr (std::is_same_v<S, double>) {
@@ -103,7 +103,7 @@ Eigen::Matrix<S, 6, 1> solve_rigid(const FullInertia& inertia, const Eigen::Matr
   }
 }
 
-/// x = R a + rate and Mx.
+/// Computes x = R a + rate and Mx.
 template <class S>
 void true_motion(const FullInertia& inertia, const Eigen::Matrix<S, 6, 1>& a,
                  const Eigen::Matrix<S, Eigen::Dynamic, 1>& rate, Eigen::Matrix<S, Eigen::Dynamic, 1>& x,
@@ -123,8 +123,8 @@ void true_motion(const FullInertia& inertia, const Eigen::Matrix<S, 6, 1>& a,
   }
 }
 
-/// Second-order displacement THEORY (46) and its rates: σ, ν, TT with first and second derivatives; zero without N and
-/// T. `turn`: [ẏᵀ W_j y], the momentum of relative angular velocities of second order, and its rate [ÿᵀ W_j y].
+/// Second-order displacement THEORY (46): σ, ν, TT with first and second derivatives; zero without N and T. `turn` is
+/// [ẏᵀ W_j y], the momentum of relative angular velocities of second order, `turn_d` its rate [ÿᵀ W_j y].
 template <class S>
 struct Foreshortened {
   Vec3<S> turn = Vec3<S>::Zero(), turn_d = Vec3<S>::Zero();
@@ -133,7 +133,7 @@ struct Foreshortened {
   Mat3<S> T = Mat3<S>::Zero(), Td = Mat3<S>::Zero();
 };
 
-/// JJ of THEORY (46) and its rate from E y; N y and T y if they are on.
+/// Sets JJ of THEORY (46) and its rate from E y; also N y and T y if they are used.
 template <int Count, class S>
 Foreshortened<S> set_form_products(const FullInertia& inertia, InertiaTerms<S>& t) {
   using Rows = Eigen::Matrix<S, Count, 1>;
@@ -159,10 +159,10 @@ Foreshortened<S> set_form_products(const FullInertia& inertia, InertiaTerms<S>& 
   return w;
 }
 
-/// Whether W is on.
+/// Whether W is used.
 inline bool turns_nodes(const FullInertia& inertia) { return !inertia.W.runs.empty(); }
 
-/// y, ẏ, ÿ and the products of the arrays with them: E y, C y, C ẏ, N y, T y, W y, W ẏ.
+/// Sets y, ẏ, ÿ and the products of the arrays with them: E y, C y, C ẏ, N y, T y, W y, W ẏ.
 template <class S>
 Foreshortened<S> set_products(const FullInertia& inertia, const LocalMotion<S>& motion, InertiaTerms<S>& t) {
   t.y << motion.y_B, motion.y_I;
@@ -186,7 +186,7 @@ Foreshortened<S> set_products(const FullInertia& inertia, const LocalMotion<S>& 
   return w;
 }
 
-/// n₂ of THEORY (47), ξ = R (ν + J₀⁻¹ n₂) + ẏ of THEORY (48), p = M̄ ξ + Ω_k C_k y of THEORY (49), their rates, and
+/// Sets n₂ of THEORY (47), ξ = R (ν + J₀⁻¹ n₂) + ẏ of THEORY (48), p = M̄ ξ + Ω_k C_k y of THEORY (49), their rates, and
 /// ½ ξᵀM̄ξ.
 template <class S>
 void set_momenta(const FullInertia& inertia, const LocalMotion<S>& motion, const Foreshortened<S>& w,
@@ -213,7 +213,7 @@ struct RigidVelocity {
   Vec3<S> v, O, vd, Od;
 };
 
-/// t.G_y of inertia and weight: THEORY (52) without f.
+/// Sets t.G_y of inertia and weight: THEORY (52) without f.
 template <class S>
 void set_shape_forces(const SuperelementBody& body, const RigidVelocity<S>& r, const Vec3<S>& Om, const Vec3<S>& g,
                       InertiaTerms<S>& t) {
@@ -249,8 +249,8 @@ struct FrameForces {
   Vec3<S> G_x, G_theta;
 };
 
-/// Inertia and weight in the coordinates (x₀, Θ₀, y): momenta THEORY (50), forces THEORY (51), and G_y of THEORY (52)
-/// in t.G_y. g: acceleration of gravity, axes of the frame. After deformation_accelerations().
+/// Forces of inertia and weight in the coordinates (x₀, Θ₀, y): momenta THEORY (50), forces THEORY (51), and G_y of
+/// THEORY (52) in t.G_y. g: acceleration of gravity, axes of the frame. Needs deformation_accelerations().
 template <class S>
 FrameForces<S> inertia_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Vec3<S>& g,
                               InertiaTerms<S>& t) {

@@ -1,11 +1,11 @@
-// Load cases of the companion file on a superelement body, for every scalar: distributed loads that turn with it.
+// Load cases of the companion file on a superelement body, for any scalar: distributed loads that turn with the body.
 //
 // With the factor s a load case does the virtual work of THEORY (42), s [F·R₀ᵀδx₀ + m(y)·δΘ₀ + (f + K y)·δy]. f = Φᵀ f
-// are the forces on the coordinates y; F and m(y) are their resultant in axes of the floating frame, m about x₀. To
+// are the forces on the coordinates y. F and m(y) are their resultants in axes of the floating frame, m about x₀. To
 // first order in y the points of application move with the body: ∂m/∂y = −[f_i~] for displacements and −½[m_i~] for
-// rotations of the boundary nodes, + R_θᵀ K. The last term follows from K = −Φᵀ K_G[w_f] Φ: a turn of the stressed body
-// turns the forces that hold it, K_G[w_f] R_θ e = e × f for forces and ½ e × m for moments. Moments belong to rotation
-// vectors, hence the half, since K_G is symmetric.
+// rotations of the boundary nodes, + R_θᵀ K. The last term follows from K = −Φᵀ K_G[w_f] Φ: a rotation of the stressed
+// body rotates the forces that hold it. K_G[w_f] R_θ e = e × f for forces and ½ e × m for moments. The half arises
+// because moments belong to rotation vectors and K_G is symmetric.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,11 +15,11 @@
 
 namespace tisserand::mechanism {
 
-/// Forces of all load cases with their factors, at one y; sized where the body has load cases.
+/// Forces of all load cases with their factors, at one y; allocated if the body has load cases.
 template <class S>
 struct LoadTerms {
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  Eigen::VectorXd factors;           ///< one per load case: set by the caller
+  Eigen::VectorXd factors;           ///< one per load case; the caller sets them
   Vector y;                          ///< N, boundary then internal
   Vector g;                          ///< N: Σ s (f + K y)
   Vec3<S> force = Vec3<S>::Zero();   ///< resultant, axes of the frame
@@ -54,7 +54,7 @@ void add_load_case(const BodyLoadCase& load, double factor, LoadTerms<S>& t) {
   }
 }
 
-/// Sets `t` but its factors at the y of `motion`.
+/// Sets all of `t` except its factors at the y of `motion`.
 template <class S>
 void load_terms(const SuperelementBody& body, const LocalMotion<S>& motion, LoadTerms<S>& t) {
   t.y << motion.y_B, motion.y_I;
@@ -65,7 +65,7 @@ void load_terms(const SuperelementBody& body, const LocalMotion<S>& motion, Load
     if (const double s = t.factors[static_cast<Eigen::Index>(i)]; s != 0.0) add_load_case(body.load_cases[i], s, t);
 }
 
-/// Power of the load cases with their factors, after update_kinematics() and load_terms().
+/// Power of the load cases with their factors. Needs update_kinematics() and load_terms().
 double load_power(const SuperelementBody& body, const LocalMotion<double>& motion, const LoadTerms<double>& t);
 
 }  // namespace tisserand::mechanism

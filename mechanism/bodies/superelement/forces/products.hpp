@@ -9,8 +9,8 @@
 
 namespace tisserand::mechanism {
 
-/// y += A x with constant A (column major) and vectors of any scalar. One or two boundary nodes have 6, 9 or 12 rows,
-/// for which fixed sizes are faster; 18 rows are faster without (docs/PERFORMANCE.md).
+/// Adds A x to y, with constant A (column major) and vectors of any scalar. One or two boundary nodes have 6, 9 or 12
+/// rows, for which fixed sizes are faster; for 18 rows they are slower (docs/PERFORMANCE.md).
 template <class S>
 void multiply_add(const Eigen::MatrixXd& A, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x,
                   Eigen::Matrix<S, Eigen::Dynamic, 1>& y) {
@@ -31,7 +31,7 @@ void multiply_add(const Eigen::MatrixXd& A, const Eigen::Matrix<S, Eigen::Dynami
   }
 }
 
-/// out += Aᵀ x.
+/// Adds Aᵀ x to out.
 template <class S>
 void multiply_transposed_add(const Eigen::MatrixXd& A, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x,
                              Eigen::Matrix<S, Eigen::Dynamic, 1>& out) {
@@ -43,7 +43,7 @@ void multiply_transposed_add(const Eigen::MatrixXd& A, const Eigen::Matrix<S, Ei
   }
 }
 
-/// out += A x, both of this scalar.
+/// Adds factor A x to out, A and x of the same scalar.
 template <class S>
 void multiply_add(const Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>& A,
                   const Eigen::Matrix<S, Eigen::Dynamic, 1>& x, S factor, Eigen::Matrix<S, Eigen::Dynamic, 1>& out) {
@@ -55,7 +55,7 @@ void multiply_add(const Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>& A,
   }
 }
 
-/// out += Aᵀ x, both of this scalar; A has Rows rows or, padded, more.
+/// Adds Aᵀ x to out, A and x of the same scalar. A has Rows rows, or more with padding.
 template <int Rows, class S>
 void add_transposed(const Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>& A, const Eigen::Matrix<S, Rows, 1>& x,
                     Eigen::Matrix<S, Eigen::Dynamic, 1>& out) {
@@ -69,7 +69,7 @@ void add_transposed(const Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>& A, c
   }
 }
 
-/// x · y.
+/// Inner product x · y.
 template <class S, class X, class Y>
 S inner_product(const X& x, const Y& y) {
   if constexpr (std::is_same_v<S, double>) {

@@ -1,4 +1,4 @@
-// Forces of a superelement body, for every scalar: from local motion to G_iner + G_int + G_damp − gravity.
+// Forces of a superelement body, for any scalar: G_iner + G_int + G_damp − gravity from the local motion.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,18 +12,18 @@
 
 namespace tisserand::mechanism {
 
-/// r_B in coordinates [world translation, material rotation] per node, r_I in the canonical internal coordinates.
+/// Forces of a body: r_B on [world translation, material rotation] per node, r_I on the canonical internal coordinates.
 template <class S>
 struct SuperelementForces {
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   Vector r_B, r_I;
   Vector p_B;  ///< (M̄ ẏ)_B, momenta in axes of the frame (rotation rows: material axes in option B)
   Vector f_B;  ///< (M̄ ÿ)_B
-  Vector s_B;  ///< S̄ y + D ẏ − Φ-projected weight and load cases, boundary rows
+  Vector s_B;  ///< S̄ y + D ẏ less weight and load cases on y, boundary rows
 
-  StrainTerms<S> strain;    ///< sized where the body has stiffening
-  InertiaTerms<S> inertia;  ///< sized where it has full inertia
-  LoadTerms<S> loads;       ///< sized where it has load cases, whose factors the caller sets
+  StrainTerms<S> strain;    ///< allocated if the body has stiffening
+  InertiaTerms<S> inertia;  ///< allocated if it has full inertia
+  LoadTerms<S> loads;       ///< allocated if it has load cases, whose factors the caller sets
 };
 
 template <class S>
@@ -39,7 +39,7 @@ SuperelementForces<S> make_forces(const SuperelementBody& body) {
   return forces;
 }
 
-/// D ẏ of THEORY (40). Where the body has stiffening, the part b S̄ is corrected by add_stiffening().
+/// Adds D ẏ of THEORY (40). If the body has stiffening, add_stiffening() corrects the part b S̄.
 template <class S>
 void add_damping_forces(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   if (!body.damping.active) return;
@@ -57,7 +57,7 @@ void add_damping_forces(const SuperelementBody& body, const LocalMotion<S>& moti
   multiply_add(body.damping.II, motion.rate_I, out.r_I);
 }
 
-/// The terms that stiffening adds to S̄ y, THEORY (44), and to b S̄ ẏ, THEORY (45): b [(L + h)ᵀ(L + h) − LᵀL] ẏ.
+/// Adds the terms of stiffening to S̄ y, THEORY (44), and to b S̄ ẏ, THEORY (45): b [(L + h)ᵀ(L + h) − LᵀL] ẏ.
 template <class S>
 void add_stiffening(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   if (!body.second_order.stiffening) return;
@@ -69,7 +69,7 @@ void add_stiffening(const SuperelementBody& body, const LocalMotion<S>& motion, 
   out.r_I += t.force.tail(body.modes);
 }
 
-/// (M̄ ẏ)_B, (M̄ ÿ)_B, (M̄ ÿ)_I, and the elastic and damping forces in local coordinates.
+/// Computes (M̄ ẏ)_B, (M̄ ÿ)_B, (M̄ ÿ)_I, and the elastic and damping forces in local coordinates.
 template <class S>
 void local_forces(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   out.p_B.setZero();
@@ -89,15 +89,15 @@ void local_forces(const SuperelementBody& body, const LocalMotion<S>& motion, Su
   add_stiffening(body, motion, out);
 }
 
-/// c of THEORY (32), the centre of mass relative to x₀ in axes of the frame: X_cm + Φ_TᵀM̄ y / m.
+/// Vector c of THEORY (32), the centre of mass relative to x₀ in axes of the frame: X_cm + Φ_TᵀM̄ y / m.
 template <class S>
 Vec3<S> deformed_center_of_mass(const SuperelementBody& body, const LocalMotion<S>& motion) {
   if (body.inertia == formats::InertiaOption::M) return motion.center;
   return body.center_of_mass.template cast<S>() + mean_of<S>(body, motion.y_B, motion.y_I);
 }
 
-/// Option M, THEORY (34): M̄ − M̄ Φ_T Φ_TᵀM̄/m in place of M̄, so that the interpolated motion of the centre of mass has no
-/// inertia.
+/// Replaces M̄ by M̄ − M̄ Φ_T Φ_TᵀM̄/m for option M, THEORY (34), so that the interpolated motion of the centre of mass has
+/// no inertia.
 template <class S>
 void release_center_of_mass(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   const Vec3<S> velocity = mean_of<S>(body, motion.rate_B, motion.rate_I);
@@ -107,8 +107,8 @@ void release_center_of_mass(const SuperelementBody& body, const LocalMotion<S>& 
   subtract_share<S>(body, body.Gamma_I, acceleration, out.r_I);
 }
 
-/// Weight, THEORY (39), the exact variation of V_g = −m g·x_cm. Its part that acts through y is s −= Γᵀ R₀ᵀg. Returns
-/// the moment m c × R₀ᵀg.
+/// Applies the weight, THEORY (39), the exact variation of V_g = −m g·x_cm. Its part on y is s −= Γᵀ R₀ᵀg. Returns the
+/// moment m c × R₀ᵀg.
 template <class S>
 Vec3<S> apply_gravity(const SuperelementBody& body, const LocalMotion<S>& motion, const Vec3<S>& g,
                       SuperelementForces<S>& out) {
@@ -117,7 +117,7 @@ Vec3<S> apply_gravity(const SuperelementBody& body, const LocalMotion<S>& motion
   return body.mass * cross<S>(deformed_center_of_mass(body, motion), g);
 }
 
-/// The part of the load cases of THEORY (42) that acts through y: s −= Σ s (f + K y).
+/// Applies the part of the load cases of THEORY (42) on y: s −= Σ s (f + K y).
 template <class S>
 void apply_load_cases(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   load_terms(body, motion, out.loads);
@@ -125,8 +125,8 @@ void apply_load_cases(const SuperelementBody& body, const LocalMotion<S>& motion
   out.r_I -= out.loads.g.tail(body.modes);
 }
 
-/// Forces on (x₀, Θ₀, y) as forces on the nodes, THEORY (53): A₀ᵀ G_x + Uᵀ G_θ + Υᵀ G_y of the boundary; G_y = r_B at
-/// entry.
+/// Converts forces on (x₀, Θ₀, y) to forces on the nodes, THEORY (53): A₀ᵀ G_x + Uᵀ G_θ + Υᵀ G_y of the boundary. On
+/// entry r_B is G_y.
 template <int D, class S>
 void pull_back_in(const SuperelementBody& body, const LocalMotion<S>& motion, const FrameForces<S>& frame,
                   Eigen::Matrix<S, Eigen::Dynamic, 1>& r_B) {
@@ -165,7 +165,7 @@ void pull_back(const SuperelementBody& body, const LocalMotion<S>& motion, const
   in_space(body.planar, [&]<int D>() { pull_back_in<D>(body, motion, frame, r_B); });
 }
 
-/// Inertia option F: Lagrange's equations THEORY (51) to (53) with the elastic forces THEORY (44).
+/// Forces of inertia option F: Lagrange's equations THEORY (51) to (53) with the elastic forces THEORY (44).
 template <class S>
 void full_inertia_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Eigen::Vector3d& gravity,
                          SuperelementForces<S>& out) {
@@ -188,7 +188,7 @@ void full_inertia_forces(const SuperelementBody& body, const LocalMotion<S>& mot
   pull_back(body, motion, frame, out.r_B);
 }
 
-/// The sums over nodes of superelement_forces(): `moment` is conjugate to δΘ₀, `total` to −δx₀ (axes of the frame).
+/// Sums over nodes in superelement_forces(): `moment` is conjugate to δΘ₀, `total` to −δx₀ (axes of the frame).
 template <int D, class S>
 void forces_on_nodes(const SuperelementBody& body, const LocalMotion<S>& motion,
                      Eigen::Matrix<S, Space<D>::turns, 1> moment, Eigen::Matrix<S, D, 1> total,
@@ -237,9 +237,9 @@ void forces_on_nodes(const SuperelementBody& body, const LocalMotion<S>& motion,
   }
 }
 
-/// r = Pᵀ M̄ ÿ + [Pᵀ(O₀ ∓ O_B) − UᵀVᵀ] p + Υᵀ(S̄ y + D ẏ) − gravity: THEORY (30), (20), (40), (39). The sign of O_B is −
-/// in option A ([Car00] (45)) and + in B ((60)). The sign of UᵀVᵀ is corrected: the print has +, which contradicts its
-/// own derivation and Lagrange's equations. Option M is THEORY (35); its force m Jᵀ ẍ_cm is that of a gravity −ẍ_cm.
+/// Residual r = Pᵀ M̄ ÿ + [Pᵀ(O₀ ∓ O_B) − UᵀVᵀ] p + Υᵀ(S̄ y + D ẏ) − gravity: THEORY (30), (20), (40), (39). O_B has − in
+/// option A ([Car00] (45)) and + in B ((60)). The sign of UᵀVᵀ is corrected: the print has +, which contradicts its own
+/// derivation and Lagrange's equations. Option M is THEORY (35); its force m Jᵀ ẍ_cm is that of a gravity −ẍ_cm.
 template <class S>
 void superelement_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Eigen::Vector3d& gravity,
                          SuperelementForces<S>& out) {

@@ -1,5 +1,5 @@
-// Elastic forces of stiffening, for every scalar: the terms that the quadratic part of the generalised strains adds to
-// S̄ y.
+// Elastic forces of stiffening, for any scalar: the terms that the quadratic part of the generalised strains adds to S̄
+// y.
 #pragma once
 
 #include "mechanism/bodies/superelement/constants/second_order.hpp"
@@ -12,12 +12,12 @@ namespace tisserand::mechanism {
 template <class S>
 struct StrainTerms {
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  Vector y;                  ///< N, boundary then internal
-  FormRows<S> h;             ///< rows x N
-  Vector g, e;               ///< rows
-  Vector linear;             ///< rows: l_a·y
-  Vector force;              ///< N: ∂V/∂y − S̄ y = Σ (g_a l_a + e_a h_a), and the damping below
-  S damping_power = S(0.0);  ///< beyond b ẏᵀ S̄ ẏ
+  Vector y;       ///< N, boundary then internal
+  FormRows<S> h;  ///< rows x N
+  Vector g, e;    ///< rows
+  Vector linear;  ///< rows: l_a·y
+  Vector force;   ///< N: ∂V/∂y − S̄ y = Σ (g_a l_a + e_a h_a), then also the damping of add_strain_damping()
+  S damping_power = S(0.0);  ///< damping power in excess of b ẏᵀ S̄ ẏ
 };
 
 template <class S>
@@ -46,7 +46,7 @@ void strain_terms(const Stiffening& stiffening, const LocalMotion<S>& motion, St
   add_transposed<Eigen::Dynamic, S>(t.h, t.e, t.force);
 }
 
-/// THEORY (45) less b S̄ ẏ: t.force += b [(L + h)ᵀ(L + h) − LᵀL] ẏ, after strain_terms() and deformation_rates().
+/// Adds THEORY (45) less b S̄ ẏ: t.force += b [(L + h)ᵀ(L + h) − LᵀL] ẏ. Needs strain_terms() and deformation_rates().
 template <class S>
 void add_strain_damping(const Stiffening& stiffening, double b, const LocalMotion<S>& motion, StrainTerms<S>& t) {
   const auto rate = [&motion](Eigen::Index k) {
@@ -66,7 +66,7 @@ void add_strain_damping(const Stiffening& stiffening, double b, const LocalMotio
   }
 }
 
-/// V of THEORY (43) less ½ yᵀ S̄ y.
+/// Energy V of THEORY (43) less ½ yᵀ S̄ y.
 template <class S>
 S strain_energy(const StrainTerms<S>& t) {
   S sum(0.0);

@@ -1,4 +1,4 @@
-// Floating frame of a superelement body, for every scalar: from node poses to R₀, ψ, T⁻¹ and U.
+// Floating frame of a superelement body, for any scalar: R₀, ψ, T⁻¹ and U from node poses.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@
 
 namespace tisserand::mechanism {
 
-/// NodeMotion with any scalar (mechanism/frames/motion.hpp has the fields' meaning).
+/// NodeMotion with any scalar (mechanism/frames/motion.hpp explains the fields).
 template <class S>
 struct NodeMotionOf {
   Vec3<S> x, xd, Omega, xdd, Omegad;
   Mat3<S> R;
 };
 
-/// The nodes of one body among those of the model.
+/// View of the nodes of one body among those of the model.
 template <class Node>
 struct NodeView {
   const Node* nodes;
@@ -27,10 +27,10 @@ struct NodeView {
   const Node& operator[](std::size_t i) const { return nodes[index[i]]; }
 };
 
-/// One boundary node seen from the floating frame (axes of the frame unless said).
+/// One boundary node relative to the floating frame (axes of the frame unless stated).
 template <class S>
 struct LocalNode {
-  Mat3<S> E;      ///< R₀ᵀ Rᵢ; used (and surely up to date) only with inertia option A
+  Mat3<S> E;      ///< R₀ᵀ Rᵢ; used, and always up to date, only with inertia option A
   Vec3<S> psi;    ///< log E
   Mat3<S> Tinv;   ///< T⁻¹(ψᵢ); T⁻¹(−ψᵢ) is its transpose
   Mat3<S> U;      ///< δΘ₀ = Σ Uⱼ δΘⱼ + Σ U_xⱼ δxⱼ
@@ -40,7 +40,7 @@ struct LocalNode {
   Vec3<S> Omega;  ///< rate in the inertia: option A Eᵢ Ωᵢ, option B Ωᵢ
 };
 
-/// All that follows from the motion of the nodes and the internal coordinates.
+/// Quantities that follow from the motion of the nodes and the internal coordinates.
 template <class S>
 struct LocalMotion {
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
@@ -53,7 +53,7 @@ struct LocalMotion {
   Vector acceleration_B;              ///< P q̈ + V Ω₀
   Vector deformation_rate_B;          ///< Υ q̇ = ẏ_B; only with damping, load cases or inertia options M and F
   Vector deformation_acceleration_B;  ///< ÿ_B of the deformation; only with inertia options M and F
-  Vec3<S> origin_velocity = Vec3<S>::Zero();      ///< R₀ᵀẋ₀; as ẏ_B
+  Vec3<S> origin_velocity = Vec3<S>::Zero();      ///< R₀ᵀẋ₀; available as deformation_rate_B
   Vec3<S> origin_acceleration = Vec3<S>::Zero();  ///< R₀ᵀẍ₀; only with inertia options M and F
   Vec3<S> Omega0d = Vec3<S>::Zero();              ///< Ω̇₀; only with inertia options M and F
   Vec3<S> center = Vec3<S>::Zero();               ///< c = X_cm + Φ_TᵀM̄ y/m; only with inertia option M
@@ -85,7 +85,7 @@ LocalMotion<S> make_local_motion(const SuperelementBody& body) {
   return motion;
 }
 
-/// A⁻¹ by cofactors, for every scalar.
+/// Inverse A⁻¹ by cofactors, for any scalar.
 template <class S>
 Mat3<S> inverse3(const Mat3<S>& A) {
   const Vec3<S> a = A.col(0), b = A.col(1), c = A.col(2);
@@ -100,10 +100,10 @@ Mat3<S> inverse3(const Mat3<S>& A) {
 
 namespace frame {
 
-/// Corrections below this angle end the iteration; the next iterate would differ by its cube.
+/// Smallest correction [rad] that needs another iteration; the next iterate would differ by its cube.
 inline constexpr double kTolerance = 1e-14;
 inline constexpr int kMaxIterations = 30;
-/// Derivatives carried by the scalar need iterations of their own after the values have converged.
+/// Derivatives in the scalar need further iterations after the values have converged.
 template <class S>
 inline constexpr int kMinIterations = std::is_same_v<S, double> ? 0 : 2;
 
@@ -113,7 +113,7 @@ double size(const Vec3<S>& a) {
                    real_part(a.z()) * real_part(a.z()));
 }
 
-/// E, ψ, T⁻¹ of every rotation node for the present R₀.
+/// Computes E, ψ, T⁻¹ of every rotation node for the present R₀.
 template <class S, class Node>
 void local_rotations(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   for (const int j : body.rotation_nodes) {
@@ -124,7 +124,7 @@ void local_rotations(const SuperelementBody& body, const NodeView<Node>& nodes, 
   }
 }
 
-/// R₀ = R_k, U_k = 1.
+/// Frame of one node: R₀ = R_k, U_k = 1.
 template <class S, class Node>
 void single_node(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   motion.R0 = nodes[body.frame_node].R;
@@ -147,7 +147,7 @@ void karcher_variation(const SuperelementBody& body, LocalMotion<S>& motion) {
   }
 }
 
-/// THEORY (12) for two rotation nodes: with φ = log(R₁ᵀR₂), R₀ = R₁ exp(α₂ φ), ψ₁ = −α₂ φ, ψ₂ = α₁ φ.
+/// Solution of THEORY (12) for two rotation nodes: with φ = log(R₁ᵀR₂), R₀ = R₁ exp(α₂ φ), ψ₁ = −α₂ φ, ψ₂ = α₁ φ.
 template <class S, class Node>
 void pair(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   const auto i1 = static_cast<std::size_t>(body.rotation_nodes[0]),
@@ -187,8 +187,8 @@ void karcher(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMot
   karcher_variation(body, motion);
 }
 
-/// THEORY (15), [Car00] (16), (19): R₀ = R_ref exp(b₀), b₀ = Σ αⱼ bⱼ, bⱼ = log(R_refᵀRⱼ); Uⱼ = T(b₀) αⱼ T⁻¹(bⱼ). R_ref
-/// is the R₀ in `motion`.
+/// Frame of THEORY (15), [Car00] (16), (19): R₀ = R_ref exp(b₀), b₀ = Σ αⱼ bⱼ, bⱼ = log(R_refᵀRⱼ); Uⱼ = T(b₀) αⱼ
+/// T⁻¹(bⱼ). R_ref is the R₀ in `motion`.
 template <class S, class Node>
 void incremental(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   const Mat3<S> R_ref = motion.R0;
@@ -208,9 +208,9 @@ void incremental(const SuperelementBody& body, const NodeView<Node>& nodes, Loca
   local_rotations(body, nodes, motion);
 }
 
-/// Nodes without rotations, THEORY (16): Σ wᵢ Xᵢ × R₀ᵀ(xᵢ − x̄) = 0 by Newton from the R₀ in `motion`, and its exact
-/// variation δΘ₀ = D⁻¹ Σ wᵢ Xᵢ~ R₀ᵀ δxᵢ, D = Σ wᵢ ((Xᵢ·x̂ᵢ) 1 − x̂ᵢ Xᵢᵀ), X and x̂ relative to their means with the
-/// weights w.
+/// Frame of nodes without rotations, THEORY (16). Newton's iteration from the R₀ in `motion` solves Σ wᵢ Xᵢ × R₀ᵀ(xᵢ −
+/// x̄) = 0. The exact variation is δΘ₀ = D⁻¹ Σ wᵢ Xᵢ~ R₀ᵀ δxᵢ, D = Σ wᵢ ((Xᵢ·x̂ᵢ) 1 − x̂ᵢ Xᵢᵀ), with X and x̂ relative to
+/// their means with the weights w.
 template <class S, class Node>
 void polar(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   Vec3<S> mean = Vec3<S>::Zero();
@@ -246,7 +246,7 @@ void polar(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotio
 
 }  // namespace frame
 
-/// R₀, ψ, T⁻¹ and U. motion.R0 holds the guess (karcher, polar) or R_ref (incremental) on entry.
+/// Computes R₀, ψ, T⁻¹ and U. On entry motion.R0 holds the guess (karcher, polar) or R_ref (incremental).
 template <class S, class Node>
 void floating_frame(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   motion.frame_iterations = 0;

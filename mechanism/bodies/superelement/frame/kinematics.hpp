@@ -1,5 +1,5 @@
-// Local coordinates of a superelement body, for every scalar, in space and in the plane: from node motions and the
-// floating frame to y, ẏ, ÿ.
+// Local coordinates y, ẏ, ÿ of a superelement body from node motions and the floating frame, for any scalar, in space
+// and in the plane.
 #pragma once
 
 #include <cstddef>
@@ -37,8 +37,8 @@ void deformation_rates(const SuperelementBody& body, const NodeView<Node>& nodes
   in_space(body.planar, [&]<int D>() { deformation_rates_in<D>(body, nodes, motion); });
 }
 
-/// ÿ_B of the deformation, Ω̇₀ and the acceleration of x₀, THEORY (24), after deformation_rates(): ü = R₀ᵀ(ẍ − ẍ₀) − 2
-/// Ω₀ × u̇ − Ω₀ × (Ω₀ × x̂) − Ω̇₀ × x̂ and the derivative of ψ̇ = T⁻¹(ψ) Ω − T⁻¹(−ψ) Ω₀.
+/// Computes ÿ_B of the deformation, Ω̇₀ and the acceleration of x₀ by THEORY (24), after deformation_rates(): ü = R₀ᵀ(ẍ
+/// − ẍ₀) − 2 Ω₀ × u̇ − Ω₀ × (Ω₀ × x̂) − Ω̇₀ × x̂, and the derivative of ψ̇ = T⁻¹(ψ) Ω − T⁻¹(−ψ) Ω₀.
 template <int D, class S, class Node>
 void deformation_accelerations_in(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   const Mat3<S> R0T = motion.R0.transpose();
@@ -73,8 +73,8 @@ void deformation_accelerations(const SuperelementBody& body, const NodeView<Node
   in_space(body.planar, [&]<int D>() { deformation_accelerations_in<D>(body, nodes, motion); });
 }
 
-/// y_B of THEORY (17), and rates and accelerations of the inertia by THEORY (26) and (29): ẏ = P q̇, ÿ = P q̈ + V Ω₀
-/// ([Car00] (36)-(41), (52)-(58)).
+/// Computes y_B of THEORY (17), and rates and accelerations of the inertia by THEORY (26) and (29): ẏ = P q̇, ÿ = P q̈ +
+/// V Ω₀ ([Car00] (36)-(41), (52)-(58)).
 template <int D, class S, class Node>
 void local_rates(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   constexpr int T = Space<D>::turns;
@@ -134,7 +134,7 @@ void local_motion_in(const SuperelementBody& body, const NodeView<Node>& nodes, 
   local_rates<D>(body, nodes, motion);
 }
 
-/// Everything of LocalMotion except the internal coordinates, which the caller copies in. motion.R0 as in
+/// Computes all of LocalMotion except the internal coordinates, which the caller copies. motion.R0 as in
 /// floating_frame().
 template <class S, class Node>
 void local_motion(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {

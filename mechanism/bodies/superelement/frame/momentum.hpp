@@ -1,5 +1,5 @@
-// The exact motion of a superelement's centre of mass, for every scalar. Inertia option M uses it instead of the
-// interpolated motion.
+// Exact motion of a superelement's centre of mass, for any scalar. Inertia option M uses it instead of the interpolated
+// motion.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace tisserand::mechanism {
 
-/// e' of THEORY (5), the derivative of e of inverse_tangent_so3() by s = |ψ|²: (1/8 − 3e/2)/s + e²/2, by its series
-/// (|B₂ₖ|/(2k)!) where that cancels.
+/// Derivative e' of THEORY (5), of e of inverse_tangent_so3() by s = |ψ|²: (1/8 − 3e/2)/s + e²/2. Small s use its
+/// series (|B₂ₖ|/(2k)!), because the formula loses digits there.
 template <class S>
 S inverse_tangent_slope(const S& s, const S& e) {
   return real_part(s) < 0.1
@@ -20,8 +20,8 @@ S inverse_tangent_slope(const S& s, const S& e) {
              : S((0.125 - 1.5 * e) / s + 0.5 * e * e);
 }
 
-/// d/dt T⁻¹(ψ) for given ψ̇, THEORY (5): ψ̇~/2 + e (ψ̇~ψ~ + ψ~ψ̇~) + 2 e' (ψ·ψ̇) ψ~², with e of inverse_tangent_so3() as a
-/// function of s = |ψ|².
+/// Rate d/dt T⁻¹(ψ) for given ψ̇, THEORY (5): ψ̇~/2 + e (ψ̇~ψ~ + ψ~ψ̇~) + 2 e' (ψ·ψ̇) ψ~², with e of inverse_tangent_so3()
+/// as a function of s = |ψ|².
 template <class S>
 Mat3<S> inverse_tangent_rate(const Vec3<S>& psi, const Vec3<S>& psid) {
   const S s = dot3<S>(psi, psi);
@@ -42,7 +42,7 @@ Vec3<S> turning_bias(const Vec3<S>& psi, const Vec3<S>& psid, const Vec3<S>& Ome
          f.e * (cross<S>(psid, turned) + cross<S>(psi, cross<S>(psid, relative))) + bend * cross<S>(psi, turned);
 }
 
-/// Rotation rows of ÿ_B: turning_bias() alone, which is zero in the plane; after deformation_rates().
+/// Sets the rotation rows of ÿ_B to turning_bias() alone, which is zero in the plane. Needs deformation_rates().
 template <int D, class S, class Node>
 void turning_biases(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   for (std::size_t i = 0; i < body.node.size(); ++i) {
@@ -57,8 +57,8 @@ void turning_biases(const SuperelementBody& body, const NodeView<Node>& nodes, L
   }
 }
 
-/// Ω̇₀ = U q̈ + U̇ q̇ of THEORY (25), after turning_biases(). The second derivative of Σ αⱼ ψⱼ = 0 gives
-/// U̇ q̇ = Σ Uⱼ T(ψⱼ) (Ṫ⁻¹(ψⱼ) Ωⱼ − Ṫ⁻ᵀ(ψⱼ) Ω₀). For the polar frame it is Σ U_xⱼ R₀ (−2 Ω₀ × x̂ⱼ' − Ω₀ × (Ω₀ × x̂ⱼ)).
+/// Rate Ω̇₀ = U q̈ + U̇ q̇ of THEORY (25), after turning_biases(). The second derivative of Σ αⱼ ψⱼ = 0 gives U̇ q̇ = Σ Uⱼ
+/// T(ψⱼ) (Ṫ⁻¹(ψⱼ) Ωⱼ − Ṫ⁻ᵀ(ψⱼ) Ω₀). For the polar frame it is Σ U_xⱼ R₀ (−2 Ω₀ × x̂ⱼ' − Ω₀ × (Ω₀ × x̂ⱼ)).
 template <int D, class S, class Node>
 auto frame_acceleration(const SuperelementBody& body, const NodeView<Node>& nodes, const LocalMotion<S>& motion) {
   using Rotation = Eigen::Matrix<S, Space<D>::turns, 1>;
@@ -89,7 +89,7 @@ auto frame_acceleration(const SuperelementBody& body, const NodeView<Node>& node
   return acceleration;
 }
 
-/// sum += Γ v; planar bodies have two rows of Γ.
+/// Adds Γ v to sum; planar bodies have two rows of Γ.
 template <class S>
 void add_sum(const SuperelementBody& body, const Eigen::Matrix<double, 3, Eigen::Dynamic>& Gamma,
              const Eigen::Matrix<S, Eigen::Dynamic, 1>& v, Vec3<S>& sum) {
@@ -102,7 +102,7 @@ void add_sum(const SuperelementBody& body, const Eigen::Matrix<double, 3, Eigen:
   sum << x, y, z;
 }
 
-/// f −= Γᵀ g.
+/// Subtracts Γᵀ g from f.
 template <class S>
 void subtract_share(const SuperelementBody& body, const Eigen::Matrix<double, 3, Eigen::Dynamic>& Gamma,
                     const Vec3<S>& g, Eigen::Matrix<S, Eigen::Dynamic, 1>& f) {
@@ -114,7 +114,7 @@ void subtract_share(const SuperelementBody& body, const Eigen::Matrix<double, 3,
   }
 }
 
-/// Φ_TᵀM̄ [boundary; internal] / m.
+/// Mean Φ_TᵀM̄ [boundary; internal] / m.
 template <class S>
 Vec3<S> mean_of(const SuperelementBody& body, const Eigen::Matrix<S, Eigen::Dynamic, 1>& boundary,
                 const Eigen::Matrix<S, Eigen::Dynamic, 1>& internal) {
@@ -124,9 +124,9 @@ Vec3<S> mean_of(const SuperelementBody& body, const Eigen::Matrix<S, Eigen::Dyna
   return sum / body.mass;
 }
 
-/// motion.center, center_rate, center_velocity and center_acceleration: THEORY (32), x_cm = x₀ + R₀ c with c = X_cm +
-/// Φ_TᵀM̄ y/m, and THEORY (36) in axes of the frame: ẋ₀ + Ω₀ × c + ċ and ẍ₀ + Ω̇₀ × c + Ω₀ × (Ω₀ × c) + 2 Ω₀ × ċ + c̈.
-/// After deformation_accelerations().
+/// Computes motion.center, center_rate, center_velocity and center_acceleration. By THEORY (32), x_cm = x₀ + R₀ c with
+/// c = X_cm + Φ_TᵀM̄ y/m; THEORY (36) in axes of the frame gives ẋ₀ + Ω₀ × c + ċ and ẍ₀ + Ω̇₀ × c + Ω₀ × (Ω₀ × c) + 2 Ω₀
+/// × ċ + c̈. Needs deformation_accelerations().
 template <class S>
 void center_of_mass_motion(const SuperelementBody& body, LocalMotion<S>& motion) {
   const Vec3<S> w = motion.Omega0, wd = motion.Omega0d;

@@ -1,4 +1,4 @@
-// Floating frames of superelement bodies that stay in a plane, for every scalar: rotations add up there, and T⁻¹ is 1.
+// Floating frames of planar superelement bodies, for any scalar: rotations add, and T⁻¹ is 1.
 #pragma once
 
 #include <cmath>
@@ -18,8 +18,8 @@ Mat3<S> about_z(const S& cosine, const S& sine) {
   return R;
 }
 
-/// Rotation nodes: θ₀ = Σ αⱼ θⱼ, with angles from the first of them. In the plane all frames from rotations are this
-/// one.
+/// Frame of rotation nodes: θ₀ = Σ αⱼ θⱼ, with angles from the first of them. In the plane all frames from rotations
+/// are equal to it.
 template <class S, class Node>
 void frame_of_rotations(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   using std::cos, std::sin;
@@ -39,7 +39,7 @@ void frame_of_rotations(const SuperelementBody& body, const NodeView<Node>& node
   }
 }
 
-/// Nodes without rotations: tan θ₀ = Σ w X × d / Σ w X·d, d = x − x̄; row z of U_x is its variation.
+/// Frame of nodes without rotations: tan θ₀ = Σ w X × d / Σ w X·d, d = x − x̄; row z of U_x is its variation.
 template <class S, class Node>
 void frame_of_places(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   using std::sqrt;

@@ -1,4 +1,4 @@
-// The rows of the centre of mass of a superelement body, and their products in the step tangent of inertia option M.
+// Rows of the centre of mass of a superelement body, and their products in the step tangent of inertia option M.
 #include "mechanism/bodies/superelement/tangent/center_tangent.hpp"
 
 #include <cstddef>
@@ -12,7 +12,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// out += (F U)ᵀ
+/// Adds (F U)ᵀ to out.
 void add_frame_rotation(const SuperelementBody& body, const LocalMotion<double>& motion, const Matrix3d& F,
                         Columns& out) {
   if (body.frame == FrameAlgorithm::polar) {
@@ -28,7 +28,7 @@ void add_frame_rotation(const SuperelementBody& body, const LocalMotion<double>&
   }
 }
 
-/// Shares of δΘ₀: κ in J = Γ_B [R₀ᵀ; T⁻¹]/m + κ U, zero without deformation; κ̇; and Γ V.
+/// Coefficients of δΘ₀: κ in J = Γ_B [R₀ᵀ; T⁻¹]/m + κ U, which is zero without deformation; κ̇; and Γ V.
 struct FrameRotation {
   Matrix3d kappa, rate, GV = Matrix3d::Zero();
 };
@@ -40,7 +40,7 @@ FrameRotation start_of_frame_rotation(const LocalMotion<double>& motion) {
   return shares;
 }
 
-/// Rows of a node's translation in g, z, J, F, and its shares of δΘ₀.
+/// Adds the rows of a node's translation to g, z, J, F, and its share in the coefficients of δΘ₀.
 void add_translation(const SuperelementBody& body, const LocalMotion<double>& motion, std::size_t i, double damping,
                      CenterWork& out, FrameRotation& shares) {
   const int row = body.node[i].translation_row;
@@ -54,7 +54,7 @@ void add_translation(const SuperelementBody& body, const LocalMotion<double>& mo
   out.F.middleRows<3>(row) = (2.0 * damping / body.mass) * motion.R0 * (O0 * G - G * O0).transpose();
 }
 
-/// Rows of a node's rotation.
+/// Adds the rows of a node's rotation likewise.
 void add_rotation(const SuperelementBody& body, const LocalMotion<double>& motion, std::size_t i, double damping,
                   CenterWork& out, FrameRotation& shares) {
   const int row = body.node[i].rotation_row;
@@ -69,7 +69,7 @@ void add_rotation(const SuperelementBody& body, const LocalMotion<double>& motio
   out.F.middleRows<3>(row) = (2.0 * damping / body.mass) * (O0 * G * local.Tinv + G * Tinv_rate).transpose();
 }
 
-/// All but w.
+/// Sets all columns except w.
 void set_columns(const SuperelementBody& body, const LocalMotion<double>& motion, const TangentCoefficients& c,
                  CenterWork& out) {
   for (Columns* columns : {&out.g, &out.z, &out.J, &out.F}) columns->setZero();
@@ -89,7 +89,7 @@ void set_columns(const SuperelementBody& body, const LocalMotion<double>& motion
   out.F += c.mass * out.J;
 }
 
-/// R₀ᵀẍ_cm of a coordinate that moves the centre of mass in axes of the frame: c_m + 2 c_c Ω₀~.
+/// Derivative of R₀ᵀẍ_cm by a coordinate that moves the centre of mass in axes of the frame: c_m + 2 c_c Ω₀~.
 Matrix3d acceleration_of_rates(const TangentCoefficients& c, const LocalMotion<double>& motion) {
   return c.mass * Matrix3d::Identity() + skew<double>(2.0 * c.damping * motion.Omega0);
 }

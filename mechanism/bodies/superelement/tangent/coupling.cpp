@@ -8,12 +8,12 @@ using Eigen::Vector3d;
 
 Vector3d segment3(const double* v, int row) { return Eigen::Map<const Vector3d>(v + row); }
 
-/// v in axes of the frame: R₀ᵀ v of translations, E v of rotations with option A.
+/// Rotation rows of v in axes of the frame: E v with option A, otherwise v.
 Vector3d rotation_part(const SuperelementBody& body, const LocalNode<double>& local, const Vector3d& v) {
   return body.inertia == formats::InertiaOption::A ? Vector3d(local.E * v) : v;
 }
 
-/// δΘ₀ = U v.
+/// Rotation increment δΘ₀ = U v of the frame.
 Vector3d frame_rotation(const SuperelementBody& body, const SuperelementTangent& tangent, const double* v) {
   Vector3d rotation = Vector3d::Zero();
   if (body.frame == FrameAlgorithm::polar) {
@@ -30,8 +30,8 @@ Vector3d frame_rotation(const SuperelementBody& body, const SuperelementTangent&
   return rotation;
 }
 
-/// c_m Pᵀ t + c_c (Pᵀ (O₀ ∓ turn O_B) t − frame UᵀVᵀ t), with W and Z of THEORY (37), (38): W t with 1, 1; Zᵀ t with 0,
-/// −1.
+/// Signs in c_m Pᵀ t + c_c (Pᵀ (O₀ ∓ turn O_B) t − frame UᵀVᵀ t), with W and Z of THEORY (37), (38). (1, 1) gives W t,
+/// (0, −1) gives Zᵀ t.
 struct Side {
   double turn, frame;
 };
@@ -68,7 +68,7 @@ void apply_side(const SuperelementBody& body, const SuperelementTangent& tangent
   }
 }
 
-/// dy_I = −A_II⁻¹ (r_I + A_IB dq_B), r_I in work.internal_column.
+/// Computes dy_I = −A_II⁻¹ (r_I + A_IB dq_B), with r_I in work.internal_column.
 void expand_residual(const SuperelementBody& body, const SuperelementTangent& tangent, const double* dq_B, double* dy_I,
                      SuperelementWork& work) {
   if (tangent.dense_coupling) {

@@ -1,4 +1,4 @@
-// The coupling of boundary and internal coordinates in the step tangent: A_BI = W M_BI, A_IB = M_IB Z, and the terms of
+// Coupling of boundary and internal coordinates in the step tangent: A_BI = W M_BI, A_IB = M_IB Z, and the terms of
 // damping.
 #pragma once
 
@@ -8,18 +8,18 @@
 
 namespace tisserand::mechanism {
 
-/// out += factor Υᵀ t at the state of the latest tangent; t in local coordinates, out in those of r_B.
+/// Adds factor Υᵀ t to out at the state of the latest tangent; t in local coordinates, out in those of r_B.
 void add_upsilon_transposed(const SuperelementBody& body, const SuperelementTangent& tangent, double factor,
                             const Eigen::VectorXd& t, Eigen::VectorXd& out);
 
-/// out = Z v, Z = c_m P + c_c (O₀ᵀ P + V U).
+/// Computes out = Z v with Z = c_m P + c_c (O₀ᵀ P + V U).
 void apply_Z(const SuperelementBody& body, const SuperelementTangent& tangent, const double* v, Eigen::VectorXd& out);
 
-/// out = Zᵀ t.
+/// Computes out = Zᵀ t.
 void apply_Z_transposed(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
                         Eigen::VectorXd& out);
 
-/// out = W t, W = c_m Pᵀ + c_c (Pᵀ (O₀ ∓ O_B) − UᵀVᵀ).
+/// Computes out = W t with W = c_m Pᵀ + c_c (Pᵀ (O₀ ∓ O_B) − UᵀVᵀ).
 void apply_W(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
              Eigen::VectorXd& out);
 
@@ -29,7 +29,7 @@ bool has_stored_coupling(const SuperelementBody& body);
 /// Stores A_BI = W M_BI + c_c Υᵀ D_BI and A_IB = M_IB Z + c_c D_IB Υ in `tangent`.
 void store_coupling(const SuperelementBody& body, SuperelementTangent& tangent, SuperelementWork& work);
 
-/// work.A_BB −= A_BI A_II⁻¹ A_IB with the stored ones.
+/// Subtracts A_BI A_II⁻¹ A_IB from work.A_BB, with the stored blocks.
 void eliminate_internal(const SuperelementTangent& tangent, SuperelementWork& work);
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// The exact tangent of a superelement body, by dual numbers.
+// Exact tangent of a superelement body, by dual numbers.
 #include <Eigen/Core>
 #include <Eigen/LU>
 
@@ -39,8 +39,8 @@ Node perturbed(const NodeMotion& node, const Eigen::Vector3d& x, const Eigen::Ve
 
 }  // namespace
 
-// Column by column: the derivative of (r_B, r_I) in each direction. R₀ at entry: the converged one for iterated frames,
-// the same reference as update_kinematics() had for the incremental one.
+// Differentiates (r_B, r_I) column by column. On entry R₀ is the converged one for iterated frames, and for the
+// incremental frame the reference that update_kinematics() had.
 void whole_exact_tangent(const SuperelementBody& body, const SuperelementScratch& scratch,
                          const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,
                          const TangentCoefficients& c, Eigen::MatrixXd& A) {

@@ -10,15 +10,15 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-/// Z(ψ, b) = ∂(T⁻¹(ψ) b)/∂ψ of THEORY (21): −b~/2 + 2 e' (ψ × (ψ × b)) ψᵀ − e ((ψ × b)~ + ψ~ b~): column k is Ṫ⁻¹ for ψ̇
-/// = e_k, times b.
+/// Derivative Z(ψ, b) = ∂(T⁻¹(ψ) b)/∂ψ of THEORY (21): −b~/2 + 2 e' (ψ × (ψ × b)) ψᵀ − e ((ψ × b)~ + ψ~ b~). Column k
+/// is Ṫ⁻¹ b for ψ̇ = e_k.
 Matrix3d inverse_tangent_derivative(const Vector3d& psi, const Vector3d& b) {
   Matrix3d Z;
   for (int k = 0; k < 3; ++k) Z.col(k) = inverse_tangent_rate<double>(psi, Vector3d::Unit(k)) * b;
   return Z;
 }
 
-/// inverse_tangent_derivative() for rotations of nodes in space or in the plane, where T is 1.
+/// inverse_tangent_derivative() for rotations of nodes in space; zero in the plane, where T is 1.
 template <int D>
 Eigen::Matrix<double, Space<D>::turns, Space<D>::turns> derivative_of(const Vector3d& psi, const TurnOf<D>& b) {
   if constexpr (D == 3)
@@ -55,7 +55,7 @@ void add_frame_stiffness(const SuperelementBody& body, const SuperelementTangent
   }
   const Square to_c = Square(average.transpose()).inverse();
   const TurnOf<D> c0 = to_c * m0;
-  const auto turned = [&](int j) {  // of the force on node j, less its share of what x₀ takes
+  const auto turned = [&](int j) {  // force on node j, less its share of the force on x₀
     return Space<D>::turning(f.segment<D>(body.node[j].translation_row) - body.node[j].alpha * F0);
   };
   // THEORY (22), m₀ = μ and c₀ = γ: δm₀ without δf, and δc₀ = A⁻ᵀ (δm₀ − Σ αᵢ Z(ψᵢ, c₀) δψᵢ), per column of δq.

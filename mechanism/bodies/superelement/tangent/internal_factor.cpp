@@ -1,11 +1,11 @@
-// Cholesky where it exists, else LU.
+// Factors by Cholesky if the matrix is positive definite, else by LU.
 #include "mechanism/bodies/superelement/tangent/internal_factor.hpp"
 
 namespace tisserand::mechanism {
 
 using Eigen::MatrixXd;
 
-// A factor of something: an empty one is not all initialised, and copies read all of it.
+// Starts with the factor of a matrix: copies read all of it, and an empty factor is not fully initialised.
 InternalFactor::InternalFactor() : cholesky_(MatrixXd(0, 0)) {}
 
 void InternalFactor::resize(Eigen::Index modes) {

@@ -1,4 +1,4 @@
-// Factors of the internal block of a superelement's tangent.
+// Factorisation of the internal block of a superelement's tangent.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -6,27 +6,27 @@
 
 namespace tisserand::mechanism {
 
-/// A_II: a diagonal, a matrix by Cholesky, or one by LU where it is not positive definite: beyond a buckling load of
-/// the body with its boundary held, or of an exact tangent.
+/// Factors of A_II: a diagonal, Cholesky factors, or LU if it is not positive definite. LU is needed beyond a buckling
+/// load of the body with its boundary held, and for an exact tangent.
 class InternalFactor {
  public:
   InternalFactor();
-  /// Takes the memory that factors of matrices need later.
+  /// Allocates the memory for later factorisations.
   void resize(Eigen::Index modes);
 
   void set_diagonal(const Eigen::VectorXd& A);
-  /// A: its lower triangle counts.
+  /// Factors a symmetric A, of which the lower triangle is read.
   void factor_symmetric(const Eigen::Ref<const Eigen::MatrixXd>& A);
   void factor(const Eigen::Ref<const Eigen::MatrixXd>& A);
 
-  /// x ← A⁻¹ x.
+  /// Replaces x by A⁻¹ x.
   void solve_in_place(Eigen::VectorXd& x) const;
   void solve_in_place(Eigen::MatrixXd& X) const;
 
-  /// 1/A of a diagonal matrix A.
+  /// Reciprocals 1/A of a diagonal matrix A.
   const Eigen::VectorXd& reciprocals() const { return reciprocals_; }
 
-  /// Lower triangle of S −= Bᵀ A⁻¹ B of a symmetric matrix A; B (modes x columns) is lost.
+  /// Subtracts Bᵀ A⁻¹ B from the lower triangle of S, for a symmetric matrix A. Overwrites B (modes x columns).
   void subtract_schur(Eigen::MatrixXd& B, Eigen::MatrixXd& S) const;
 
  private:

@@ -1,4 +1,4 @@
-// Sums of products of columns, in axes of the frame; these turn into the world at the end.
+// Planar step tangent: sums of products of columns in axes of the frame, which are rotated to world axes at the end.
 
 #include "mechanism/bodies/superelement/tangent/coupling.hpp"
 #include "mechanism/bodies/superelement/tangent/second_order_tangent.hpp"
@@ -10,8 +10,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// PlanarColumns of work.planar_columns, nb rows each. U, V, h: δΘ₀ = Uᵀ δq, V Ω₀ of the rates, Υ = 1 + h Uᵀ but for
-/// weights of x₀; a: M V + V₁. Of inertia M two columns each.
+/// Columns of work.planar_columns, nb rows each. U: δΘ₀ = Uᵀ δq. V: V Ω₀ of the rates. h: Υ = 1 + h Uᵀ, apart from the
+/// weights of x₀. a: M V + V₁. Inertia M adds pairs of columns.
 struct PlanarColumns {
   explicit PlanarColumns(MatrixXd& store) : store_(store) {}
   auto U() { return store_.col(0); }
@@ -30,7 +30,7 @@ struct PlanarColumns {
   MatrixXd& store_;
 };
 
-/// v × e_z.
+/// Product v × e_z.
 Vector2d across(double x, double y) { return {y, -x}; }
 
 void set_planar_columns(const SuperelementBody& body, const SuperelementScratch& scratch, PlanarColumns& columns) {
@@ -58,7 +58,7 @@ void set_planar_columns(const SuperelementBody& body, const SuperelementScratch&
   }
 }
 
-/// out += c O₀ X.
+/// Adds c O₀ X to out.
 void add_O0(const SuperelementBody& body, double c, const MatrixXd& X, MatrixXd& out) {
   for (const SuperelementNode& node : body.node) {
     const int row = node.translation_row;
@@ -68,7 +68,7 @@ void add_O0(const SuperelementBody& body, double c, const MatrixXd& X, MatrixXd&
   }
 }
 
-/// out += c X O₀ᵀ.
+/// Adds c X O₀ᵀ to out.
 void add_O0_transposed(const SuperelementBody& body, double c, const MatrixXd& X, MatrixXd& out) {
   for (const SuperelementNode& node : body.node) {
     const int row = node.translation_row;
@@ -78,7 +78,7 @@ void add_O0_transposed(const SuperelementBody& body, double c, const MatrixXd& X
   }
 }
 
-/// c_m M̄ + c_c (C₁ + C₂) + Υᵀ S' Υ, S' = c_k S̄ + c_c D.
+/// Sets the boundary block to c_m M̄ + c_c (C₁ + C₂) + Υᵀ S' Υ with S' = c_k S̄ + c_c D.
 void set_boundary(const SuperelementBody& body, double w, PlanarColumns& columns, SuperelementWork& work) {
   const TangentCoefficients& c = work.coefficients;
   MatrixXd& A = work.A_BB;
@@ -101,7 +101,7 @@ void set_boundary(const SuperelementBody& body, double w, PlanarColumns& columns
   add_O0_transposed(body, c.damping * w, body.M_BB, A);
 }
 
-/// A_BI = W M_BI + c_c Υᵀ D_BI, A_IB = M_IB Z + c_c D_IB Υ.
+/// Sets A_BI = W M_BI + c_c Υᵀ D_BI and A_IB = M_IB Z + c_c D_IB Υ.
 void set_coupling(const SuperelementBody& body, double w, PlanarColumns& columns, SuperelementTangent& frozen,
                   SuperelementWork& work) {
   const TangentCoefficients& c = work.coefficients;
@@ -181,7 +181,7 @@ void add_center_of_mass(const SuperelementBody& body, const LocalMotion<double>&
   frozen.A_IB.noalias() += body.Gamma_I.topRows<2>().transpose().lazyProduct(IB.transpose());
 }
 
-/// Rows of translations of X turned from the frame into the world, or its columns.
+/// Rotates the rows of translations of X from the frame to world axes, or its columns.
 template <class Matrix>
 void turn_rows(const SuperelementBody& body, const Eigen::Matrix3d& R0, Matrix& X) {
   const double c = R0(0, 0), s = R0(1, 0);

@@ -1,4 +1,4 @@
-// Assembly in (x₀, Θ₀, y), elimination of the internal coordinates there, and the way to the coordinates of the nodes.
+// Assembly in (x₀, Θ₀, y), elimination of the internal coordinates there, and transformation to node coordinates.
 #include "mechanism/bodies/superelement/tangent/second_order_tangent.hpp"
 
 #include <Eigen/Dense>
@@ -10,7 +10,7 @@ using Eigen::Lower;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 
-/// out = X [A₀; U; Υ], X with 6 + nb columns: x₀, Θ₀, y_B.
+/// Computes out = X [A₀; U; Υ] for X with 6 + nb columns: x₀, Θ₀, y_B.
 template <int D>
 void times_Z_in(const SuperelementBody& body, const SuperelementTangent& frozen, const MatrixXd& X, MatrixXd& out,
                 MatrixXd& thin) {
@@ -29,7 +29,7 @@ void times_Z_in(const SuperelementBody& body, const SuperelementTangent& frozen,
     if (node.has_rotation())
       turn -= X.middleCols<n>(6 + node.rotation_row).lazyProduct(local.Tinv.bottomRightCorner<n, n>().transpose());
   }
-  auto& rest = total;  // of the columns of x₀, which the weights share out
+  auto& rest = total;  // share of the columns of x₀, which the weights distribute
   rest = X.leftCols<D>() - total;
   const Eigen::Matrix<double, D, D> R0T = frozen.R0.topLeftCorner<D, D>().transpose();
   for (std::size_t i = 0; i < body.node.size(); ++i) {
@@ -37,7 +37,7 @@ void times_Z_in(const SuperelementBody& body, const SuperelementTangent& frozen,
     const LocalNode<double>& local = frozen.node[i];
     if (node.has_translation()) {
       const int row = node.translation_row;
-      for (int c = 0; c < D; ++c) {  // column by column: a product with a sum would take memory for the sum
+      for (int c = 0; c < D; ++c) {  // column by column, because a product with a sum would allocate memory for the sum
         auto column = out.col(row + c);
         column = R0T(0, c) * (X.col(6 + row) + node.alpha * rest.col(0));
         for (int k = 1; k < D; ++k) column += R0T(k, c) * (X.col(6 + row + k) + node.alpha * rest.col(k));
@@ -64,8 +64,8 @@ void freeze_frame(const LocalMotion<double>& motion, const TangentCoefficients& 
   frozen.node = motion.node;
 }
 
-/// Lower triangle of the y block += c_k K_y + c_c b (L + h)ᵀ(L + h), THEORY (44), (45), K_y = (L + h)ᵀ(L + h) + Σ e_a
-/// Γ_a.
+/// Adds c_k K_y + c_c b (L + h)ᵀ(L + h), THEORY (44), (45), to the lower triangle of the y block, with K_y = (L + h)ᵀ(L
+/// + h) + Σ e_a Γ_a.
 void add_strain_stiffness(const SuperelementBody& body, const StrainTerms<double>& t, const TangentCoefficients& c,
                           SecondOrderWork& work) {
   const Stiffening& stiffening = *body.second_order.stiffening;
@@ -75,7 +75,7 @@ void add_strain_stiffness(const SuperelementBody& body, const StrainTerms<double
   if (c.stiffness != 0.0) add_combination(stiffening.Gamma, c.stiffness, t.e, K);
 }
 
-/// Lower triangle of the y block += stiffness of the load cases, −c_k Σ s K.
+/// Adds the stiffness of the load cases, −c_k Σ s K, to the lower triangle of the y block.
 void add_load_stiffness(const SuperelementBody& body, const LoadTerms<double>& t, double stiffness,
                         SecondOrderWork& work) {
   for (std::size_t i = 0; i < body.load_cases.size(); ++i) {
@@ -85,14 +85,14 @@ void add_load_stiffness(const SuperelementBody& body, const LoadTerms<double>& t
   }
 }
 
-/// The y block += factor S̄, which is block diagonal.
+/// Adds factor S̄, which is block diagonal, to the y block.
 void add_linear_stiffness(const SuperelementBody& body, double factor, SecondOrderWork& work) {
   const int nb = body.boundary_size, m = body.modes;
   work.K.block(6, 6, nb, nb) += factor * body.S_BB;
   work.K.diagonal().tail(m) += factor * body.S_II;
 }
 
-/// The y block += damping without b S̄.
+/// Adds the damping without b S̄ to the y block.
 void add_damping(const SuperelementBody& body, double factor, SecondOrderWork& work) {
   const SuperelementDamping& damping = body.damping;
   if (!damping.active || factor == 0.0) return;
@@ -104,7 +104,7 @@ void add_damping(const SuperelementBody& body, double factor, SecondOrderWork& w
   work.K.bottomRightCorner(m, m) += factor * damping.II;
 }
 
-/// Lower triangle of ∂²T/∂(ν, ẏ)² of THEORY (54), ν = (v₀, Ω₀): Wᵀ M̄ W, and the terms of C and JJ by Ω₀.
+/// Adds the lower triangle of ∂²T/∂(ν, ẏ)² of THEORY (54), ν = (v₀, Ω₀): Wᵀ M̄ W, and the terms of C and JJ by Ω₀.
 void add_inertia(const SuperelementBody& body, const InertiaTerms<double>& t, double factor, SecondOrderWork& work) {
   if (factor == 0.0) return;
   const FullInertia& inertia = *body.second_order.inertia;
@@ -141,7 +141,7 @@ void add_inertia(const SuperelementBody& body, const InertiaTerms<double>& t, do
   work.K.topLeftCorner<6, 6>() += factor * rr;
 }
 
-/// Lower triangle of all terms of inertia option F.
+/// Assembles the lower triangle of all terms of inertia option F.
 void assemble_full_inertia(const SuperelementBody& body, const SuperelementForces<double>& forces,
                            const TangentCoefficients& c, SecondOrderWork& work) {
   work.K.setZero();
@@ -154,7 +154,7 @@ void assemble_full_inertia(const SuperelementBody& body, const SuperelementForce
   add_load_stiffness(body, forces.loads, c.stiffness, work);
 }
 
-/// K_y − S̄, lower triangle.
+/// Assembles the lower triangle of K_y − S̄.
 void assemble_stiffening(const SuperelementBody& body, const SuperelementForces<double>& forces,
                          const TangentCoefficients& c, SecondOrderWork& work) {
   work.K.setZero();
@@ -163,7 +163,7 @@ void assemble_stiffening(const SuperelementBody& body, const SuperelementForces<
   add_load_stiffness(body, forces.loads, c.stiffness, work);
 }
 
-/// work.second.pulled = Zᵀ K_bb Z.
+/// Computes work.second.pulled = Zᵀ K_bb Z.
 void pull_back_boundary(const SuperelementBody& body, const SuperelementTangent& frozen, SuperelementWork& work) {
   SecondOrderWork& w = work.second;
   w.K_bb.triangularView<Eigen::StrictlyUpper>() = w.K_bb.transpose();

@@ -9,15 +9,15 @@
 
 namespace tisserand::mechanism {
 
-/// Matrices to work in, of bodies with second-order terms.
+/// Allocates the work matrices of bodies with second-order terms.
 SecondOrderWork make_second_order_work(const SuperelementBody& body);
 
-/// Whether y_I is eliminated from the boundary part of a tangent, for which A_II is factored.
+/// Whether y_I is eliminated from the boundary part of a tangent. Elimination factors A_II.
 enum class InternalCoordinates { kept, eliminated };
 
-/// Step tangent of inertia option F: work.A_BB and the blocks of condense() and expand(). c_m Zᵀ M_ν Z + c_k (Υᵀ K_y Υ
-/// + K_f) + c_c Υᵀ D Υ with Z = [A₀; U; Υ], THEORY (54). Mass and stiffness are exact. The derivatives by velocities of
-/// the inertia and those of inertia and weight by positions are left out.
+/// Step tangent of inertia option F: work.A_BB and the blocks of condense() and expand(). It is c_m Zᵀ M_ν Z + c_k (Υᵀ
+/// K_y Υ + K_f) + c_c Υᵀ D Υ with Z = [A₀; U; Υ], THEORY (54). Mass and stiffness are exact. Derivatives of inertia by
+/// velocities, and of inertia and weight by positions, are omitted.
 void full_inertia_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
                           InternalCoordinates internal, SuperelementScratch& scratch, SuperelementWork& work);
 
@@ -26,13 +26,13 @@ void full_inertia_tangent(const SuperelementBody& body, const TangentCoefficient
 void add_stiffening_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
                             InternalCoordinates internal, SuperelementScratch& scratch, SuperelementWork& work);
 
-/// 3 x nb each.
+/// Work matrices of add_frame_stiffness(), 3 x nb each.
 struct FrameStiffnessWork {
   Eigen::Matrix<double, 3, Eigen::Dynamic>& dm;
   Eigen::Matrix<double, 3, Eigen::Dynamic>& dc;
 };
 
-/// Whether the frame turns with the rotation of the node, and δΘ₀ = frame_turn() δΘ then: α in the plane.
+/// Whether the rotation of the node turns the frame. If so, δΘ₀ = frame_turn() δΘ, which is α in the plane.
 inline bool turns_frame(const SuperelementBody& body, const SuperelementNode& node) {
   return body.frame != FrameAlgorithm::polar && node.alpha_rotation != 0.0;
 }
@@ -44,8 +44,8 @@ auto frame_turn(const SuperelementNode& node, const LocalNode<double>& local) {
     return TurnOf<2>(node.alpha_rotation);
 }
 
-/// A += factor K_f of THEORY (21), (22), K_f δq = (δΥᵀ) f at the frozen frame; f: elastic forces on y_B, from the
-/// turning of the frame under them. For frames from rotations; not symmetric with material increments.
+/// Adds factor K_f of THEORY (21), (22) to A: K_f δq = (δΥᵀ) f at the frozen frame, with the elastic forces f on y_B.
+/// The frame turns under them. For frames from rotations; not symmetric with material increments.
 template <int D>
 void add_frame_stiffness(const SuperelementBody& body, const SuperelementTangent& frozen, const Eigen::VectorXd& f,
                          double factor, FrameStiffnessWork work, Eigen::MatrixXd& A);
@@ -53,8 +53,8 @@ void add_frame_stiffness(const SuperelementBody& body, const SuperelementTangent
 // Planar bodies (planar_tangent.cpp) have the same terms. They have so few coordinates that products with vectors and a
 // dense coupling to internal coordinates are fastest.
 
-/// work.A_BB with internal coordinates kept, and A_BI, A_IB of `scratch.tangent`, for work.coefficients, after freezing
-/// the state; with the terms of inertia option M. Stiffness and damping as in tangent(): work.K if the damping is full.
+/// Freezes the state and computes work.A_BB with y_I kept, and A_BI, A_IB of `scratch.tangent`, for work.coefficients,
+/// with the terms of inertia option M. Stiffness and damping are those of tangent(): work.K if the damping is full.
 void planar_tangent(const SuperelementBody& body, SuperelementScratch& scratch, SuperelementWork& work);
 
 }  // namespace tisserand::mechanism

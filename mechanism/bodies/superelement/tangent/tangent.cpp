@@ -23,19 +23,19 @@ using Thin = Eigen::Map<Eigen::Matrix<double, NB, 3>>;
 template <int NB>
 using ConstWide = Eigen::Map<const Eigen::Matrix<double, 3, NB>>;
 
-/// The part of a 3-column block of rows or columns that starts at `row`.
+/// Block of three columns that starts at `row`.
 template <class Matrix>
 auto columns(Matrix& A, int row) {
   return A.template middleCols<3>(row);
 }
 
-/// K for these coefficients.
+/// Updates K for these coefficients.
 void update_full_stiffness(const SuperelementBody& body, const TangentCoefficients& c, SuperelementWork& work) {
   if (body.damping.is_full())
     work.K = (c.stiffness + c.damping * body.damping.stiffness) * body.S_BB + c.damping * body.damping.BB;
 }
 
-/// D, Q, N for these coefficients; nothing to do while they stay.
+/// Updates D, Q, N for these coefficients; does nothing if they have not changed.
 void update_constants(const SuperelementBody& body, const TangentCoefficients& c, SuperelementWork& work) {
   if (work.constants_valid && work.coefficients == c) return;
   const Eigen::Index nb = body.boundary_size;
@@ -57,12 +57,12 @@ void update_constants(const SuperelementBody& body, const TangentCoefficients& c
   work.internal.factor_symmetric(work.A_II);
 }
 
-/// Keeps the state of this tangent for condense() and expand(), and U P⁻¹.
+/// Stores the state of this tangent, and U P⁻¹, for condense() and expand().
 void freeze(const SuperelementBody& body, const LocalMotion<double>& motion, const SuperelementWork& work,
             SuperelementTangent& frozen) {
   frozen.dense_coupling = false;
   frozen.coefficients = work.coefficients;
-  if (!body.second_order.any()) frozen.internal = work.internal;  // else factored with what changes
+  if (!body.second_order.any()) frozen.internal = work.internal;  // otherwise factored with the terms that change
   frozen.R0 = motion.R0;
   frozen.Omega0 = motion.Omega0;
   frozen.node = motion.node;
@@ -83,18 +83,18 @@ void freeze(const SuperelementBody& body, const LocalMotion<double>& motion, con
   }
 }
 
-/// The diagonal block of THEORY (19), δψ = B δΘ (in axes of the frame with option A: T⁻¹(ψ) Eᵀ = T⁻¹(−ψ)).
+/// Diagonal block of THEORY (19), δψ = B δΘ (in axes of the frame with option A: T⁻¹(ψ) Eᵀ = T⁻¹(−ψ)).
 Eigen::Matrix3d rotation_map(InertiaOption inertia, const LocalNode<double>& local) {
   return inertia == InertiaOption::A ? Eigen::Matrix3d(local.Tinv.transpose()) : local.Tinv;
 }
 
-/// Column `row` of a matrix with nb rows.
+/// Pointer to column `row` of a matrix with nb rows.
 template <class Matrix>
 auto* column_data(Matrix& A, int row) {
   return A.data() + A.rows() * row;
 }
 
-/// out = X V, V = [ẋ*~; Ω*~ (option A); 0].
+/// Computes out = X V with V = [ẋ*~; Ω*~ (option A); 0].
 template <int NB, class X>
 void multiply_V(const SuperelementBody& body, const SuperelementTangent& frozen, const X& matrix, Thin<NB>& out) {
   out.setZero();
@@ -109,7 +109,7 @@ void multiply_V(const SuperelementBody& body, const SuperelementTangent& frozen,
   }
 }
 
-/// out += F U, only the columns in which U is not zero.
+/// Adds F U to out, only in the columns in which U is not zero.
 template <int NB>
 void add_times_U(const SuperelementBody& body, const SuperelementTangent& frozen, const Thin<NB>& F, Square<NB>& out) {
   const int nb = body.boundary_size;
@@ -121,7 +121,7 @@ void add_times_U(const SuperelementBody& body, const SuperelementTangent& frozen
   }
 }
 
-/// out += c X O₀ᵀ.
+/// Adds c X O₀ᵀ to out.
 template <int NB, class X>
 void add_times_O0(const SuperelementBody& body, const SuperelementTangent& frozen, double c, const X& matrix,
                   Square<NB>& out) {
@@ -136,7 +136,7 @@ void add_times_O0(const SuperelementBody& body, const SuperelementTangent& froze
   }
 }
 
-/// out += c X (O₀ ∓ O_B)ᵀ.
+/// Adds c X (O₀ ∓ O_B)ᵀ to out.
 template <int NB, class X>
 void add_times_O(const SuperelementBody& body, const SuperelementTangent& frozen, double c, const X& matrix,
                  Square<NB>& out) {
@@ -156,9 +156,9 @@ void add_times_O(const SuperelementBody& body, const SuperelementTangent& frozen
   }
 }
 
-/// Υᵀ S' Υ with S' = k S, S = S_BB or work.K, Υ = B + H U (S' has no stiffness against translation, so the weights of
-/// x₀ drop out): G = Bᵀ S' B = (S' B)ᵀ B, J = Bᵀ S' H + ½ Uᵀ (Hᵀ S' H); then Υᵀ S' Υ = G + J U + (J U)ᵀ. `SB` is work
-/// space.
+/// Computes the parts of Υᵀ S' Υ with S' = k S, S = S_BB or work.K, Υ = B + H U. S' has no stiffness against
+/// translation, so the weights of x₀ cancel. G = Bᵀ S' B = (S' B)ᵀ B and J = Bᵀ S' H + ½ Uᵀ (Hᵀ S' H) give Υᵀ S' Υ = G
+/// + J U + (J U)ᵀ. `SB` is work space.
 template <int NB>
 void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& frozen, const Eigen::MatrixXd& stiffness,
                      double k, Square<NB>& SB, Square<NB>& G, Thin<NB>& J) {
@@ -195,7 +195,7 @@ void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& fr
   J.noalias() += U.transpose().lazyProduct(0.5 * HSH);
 }
 
-/// out = X P.
+/// Computes out = X P.
 template <int NB>
 void multiply_P(const SuperelementBody& body, const SuperelementTangent& frozen, const Square<NB>& X, Square<NB>& out) {
   const int nb = body.boundary_size;
@@ -214,7 +214,7 @@ void multiply_P(const SuperelementBody& body, const SuperelementTangent& frozen,
   }
 }
 
-/// V₁ and the blocks ∓p~ of C₃ of THEORY (31): F −= c V₁ and G += ±c p~.
+/// Adds V₁ and the blocks ∓p~ of C₃ of THEORY (31): F −= c V₁ and G += ±c p~.
 template <int NB>
 void add_momenta(const SuperelementBody& body, const Eigen::VectorXd& p, double c, Thin<NB>& V1, Square<NB>& G) {
   for (const SuperelementNode& node : body.node) {
@@ -233,8 +233,8 @@ void add_momenta(const SuperelementBody& body, const Eigen::VectorXd& p, double 
 
 /// Boundary tangent of THEORY (38) in axes of the frame, with N = M_BB − c_m Q, Z₁ = c_c (O₀ᵀ + V U), W₁ = c_c (O₀ ∓
 /// O_B − UᵀVᵀ):
-///   Â = c_m N + W₁ (N − Q Z₁) + N Z₁ + c_c (V₁ U − UᵀV₁ᵀ ∓ p~) + Υᵀ S' Υ
-/// Âᵀ = G₁ + G₂ᵀ is collected by operations on columns only; N' = N − (Q Z₁)ᵀ.
+/// Â = c_m N + W₁ (N − Q Z₁) + N Z₁ + c_c (V₁ U − UᵀV₁ᵀ ∓ p~) + Υᵀ S' Υ
+/// Âᵀ = G₁ + G₂ᵀ is accumulated by operations on columns only; N' = N − (Q Z₁)ᵀ.
 template <int NB>
 void condensed_tangent(const SuperelementBody& body, const SuperelementScratch& scratch, bool eliminate,
                        SuperelementWork& work) {
@@ -264,7 +264,7 @@ void condensed_tangent(const SuperelementBody& body, const SuperelementScratch& 
   multiply_V<NB>(body, frozen, N, F);
   G2.setZero();
   add_times_O0<NB>(body, frozen, c.damping, N, G2);
-  // F₂ = c_c (N V + V₁) + J goes with G₂, F₁ = −c_c (N' V + V₁) + J with G₁.
+  // F₂ = c_c (N V + V₁) + J belongs to G₂, F₁ = −c_c (N' V + V₁) + J to G₁.
   F *= c.damping;
   Thin<NB> V1(work.V1.data(), nb, 3);
   V1.setZero();
@@ -281,7 +281,7 @@ void condensed_tangent(const SuperelementBody& body, const SuperelementScratch& 
   multiply_P<NB>(body, frozen, G1, A);
 }
 
-/// work.A_BB, in which y_I is eliminated where that takes no stored coupling.
+/// Computes work.A_BB. Eliminates y_I if this needs no stored coupling.
 void boundary_tangent(const SuperelementBody& body, const SuperelementScratch& scratch, bool eliminate,
                       SuperelementWork& work) {
   switch (body.boundary_size) {
@@ -297,7 +297,7 @@ void boundary_tangent(const SuperelementBody& body, const SuperelementScratch& s
   }
 }
 
-/// work.A_BB with the internal coordinates kept, A_BI and A_IB, without the terms of stiffening.
+/// Computes work.A_BB with the internal coordinates kept, A_BI and A_IB, without the terms of stiffening.
 void boundary_and_coupling(const SuperelementBody& body, SuperelementScratch& scratch, SuperelementWork& work) {
   if (body.planar) return planar_tangent(body, scratch, work);
   boundary_tangent(body, scratch, false, work);

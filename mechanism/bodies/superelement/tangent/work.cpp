@@ -1,4 +1,4 @@
-// Sizes of what a superelement body keeps and works in, once.
+// Allocation of the stored data and work matrices of a superelement body.
 #include "mechanism/bodies/superelement/tangent/work.hpp"
 
 #include "mechanism/bodies/superelement/tangent/coupling.hpp"
