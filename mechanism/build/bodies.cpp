@@ -1,4 +1,4 @@
-// One function per type of body.
+// Construction of bodies, one function per type.
 #include "mechanism/build/bodies.hpp"
 
 #include <algorithm>
@@ -23,8 +23,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Nodes further from the origin than this times the size of the scene count from a point of the scene: nearer ones
-/// lose less than three of their sixteen digits.
+/// Nodes further from the origin than this times the size of the scene get positions relative to a point of the scene.
+/// Nearer ones lose less than three of their sixteen digits.
 constexpr double far_away = 1e3;
 
 NodeMotion motion_at(const formats::InitialMotion& start, const Vector3d& position, const Vector3d& origin) {
@@ -38,7 +38,7 @@ NodeMotion motion_at(const formats::InitialMotion& start, const Vector3d& positi
   return motion;
 }
 
-/// A node at `position` (part frame) of a body that starts with `start`.
+/// Adds a node at `position` (part frame) of a body that starts with `start`. Returns its index.
 int add_node(const std::string& name, const formats::InitialMotion& start, const Vector3d& position, int translations,
              int rotations, Construction& c) {
   Node node{name, -1, -1, -1};
@@ -49,7 +49,7 @@ int add_node(const std::string& name, const formats::InitialMotion& start, const
   return count_of(c.model.nodes) - 1;
 }
 
-/// Notes what the scene says of the velocities of a body whose first node is `node`.
+/// Stores the start velocities that the scene gives a body whose first node is `node`.
 void note_start(const std::string& name, const formats::InitialMotion& start, int node, Construction& c) {
   const NodeMotion& motion = c.markers.start[node];
   const Vector3d arm = motion.R.transpose() * (start.pose.position - c.markers.origin - motion.x);
@@ -61,7 +61,7 @@ int add_virtual_node(const formats::VirtualBodySpec& spec, Construction& c) {
   return add_node(spec.name, spec.start, Vector3d::Zero(), 1, 1, c);
 }
 
-/// Virtual bodies of a scene that eliminates them: behind all nodes in the table until their carriers are known.
+/// Virtual bodies of a scene that eliminates them. They follow all nodes in the table until their carriers are known.
 std::vector<const formats::VirtualBodySpec*> eliminated_bodies(const formats::Scene& scene) {
   std::vector<const formats::VirtualBodySpec*> list;
   if (scene.virtual_bodies == formats::VirtualBodies::keep) return list;
@@ -70,9 +70,9 @@ std::vector<const formats::VirtualBodySpec*> eliminated_bodies(const formats::Sc
   return list;
 }
 
-/// What a companion file before version 1.2 lacks; empty: nothing that counts.
+/// Text on what a companion file before version 1.2 lacks; empty if it is negligible.
 std::string missing_turns_text(const formats::Companion& companion, const formats::Superelement& element) {
-  constexpr double counts = 1e-4;  // of the inertia about an axis; shapes of beams leave 1e-6 and less
+  constexpr double counts = 1e-4;  // relative to the inertia about an axis; shapes of beams give at most 1e-6
   if (companion.minor_version >= formats::companion_version) return "";
   const Vector3d share = formats::missing_turns(companion, element).share.cwiseAbs();
   Eigen::Index axis = 0;
@@ -192,7 +192,7 @@ class BodyBuilder {
     c_.frames.push_back(spec.start.pose.orientation.normalized());
   }
 
-  /// What the body has of the companion of its file. Throws Error for load cases that are not there.
+  /// Companion data that the body uses. Throws Error for load cases that the companion does not have.
   CompanionUse companion_of(const formats::SuperelementBodySpec& spec, const formats::Superelement& image) {
     CompanionUse use;
     const bool loaded = bears_part_load(c_.scene, spec.name);
@@ -203,7 +203,7 @@ class BodyBuilder {
     return use;
   }
 
-  /// The companion of the file, mirrored as the body is; null: there is none.
+  /// Companion of the file, mirrored as the body is; null if there is none.
   const formats::Companion* mirrored_companion(const formats::SuperelementBodySpec& spec,
                                                const formats::Superelement& image) {
     const auto found = companions_.find(spec.file);
@@ -283,9 +283,9 @@ class BodyBuilder {
     append(mesh.elements3, c_.model.beams3);
   }
 
-  void add_body(const formats::VirtualBodySpec&) {}  // after all others: add_virtual_body()
+  void add_body(const formats::VirtualBodySpec&) {}  // after all others, by add_virtual_body()
 
-  /// Kept ones are nodes.
+  /// Adds a virtual body; a kept one becomes a node.
   void add_virtual_body(const formats::VirtualBodySpec& spec) {
     int node = count_of(c_.markers.start);
     switch (c_.scene.virtual_bodies) {
@@ -336,8 +336,8 @@ void measure_length(Construction& c) {
   if (!(model.length > 0.0)) model.length = 1.0;
 }
 
-/// Where positions of such a scene should count from: zero, or a point near the middle of its nodes where these stand
-/// far from the origin, on a grid of the size of the scene, so that differences to it are exact.
+/// Origin for the positions of a scene: zero, or a point near the middle of nodes that are far from the origin. The
+/// point lies on a grid of the size of the scene, so that differences to it are exact.
 Vector3d origin_for(const Construction& c) {
   const Vector3d center = extent(c).center();
   if (center.cwiseAbs().maxCoeff() <= far_away * c.model.length) return Vector3d::Zero();
@@ -345,7 +345,7 @@ Vector3d origin_for(const Construction& c) {
   return grid * (center / grid).array().round();
 }
 
-/// The bodies of the scene, their positions counted from `origin`.
+/// Builds the bodies of the scene, with positions relative to `origin`.
 Construction with_bodies(const formats::Scene& scene, const BodyFiles& files, const Eigen::Vector3d& origin) {
   Construction c(scene);
   c.model.name = scene.name;

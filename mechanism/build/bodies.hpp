@@ -1,4 +1,4 @@
-// From the bodies of a scene to nodes, places and pools; virtual bodies are kept or eliminated.
+// Nodes, positions and pools from the bodies of a scene; virtual bodies are kept or eliminated.
 #pragma once
 
 #include <algorithm>
@@ -17,25 +17,25 @@
 
 namespace tisserand::mechanism {
 
-/// What is said of some bodies in one line.
+/// A note on several bodies in one line.
 struct BodyNote {
   std::string text;
   std::vector<std::string> bodies;  ///< quoted names
 };
 
-/// What grows while a model is built; errors are collected and thrown together.
+/// Data that grow while a model is built; errors are collected and thrown together.
 struct Construction {
   explicit Construction(const formats::Scene& from) : scene(from) {}
 
   const formats::Scene& scene;
   Model model;
   MarkerTable markers;
-  std::vector<Eigen::Quaterniond> frames;                             ///< of the superelements at the start
+  std::vector<Eigen::Quaterniond> frames;                             ///< of the superelements, at the start
   std::vector<BodyStart> starts;                                      ///< of all bodies
   std::map<std::string, std::vector<PartResultant>> part_resultants;  ///< of load cases on rigid superelements
-  std::set<std::string> vanished;                                     ///< joints that eliminated virtual bodies hung on
+  std::set<std::string> vanished;                                     ///< joints of eliminated virtual bodies
   std::vector<RigidArm> arms;
-  std::vector<ReferenceModel> reference_models;  ///< of modal bodies whose files hold what their modes leave out
+  std::vector<ReferenceModel> reference_models;  ///< of modal bodies whose files hold a residual
   std::set<double> breakpoints;
   std::vector<std::string> notes;
   std::vector<BodyNote> body_notes;
@@ -60,12 +60,12 @@ struct Construction {
   }
 };
 
-/// All bodies of the scene, virtual ones last, and its characteristic length: the extent of the nodes. A scene far from
-/// the origin is built about a point of its own (Model::origin), with a note: 1e6 m away double numbers are 1e-10 m
+/// Builds all bodies of the scene, virtual ones last, and its characteristic length, the extent of the nodes. A scene
+/// far from the origin gets an origin of its own (Model::origin) and a note, because 1e6 m away doubles are 1e-10 m
 /// apart. Throws Error.
 Construction with_bodies(const formats::Scene& scene, const BodyFiles& files);
 
-/// Places on virtual bodies become places on their carriers; the joints that tie them vanish.
+/// Replaces positions on virtual bodies by positions on their carriers; the joints that tie them vanish.
 void eliminate_virtual_bodies(Construction& c);
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// The files that bodies are made from.
+// Reading of the files from which bodies are built.
 #include <filesystem>
 #include <set>
 #include <string>
@@ -13,7 +13,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Whether a companion file is there that the body may use, or of which a load names a case.
+/// Whether a companion file exists that the body may use, or of which a load names a case.
 bool reads_companion(const formats::Scene& scene, const formats::SuperelementBodySpec& spec) {
   return (may_use_companion(spec) || bears_part_load(scene, spec.name)) &&
          std::filesystem::exists(formats::companion_path(spec.file));
@@ -35,7 +35,7 @@ BodyFiles read_each(const formats::Scene& scene) {
   BodyFiles files;
   std::vector<Error> errors;
   std::set<std::string> superelements, companions,
-      modal_bodies;  // also those that cannot be read, which are named once
+      modal_bodies;  // including unreadable ones, which are reported once
   for (const formats::BodySpec& body : scene.bodies) {
     const auto* superelement = std::get_if<formats::SuperelementBodySpec>(&body);
     const auto* modal = std::get_if<formats::ModalBodySpec>(&body);

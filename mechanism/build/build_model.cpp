@@ -1,4 +1,4 @@
-// scene -> bodies -> joints -> forces -> model, as a page of calls.
+// Sequence of calls: scene -> bodies -> joints -> forces -> model.
 #include "mechanism/build/build_model.hpp"
 
 #include "mechanism/build/bodies.hpp"
@@ -23,7 +23,7 @@ void finish(Construction& c) {
   finish_model(c.model, c.scene.integrator.linear_solver);
 }
 
-/// What `initial` says of a body.
+/// Stores the velocities of a body that `initial` gives.
 void give_velocity(const formats::InitialSpec& entry, Construction& c) {
   for (BodyStart& start : c.starts) {
     if (start.name != entry.coordinate.name) continue;

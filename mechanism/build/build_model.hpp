@@ -1,4 +1,4 @@
-// From the scene and its superelement files to the constant model and the state before projection.
+// The constant model and the state before projection, from the scene and its superelement files.
 #pragma once
 
 #include <map>
@@ -15,33 +15,33 @@
 
 namespace tisserand::mechanism {
 
-/// Superelement files by path, each read once.
+/// Superelement files by path; each is read once.
 using SuperelementFiles = std::map<std::string, formats::LoadedSuperelement>;
 
-/// All files that bodies are made from, each read once; made from superelements alone where there is nothing else.
+/// All files from which bodies are built; each is read once. Superelements alone convert to it.
 struct BodyFiles {
   BodyFiles() = default;
   BodyFiles(SuperelementFiles files) : superelements(std::move(files)) {}
   SuperelementFiles superelements;
-  std::map<std::string, formats::Companion> companions;  ///< by the path of their superelement, of bodies that use them
+  std::map<std::string, formats::Companion> companions;  ///< by the path of their superelement
   std::map<std::string, formats::LoadedModalBody> modal_bodies;
 };
 
-/// Reads the superelement, companion and modal body files of a scene, each once. Throws Error: all that cannot be read,
-/// each once.
+/// Reads the superelement, companion and modal body files of a scene, each once. Throws one Error that lists all
+/// unreadable files, each once.
 BodyFiles read_body_files(const formats::Scene& scene);
 
-/// What a scene says of the velocity of a body at the start, world axes; what is absent is free.
+/// Velocity of a body at the start as the scene gives it, world axes; absent components are free.
 struct BodyStart {
   std::string name;
-  Marker origin;  ///< of the part frame, on the first node of the body or on the carrier that a virtual body follows
-  bool follows = false;                     ///< an eliminated virtual body: moves as its carrier does
-  std::optional<Eigen::Vector3d> velocity;  ///< of the origin
+  Marker origin;         ///< part frame, on the first node of the body or on the carrier that a virtual body follows
+  bool follows = false;  ///< an eliminated virtual body, which moves with its carrier
+  std::optional<Eigen::Vector3d> velocity;  ///< velocity of the origin
   std::optional<Eigen::Vector3d> angular_velocity;
-  bool kept = false;  ///< given by `initial`: also where the run goes on from an analysis at rest
+  bool kept = false;  ///< given by `initial`: also used if the run continues from an analysis at rest
 };
 
-/// A coordinate whose value or rate the scene gives at the start.
+/// Joint coordinate with a value or rate at the start.
 struct CoordinateStart {
   std::string name;
   int coordinate = 0;  ///< row of Model::coordinates
@@ -51,14 +51,14 @@ struct CoordinateStart {
 
 struct BuiltModel {
   Model model;
-  State state;  ///< positions and velocities of the scene, absent ones zero; not yet projected on the constraints
+  State state;                    ///< positions and velocities of the scene, absent ones zero; not yet projected
   std::vector<BodyStart> starts;  ///< of every body
   std::vector<CoordinateStart> initial;
   std::vector<std::string> notes;  ///< conversions, cut modes, warnings: whole sentences
 };
 
-/// Of a scene with switches: what is on (build/effects.hpp). Throws Error (all that are found) for names that do not
-/// exist, joints on nodes without rotations, and so on.
+/// Builds the model; of a scene with switches, with the active effects (build/effects.hpp). Throws Error that lists all
+/// errors: unknown names, joints on nodes without rotations, and so on.
 BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files);
 
 }  // namespace tisserand::mechanism

@@ -1,5 +1,5 @@
-// What each type of body has of each effect, joints of friction and springs of stops, and how their specifications do
-// without it.
+// Contribution of each type of body to each effect, joints with friction and springs with stops, and specifications
+// without an effect.
 #include "mechanism/build/effects.hpp"
 
 #include <algorithm>
@@ -17,11 +17,11 @@ namespace {
 
 using formats::Effect;
 
-/// What a body has of an effect: nothing, a term that can be left out, or something that is part of other terms.
+/// Contribution of a body to an effect: none, a term that can be omitted, or a part of other terms.
 struct Share {
   enum class Kind { none, term, part };
   Kind kind = Kind::none;
-  const char* remedy = "";  ///< none: what gives it the effect; part: what to do instead of switching
+  const char* remedy = "";  ///< none: what gives it the effect; part: alternative to a switch
 };
 
 constexpr Share own_term{Share::Kind::term};
@@ -34,7 +34,7 @@ constexpr const char* no_damping = "give the body 'damping'";
 
 bool is_damped(const formats::Damping& damping) { return damping != formats::Damping{}; }
 
-/// Of all bodies with mass.
+/// Contribution of weight, for all bodies with mass.
 template <class Spec>
 Share share_of_weight(const Spec& spec, const formats::Scene& scene) {
   return share_if(!spec.gravity.value_or(scene.gravity).isZero(0.0), no_weight);
@@ -47,7 +47,7 @@ Share share_of_rigid(Effect effect) {
                                                      : "rigid bodies have none");
 }
 
-/// By the companion of its file, if there is one and the body may use it.
+/// Choice of second-order terms by the companion of the file, if there is one and the body may use it.
 SecondOrderChoice choice_of(const formats::SuperelementBodySpec& spec, const BodyFiles& files) {
   const auto found = may_use_companion(spec) ? files.companions.find(spec.file) : files.companions.end();
   return choose_second_order(spec, found == files.companions.end() ? nullptr : &found->second);
@@ -106,7 +106,7 @@ bool has_friction(const formats::JointSpec& joint) { return joint.friction.has_v
 
 std::string value_word(const formats::EffectSwitch& one) { return one.automatic ? "auto" : one.on ? "on" : "off"; }
 
-/// Friction of joints, stops of springs: what has it, and what gives it.
+/// Owners of friction (joints) or stops (springs): those that have it, those that do not, and how to get it.
 struct Attachment {
   std::vector<std::string> has, has_not;
   const char* noun;
@@ -128,7 +128,7 @@ Attachment attachment_of(Effect effect, const formats::Scene& scene) {
 
 bool is_of_bodies(Effect effect) { return formats::owner_of(effect) == formats::EffectOwner::body; }
 
-/// The switches of a scene: what is said of one counts before what is said of all.
+/// The switches of a scene: a switch of one owner precedes a switch of all.
 class Switches {
  public:
   explicit Switches(const formats::Scene& scene) {
@@ -152,7 +152,7 @@ class Switches {
   std::map<std::pair<Effect, std::string>, const formats::EffectSwitch*> list_;
 };
 
-// How a body does without an effect of which it has a term.
+// How a body omits an effect of which it has a term.
 
 void leave_out_common(Effect effect, std::optional<Eigen::Vector3d>& gravity, formats::BodyTerms& terms) {
   if (effect == Effect::gravity) gravity = Eigen::Vector3d::Zero();
@@ -161,7 +161,7 @@ void leave_out_common(Effect effect, std::optional<Eigen::Vector3d>& gravity, fo
   if (effect == Effect::rotary_inertia) terms.rotary_inertia = false;
 }
 
-/// `before`: the body with all of its effects.
+/// Removes the effect from `spec`; `before` is the body with all of its effects.
 void leave_out(Effect effect, const BodyFiles& files, const formats::SuperelementBodySpec& before,
                formats::SuperelementBodySpec& spec) {
   leave_out_common(effect, spec.gravity, spec.terms);
@@ -199,7 +199,7 @@ formats::BodySpec without_effects_off(const formats::BodySpec& body, const Switc
       body);
 }
 
-/// Faults of one switch.
+/// Checks one switch for errors.
 class SwitchCheck {
  public:
   SwitchCheck(const formats::Scene& scene, const BodyFiles& files) : scene_(scene), files_(files) {}
@@ -251,7 +251,7 @@ class SwitchCheck {
                 one.where, attachment.remedy);
   }
 
-  /// Of `auto` too where nothing has a term: it stays off those that have the effect as a part of others.
+  /// Checks a switch of all bodies. `auto` needs a body with a term: where the effect is part of others, it stays on.
   void check_of_bodies(const formats::EffectSwitch& one) const {
     const formats::BodySpec* part = nullptr;
     bool has_term = false;

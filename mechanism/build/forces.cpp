@@ -74,7 +74,7 @@ void JointBuilder::add(const formats::BushingSpec& spec) {
   const std::string subject = fmt::format("bushing '{}'", spec.name);
   require_two_nodes(subject, spec, spec.where, bushing.a, bushing.b);
   place_markers(markers_, spec, bushing.a, bushing.b);
-  // Translations act along the axes of A: B needs an orientation only where rotations take part.
+  // Translations act along the axes of A, so B needs an orientation only if rotations take part.
   const bool rotations = spec.turns || spec.takes_turns(0) || spec.takes_turns(1) || spec.takes_turns(2);
   const bool b_has_axes = bushing.b.node < 0 || has_rotation(model_, bushing.b.node);
   check_marker(model_, subject, {true, true, !rotations && b_has_axes}, spec.a, bushing.a);

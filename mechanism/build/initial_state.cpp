@@ -1,4 +1,4 @@
-// Poses, and one evaluation of them.
+// Poses at the start, and one evaluation of them.
 #include "mechanism/build/initial_state.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Angles at the start, and the constants that are values at the start.
+/// Measures angles at the start, and the constants that are values at the start.
 void measure_start(Model& model, State& state, Evaluation& evaluation) {
   evaluate(model, state, evaluation);
   unwrap_hinges(model, evaluation, state);
@@ -25,7 +25,7 @@ void measure_start(Model& model, State& state, Evaluation& evaluation) {
     if (model.bushings[i].free_at_start) model.bushings[i].free = evaluation.bushings[i].deflection;
 }
 
-/// Largest diagonal entries of mass and stiffness, which the iteration matrix is scaled with.
+/// Sets the scales of the iteration matrix: largest diagonal entries of mass and stiffness.
 void scale(Model& model, const State& state, Evaluation& evaluation) {
   evaluate(model, state, evaluation);
   MatrixValues matrix(model);

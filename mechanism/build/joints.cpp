@@ -1,4 +1,4 @@
-// Joints between markers, their coordinates, and what acts along these.
+// Joints between markers, their coordinates, and the elements that act along these.
 #include "mechanism/build/joints.hpp"
 
 #include <numbers>
@@ -50,7 +50,7 @@ void JointBuilder::add(const formats::JointSpec& spec) {
 void JointBuilder::set_length(const formats::JointSpec& spec, Joint& joint) const {
   const double start = distance_at_start(joint.a, joint.b);
   joint.constant = spec.length.value_or(start);
-  // A length that is given can be assembled from there.
+  // Assembly can reach a given length from coincident markers.
   if (!spec.length && !(start > 1e-9 * model_.length))
     throw Error(fmt::format("joint '{}' holds the distance of two markers at the same place", spec.name), spec.where,
                 "use a spherical joint, give the markers different positions, or give its length");
@@ -151,7 +151,7 @@ void JointBuilder::add(const formats::MotionSpec& spec) {
   motion.length = is_length_coordinate(coordinate);
   motion.terms = {{coordinate, 1.0}};
   motion.motion = count_of(model_.motions);
-  const TimeFunction function(spec.value, model_.scope);  // reports syntax errors now
+  const TimeFunction function(spec.value, model_.scope);  // reports syntax errors
   if (!function.channels().empty())
     throw Error(
         fmt::format("motion '{}' uses channel '{}'", spec.name, model_.scope.channels[function.channels().front()]),

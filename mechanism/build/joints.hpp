@@ -1,4 +1,4 @@
-// From the joints, gears, motions, springs and bushings of a scene to those of a model.
+// Joints, gears, motions, springs and bushings of a model from those of a scene.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ namespace tisserand::mechanism {
 /// Compiles a function of a load or spring to report errors now; notes its breakpoints and the channels that it uses.
 void note_function(const formats::TimeFunctionSpec& spec, ChannelUse use, Model& model, std::set<double>& breakpoints);
 
-/// Adds to the pools of `model`; all nodes are there, and its characteristic length.
+/// Adds joints and force elements to the pools of `model`, which has all nodes and its characteristic length.
 class JointBuilder {
  public:
   JointBuilder(const MarkerTable& markers, Model& model, std::set<double>& breakpoints)
@@ -29,22 +29,22 @@ class JointBuilder {
   void add(const formats::InputSpec& spec);
   void add(const formats::ChannelSpec& spec);
   CoordinateStart initial(const formats::InitialSpec& spec) const;
-  /// A note on bushings whose turns count from the start, although `free` is given and the bodies start turned; else empty.
+  /// Note on bushings with `free` whose rotations count from the start, although the bodies start rotated; else empty.
   std::string turned_at_start(const std::vector<formats::BushingSpec>& bushings) const;
 
  private:
-  /// Throws Error where the nodes of the joint lack what it holds.
+  /// Throws Error if the nodes of the joint lack coordinates that it constrains.
   void check_markers(const formats::JointSpec& spec, const Joint& joint) const;
   void set_length(const formats::JointSpec& spec, Joint& joint) const;
   double distance_at_start(const Marker& a, const Marker& b) const;
   void add_coordinates(const Joint& joint);
   void add_friction(const formats::JointSpec& joint);
-  /// z = pitch angle/(2π), with the values at the start as the reference. Its index.
+  /// Adds z = pitch angle/(2π), relative to the values at the start. Returns its index.
   int add_thread(const formats::JointSpec& spec);
   void activate(Coupling& coupling);
   int find_coordinate(const formats::CoordinateRef& ref) const;
   bool is_length_coordinate(int coordinate) const;
-  /// The distance of the two markers of a spring, or their angle about z.
+  /// Adds the distance of the two markers of a spring, or their angle about z. Returns its index.
   int add_distance(const std::string& name, const std::string& subject, const formats::MarkerPairSpec& spec,
                    const std::string& where);
   int add_angle(const formats::SpringSpec& spec);

@@ -1,4 +1,4 @@
-// Checks, and the functions of time of the components.
+// Checks of loads, and the functions of time of their components.
 #include "mechanism/build/loads.hpp"
 
 #include "common/error.hpp"

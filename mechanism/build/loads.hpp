@@ -1,11 +1,11 @@
-// Loads of a scene on nodes that can bear them.
+// Loads of a scene on nodes that have the coordinates for them.
 #pragma once
 
 #include "mechanism/build/bodies.hpp"
 
 namespace tisserand::mechanism {
 
-/// Throws Error for loads on ground and on nodes without the coordinates that they act on.
+/// Adds a load. Throws Error for a load on ground or on a node without the coordinates on which it acts.
 void add_load(const formats::LoadSpec& spec, Construction& c);
 
 }  // namespace tisserand::mechanism

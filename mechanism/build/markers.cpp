@@ -1,4 +1,4 @@
-// Finding places by name.
+// Search of places by name.
 #include "mechanism/build/markers.hpp"
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// The place that a marker names (without the marker's own offset).
+/// Place that a marker names (without the marker's own offset).
 Marker find_place(const MarkerTable& markers, const formats::MarkerSpec& spec) {
   if (spec.node == "ground") {
     Marker ground;
@@ -49,7 +49,7 @@ Matrix3d frame_with_z(const Vector3d& axis, const std::optional<Vector3d>& x_axi
   return R;
 }
 
-/// Gives the marker the world pose (position, R) where the scene leaves it open.
+/// Gives the marker the world pose (position, R) where the scene does not set its own.
 void place_marker(const MarkerTable& markers, const formats::MarkerSpec& spec, const Vector3d& position,
                   const Matrix3d& R, Marker& marker) {
   const NodeMotion carrier = markers.motion(marker.node);

@@ -1,4 +1,4 @@
-// Files as bodies are made from them: as they were read, or mirrored, once for all bodies that want the same image.
+// Files as bodies use them: unchanged, or mirrored once for all bodies that need the same image.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace tisserand::mechanism {
 
-/// File: formats::LoadedSuperelement or formats::LoadedModalBody.
+/// Table of files and their mirror images. File: formats::LoadedSuperelement or formats::LoadedModalBody.
 template <class File>
 class MirroredFiles {
  public:
-  /// `files` by path, which outlive this.
+  /// `files` by path must outlive this object.
   explicit MirroredFiles(const std::map<std::string, File>& files) : files_(files) {}
 
-  /// `axes`: diagonal of the mirror (formats/superelement/mirror.hpp).
+  /// File at `path`, mirrored by `axes`, the diagonal of the mirror (formats/superelement/mirror.hpp).
   const File& at(const std::string& path, const Eigen::Vector3d& axes) {
     const File& file = files_.at(path);
     if ((axes.array() > 0.0).all()) return file;

@@ -60,7 +60,7 @@ void set_stiffness(const formats::ModalBody& file, const formats::Damping& dampi
   }
 }
 
-/// Whether the rotation of node k is known: it has rows, or it is held in all three by the reference conditions.
+/// Whether the rotation of node k is known: it has rows, or the reference conditions hold all three of its rotations.
 bool node_turns(const formats::ModalBody& file, std::size_t k) {
   if (file.modes() == 0 || !file.X[k].bottomRows<3>().isZero(0.0)) return true;
   int held = 0;
@@ -69,10 +69,10 @@ bool node_turns(const formats::ModalBody& file, std::size_t k) {
   return held == 3;
 }
 
-constexpr double told_excess = 0.02;    ///< of the first frequency
-constexpr double share_of_a_row = 0.1;  ///< of its largest entry, by which a component counts as held
+constexpr double told_excess = 0.02;    ///< smallest excess of the first frequency that is reported
+constexpr double share_of_a_row = 0.1;  ///< smallest entry of a held component, relative to the largest of its row
 
-/// Six rows of a joint's side on a body -> on its components in axes of the frame and units of the file.
+/// Adds six rows of a joint's side on a body, in components of the body: axes of the frame, units of the file.
 void add_rows(const ReferenceModel& model, const std::string& node, const Eigen::Matrix<double, Eigen::Dynamic, 6>& B,
               const Eigen::Matrix3d& R, MatrixXd& held) {
   const Index first = held.rows();
@@ -89,7 +89,7 @@ void add_rows(const ReferenceModel& model, const std::string& node, const Eigen:
   }
 }
 
-/// Nodes that fixed joints hold on the ground.
+/// Ground, and nodes that fixed joints hold on it.
 std::set<int> grounded(const Model& model) {
   std::set<int> nodes{-1};
   for (const Joint& joint : model.joints) {
@@ -101,8 +101,8 @@ std::set<int> grounded(const Model& model) {
   return nodes;
 }
 
-/// What joints to the nodes `others` (empty: to all of other bodies) hold of the body's components. Without rows if one
-/// acts where the file knows no component.
+/// Rows of the body's components that joints to the nodes `others` (empty: to all other bodies) hold. Without rows if a
+/// joint acts where the file has no component.
 MatrixXd held_rows(const ReferenceModel& model, const Construction& c, const std::set<int>& others) {
   MatrixXd held(0, static_cast<Index>(model.nodes.size()));
   const auto motion = [&c](int node) { return node < 0 ? NodeMotion{} : c.markers.start[node]; };
@@ -124,7 +124,7 @@ MatrixXd held_rows(const ReferenceModel& model, const Construction& c, const std
   return held;
 }
 
-/// "'r' (rotations y, z)": what is held and the reference leaves free.
+/// Text "'r' (rotations y, z)" of components that joints hold and the reference conditions do not.
 std::string beyond_reference(const ReferenceModel& model, const MatrixXd& held) {
   std::vector<std::string> texts;
   for (std::size_t k = 0; k < model.nodes.size();) {
@@ -197,7 +197,7 @@ void note_held_modes(Construction& c) {
     if (held.rows() == 0 || model.omega2.size() == 0) continue;
     const HeldFrequencies found = held_frequencies(model, held);
     if (!(found.with_residual > 0.0) || !(found.by_modes > (1.0 + told_excess) * found.with_residual)) continue;
-    // The same with all joints: a body between moving ones may have the modes that it needs.
+    // The same check with all joints: the modes may suit a body between moving ones.
     const HeldFrequencies joined = held_frequencies(model, held_rows(model, c, {}));
     if (joined.by_modes > 0.0 && joined.by_modes < (1.0 + told_excess) * joined.with_residual) continue;
     c.notes.push_back(too_stiff(model, held, found, c.model.units));

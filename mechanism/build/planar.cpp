@@ -1,4 +1,4 @@
-// What stays in the plane, item by item; then the coordinates anew.
+// Checks that each item stays in the plane, then new numbers of the coordinates.
 #include "mechanism/build/planar.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::string text_of(const Vector3d& v) {
   return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", clean(v.x()), clean(v.y()), clean(v.z()));
 }
 
-/// The scene in the axes of its plane, and the error that names what leaves it.
+/// Checks the scene in the axes of its plane, and throws Error that names what leaves it.
 class PlanarCheck {
  public:
   explicit PlanarCheck(Construction& c) : c_(c), model_(c.model) {}
@@ -56,12 +56,12 @@ class PlanarCheck {
     }
   }
 
-  /// What `initial` says of joint coordinates.
+  /// Checks the joint coordinates of `initial`.
   void starts(const std::vector<CoordinateStart>& initial) const {
     for (const CoordinateStart& one : initial) coordinate(one.coordinate, fmt::format("initial '{}'", one.name));
   }
 
-  /// Steady rotations of statics and modes.
+  /// Checks steady rotations of statics and modes.
   void rotations() const {
     const auto require = [this](const std::optional<Vector3d>& omega, const char* name) {
       if (omega)
@@ -102,7 +102,7 @@ class PlanarCheck {
     }
   }
 
-  /// What acts on modal bodies.
+  /// Checks the elements that act on modal bodies.
   void attachments() const {
     const auto pairs = [this](const auto& pool, const char* kind) {
       for (const auto& one : pool)
@@ -117,13 +117,13 @@ class PlanarCheck {
     });
   }
 
-  /// Whether all that the coordinate depends on lies in the plane.
+  /// Whether all quantities of the coordinate lie in the plane.
   bool stays(const Coordinate& one) const {
     return has_planar_axes(one.relation, one.a, one.b) &&
            parts_of(evaluate(one.relation, markers(one.a, one.b)).G, one.a, one.b).stays();
   }
 
-  /// Leaves the equations in the plane.
+  /// Keeps the equations of a joint in the plane.
   void reduce(Joint& joint) const {
     const std::string name = fmt::format("joint '{}'", joint.name);
     if (joint.coincident) {
@@ -153,7 +153,7 @@ class PlanarCheck {
   }
 
  private:
-  /// Of a row of derivatives by [x_A Θ_A x_B Θ_B], rotations over the characteristic length.
+  /// Magnitudes of a row of derivatives by [x_A Θ_A x_B Θ_B] in and out of the plane, rotations over the length.
   struct Parts {
     double in = 0.0, out = 0.0;
     bool stays() const { return out <= planar_share * in; }
@@ -177,7 +177,7 @@ class PlanarCheck {
         c_.scene.planar_at, remedy + ", or give planar: off");
   }
 
-  /// Throws unless the part of `v` out of the plane is nothing in what `size` says.
+  /// Throws Error if the component of `v` out of the plane is not negligible relative to `size`.
   void require_in_plane(const Vector3d& v, double size, const std::string& what, const std::string& remedy) const {
     if (!(std::abs(v.z()) <= planar_share * size))
       leave(fmt::format("{} has the part {:.6g} along it", what, v.z()), remedy);
@@ -189,7 +189,7 @@ class PlanarCheck {
   }
 
   void require_apart(const MatrixXd& A, const std::vector<bool>& in_plane, const std::string& what) const {
-    const double round_off = 1e-12 * A.cwiseAbs().maxCoeff();  // of matrices turned into the axes of the plane
+    const double round_off = 1e-12 * A.cwiseAbs().maxCoeff();  // of matrices that were rotated to the axes of the plane
     for (Eigen::Index i = 0; i < A.rows(); ++i)
       for (Eigen::Index j = 0; j < A.cols(); ++j) {
         const double size = std::sqrt(std::abs(A(i, i) * A(j, j)));
@@ -245,7 +245,7 @@ class PlanarCheck {
     for (const TangentCoefficients& c : {TangentCoefficients{0.0, 1.0, 0.0}, TangentCoefficients{0.0, 0.0, 1.0}}) {
       tangent(bushing, pair, terms, c, A);
       for (const auto& [node, first] : {std::pair(one.a.node, 0), std::pair(one.b.node, 6)})
-        if (node < 0) {  // what acts on the ground moves nothing
+        if (node < 0) {  // loads on ground move nothing
           A.middleRows<6>(first).setZero();
           A.middleCols<6>(first).setZero();
         }
@@ -253,7 +253,7 @@ class PlanarCheck {
     }
   }
 
-  /// Inclined along the plane alone, and as high beside it as in it where the wheel rolls.
+  /// Checks a road: it may slope along the plane only, and be level across it where the wheel rolls.
   void road(const Road& one, const Tyre& tyre, const Vector3d& center) const {
     const std::string name = fmt::format("the normal of road '{}'", one.name);
     require_in_plane(one.R.col(2), 1.0, name, "incline it along the plane alone");
@@ -270,7 +270,7 @@ class PlanarCheck {
           "put the wheel on one of its tracks");
   }
 
-  /// Components that are no constants must act in the plane, the constant ones together.
+  /// Checks a load: components that vary must act in the plane, the constant ones in sum.
   void load(const Load& one) const {
     const bool force = one.kind == formats::LoadKind::force;
     const std::string name = fmt::format("{} '{}'", force ? "force" : "moment", one.name);
@@ -294,7 +294,7 @@ class PlanarCheck {
       leave(fmt::format("{} acts {:.6g} out of the plane of its node", name, one.at.p.z()), "let it act in the plane");
   }
 
-  /// Mass and stiffness at the start.
+  /// Checks mass and stiffness of beams at the start.
   void beams() const {
     const std::vector<bool> node{true, true, false, false, false, true};
     const auto check = [&]<int N>(const Pool<BeamElement<N>>& pool) {
@@ -339,7 +339,7 @@ class PlanarCheck {
   NodeMotion ground_;
 };
 
-/// Two translations and one rotation per node, and nothing out of the plane at the start.
+/// Numbers two translations and one rotation per node, and clears components out of the plane at the start.
 void number_coordinates(Construction& c) {
   int next = 0;
   for (Node& node : c.model.nodes) {
@@ -358,7 +358,7 @@ void number_coordinates(Construction& c) {
   }
 }
 
-/// Axes that differ by less are the same.
+/// Largest difference of axes that count as equal.
 constexpr double same_axes = 1e-12;
 
 struct Reduced {
@@ -366,7 +366,7 @@ struct Reduced {
   Eigen::Matrix3d axes;
 };
 
-/// What `reduce` returns; says of which body it is where something leaves the plane.
+/// Returns the result of `reduce`; adds the name of the body if it leaves the plane.
 template <class Reduce>
 auto named(const std::string& kind, const std::string& name, const Construction& c, const std::string& remedy,
            Reduce reduce) {
@@ -378,8 +378,8 @@ auto named(const std::string& kind, const std::string& name, const Construction&
   }
 }
 
-/// Replaces the bodies of the superelements by planar ones, in the axes that are given per node; uses with the same
-/// body and the same axes share one. Throws Error that names the superelement and what in it leaves the plane.
+/// Replaces the superelement bodies by planar ones, in the given axes per node. Uses with the same body and axes share
+/// one. Throws Error that names the superelement and what in it leaves the plane.
 void make_superelements_planar(const std::vector<Eigen::Matrix3d>& axes, Construction& c) {
   Model& model = c.model;
   std::vector<SuperelementBody> bodies;
@@ -403,7 +403,7 @@ void make_superelements_planar(const std::vector<Eigen::Matrix3d>& axes, Constru
   model.superelement_bodies = std::move(bodies);
 }
 
-/// The same of modal bodies, of which each use is its own.
+/// Replaces the modal bodies by planar ones; each use has its own.
 void make_modal_bodies_planar(const std::vector<Eigen::Matrix3d>& axes, Construction& c) {
   Model& model = c.model;
   for (int i = 0; i < std::ssize(model.modal_bodies); ++i) {

@@ -1,4 +1,4 @@
-// From a model in space to the planar one (`effects: {planar: on}`), if nothing in it can leave the plane.
+// Planar model from a model in space (`effects: {planar: on}`), if nothing in it can leave the plane.
 #pragma once
 
 #include <vector>
@@ -9,25 +9,25 @@
 
 namespace tisserand::mechanism {
 
-/// Finds the plane, turns the model into its axes (build/plane.hpp), and leaves of coordinates, equations of joints,
-/// superelements and modes those in the plane. Throws Error that names the first body, joint, load or velocity that
-/// could leave it, with the quantity, its value and a remedy; `initial` are the coordinates that start as the scene
-/// says. After all else is built, before the coordinates are numbered.
+/// Finds the plane, rotates the model to its axes (build/plane.hpp), and keeps only coordinates, equations of joints,
+/// superelements and modes in the plane. Throws Error that names the first body, joint, load or velocity that could
+/// leave it, with the quantity, its value and a remedy. `initial` holds the coordinates with given start values. Runs
+/// after all else is built, before the coordinates are numbered.
 void make_planar(const std::vector<CoordinateStart>& initial, Construction& c);
 
-// Of plane.cpp.
+// Declarations of plane.cpp.
 
-/// Unit normal in world axes, its largest component positive: the axis of the first joint that turns about one axis or
-/// keeps a plane; without such a joint that of the first angular velocity; else across gravity and the nodes.
+/// Unit normal in world axes, largest component positive. It is the axis of the first joint that turns about one axis
+/// or keeps a plane; else that of the first angular velocity; else normal to gravity and the nodes.
 Eigen::Vector3d find_normal(const Construction& c);
 
-/// Right-handed axes (columns) with the unit vector `z` as third: a permutation of the old ones, exactly, where it is
-/// one of them but for round-off.
+/// Right-handed axes (columns) with the unit vector `z` as third. If `z` is one of the old axes up to round-off, the
+/// result is an exact permutation of them.
 Eigen::Matrix3d axes_with_z(const Eigen::Vector3d& z);
 
-/// Turns all that is built into Model::axes = axes_with_z(normal), and nodes and superelements into own axes whose z is
-/// the normal at the start. Before the coordinates are numbered; bodies stay as they are, with the axes of each node in
-/// the result.
+/// Rotates all that is built to Model::axes = axes_with_z(normal), and nodes and superelements to axes of their own
+/// with z normal at the start. Runs before the coordinates are numbered. Bodies do not change; the result holds the
+/// axes of each node.
 std::vector<Eigen::Matrix3d> turn_into_plane(const Eigen::Vector3d& normal, Construction& c);
 
 }  // namespace tisserand::mechanism

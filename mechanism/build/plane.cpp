@@ -1,4 +1,4 @@
-// Normal from joints, and every vector of the model once.
+// Normal of the plane from joints, and rotation of every vector of the model.
 #include <cmath>
 
 #include "mechanism/build/planar.hpp"
@@ -11,7 +11,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Components of unit vectors and places (of the size of the scene) below this are round-off.
+/// Components of unit vectors, and of positions relative to the scene, below this are round-off.
 constexpr double round_off = 1e-12;
 
 Vector3d with_largest_positive(const Vector3d& v) {
@@ -24,7 +24,7 @@ bool has_plane(JointKind kind) {
   return kind == JointKind::revolute || kind == JointKind::planar || kind == JointKind::parallel_axes;
 }
 
-/// The rotation about z next to R.
+/// Rotation about z nearest to R.
 Matrix3d turn_about_z(const Matrix3d& R) {
   const double size = std::hypot(R(0, 0) + R(1, 1), R(1, 0) - R(0, 1));
   const double c = (R(0, 0) + R(1, 1)) / size, s = (R(1, 0) - R(0, 1)) / size;
@@ -33,7 +33,7 @@ Matrix3d turn_about_z(const Matrix3d& R) {
   return turn;
 }
 
-/// Into the axes of the model and of its nodes.
+/// Rotation of vectors to the axes of the model and of its nodes.
 class PlaneTurn {
  public:
   PlaneTurn(const Matrix3d& axes, double length, const std::vector<NodeMotion>& start) : axes_(axes), length_(length) {
@@ -124,7 +124,7 @@ void turn_forces(const PlaneTurn& turn, Construction& c) {
   }
 }
 
-/// Across gravity and the lines between nodes, of which the first two that are not parallel count; z if all are.
+/// Normal to gravity and the lines between nodes: the first two that are not parallel define it. z if all are parallel.
 Vector3d normal_of_places(const Construction& c) {
   std::vector<Vector3d> lines{c.scene.gravity};
   for (const NodeMotion& node : c.markers.start) lines.emplace_back(node.x - c.markers.start.front().x);

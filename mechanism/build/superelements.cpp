@@ -1,4 +1,4 @@
-// Options of a use, and the body that has them.
+// Options of a use, and the search of a body that has them.
 #include "mechanism/build/superelements.hpp"
 
 #include <tuple>
@@ -30,7 +30,7 @@ SuperelementOptions options_of(const formats::SuperelementBodySpec& spec, const 
   return options;
 }
 
-/// All but units and place: those of the file are the same for all uses.
+/// Compares all options except units and place, since units are the same for all uses of a file.
 bool make_the_same(const SuperelementOptions& a, const SuperelementOptions& b) {
   const auto all = [](const SuperelementOptions& o) {
     return std::tie(o.frame, o.frame_node, o.inertia, o.stiffening, o.double_curvature, o.modes, o.cutoff,
@@ -39,7 +39,7 @@ bool make_the_same(const SuperelementOptions& a, const SuperelementOptions& b) {
   return all(a) == all(b);
 }
 
-/// Figures: a slider-crank of one body, in per cent of the largest deflection of its rod.
+/// Throws Error for wrong combinations. The percentage is of the largest deflection of the rod of a slider-crank.
 void refuse_wrong_combinations(const formats::SuperelementBodySpec& spec, const SecondOrderChoice& choice) {
   using formats::InertiaOption, formats::StiffeningOption;
   if (choice.stiffening == StiffeningOption::full && choice.inertia != InertiaOption::F)

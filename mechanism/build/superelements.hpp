@@ -1,4 +1,4 @@
-// From the uses of superelement files to bodies: one for all uses of a file with the same options.
+// Bodies from the uses of superelement files: one for all uses of a file with the same options.
 #pragma once
 
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace tisserand::mechanism {
 
-/// Bodies that are there already, by file and options.
+/// Bodies that were already built, by file and options.
 struct BuiltSuperelements {
   struct Entry {
     SuperelementOptions options;
@@ -21,34 +21,34 @@ struct BuiltSuperelements {
   std::map<const formats::LoadedSuperelement*, std::vector<Entry>> of_file;
 };
 
-/// Whether the second-order terms of a companion are on, or would be if there is one: false of a body that is rigid,
-/// says second_order: off, or names an inertia other than F and no stiffening.
+/// Whether second-order terms of a companion are used, or would be if there were one. False for a body that is rigid,
+/// has second_order: off, or names an inertia other than F and no stiffening.
 bool may_use_companion(const formats::SuperelementBodySpec& spec);
 
-/// Inertia and stiffening of a body whose companion is given, or null where there is none.
+/// Inertia and stiffening of a body with a given companion, or null without one.
 struct SecondOrderChoice {
   formats::InertiaOption inertia = formats::InertiaOption::B;
   formats::StiffeningOption stiffening = formats::StiffeningOption::off;
-  bool double_curvature = false;  ///< the companion's Λ
+  bool double_curvature = false;  ///< use the companion's Λ
   bool any() const { return inertia == formats::InertiaOption::F || stiffening != formats::StiffeningOption::off; }
 };
 
-/// What `inertia`, `stiffening` and `second_order` say together. Throws Error for combinations that were measured to be
-/// wrong, and for terms of a companion that is not there.
+/// Combined choice from `inertia`, `stiffening` and `second_order`. Throws Error for combinations that measurements
+/// showed to be wrong, and for terms of a missing companion.
 SecondOrderChoice choose_second_order(const formats::SuperelementBodySpec& spec, const formats::Companion* companion);
 
-/// "inertia F, stiffening full, double curvature".
+/// Text "inertia F, stiffening full, double curvature".
 std::string describe(const SecondOrderChoice& choice);
 
-/// What a body has of the companion of its file.
+/// Companion data that a body uses.
 struct CompanionUse {
-  const formats::Companion* file = nullptr;   ///< null: there is none, or the body does without
-  const formats::Companion* terms = nullptr;  ///< the same, or null: the body does without second-order terms
-  std::vector<std::string> load_cases;        ///< that loads name for any body of the file, ascending
+  const formats::Companion* file = nullptr;   ///< null: none exists, or the body does not use it
+  const formats::Companion* terms = nullptr;  ///< `file`, or null if the body does not use second-order terms
+  std::vector<std::string> load_cases;        ///< load cases that loads name for any body of the file, ascending
 };
 
-/// Index among `bodies` of the body that `spec` makes from the file; built and appended if there is none. units: file
-/// -> scene. Throws Error.
+/// Index in `bodies` of the body that `spec` makes from the file. A missing one is built and appended. units: file ->
+/// scene. Throws Error.
 int find_or_build(const formats::SuperelementBodySpec& spec, const formats::LoadedSuperelement& file,
                   const CompanionUse& companion, const UnitConversion& units, BuiltSuperelements& built,
                   std::vector<SuperelementBody>& bodies);

@@ -1,4 +1,4 @@
-// Names, axles, and where wheels stand at the start.
+// Names, axles, and positions of wheels at the start.
 #include "mechanism/build/tyres.hpp"
 
 #include <algorithm>
@@ -18,12 +18,12 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Largest angle between axle and joint, rad.
+/// Largest angle between axle and joint [rad].
 constexpr double parallel_axle = 1e-6;
-/// Penetration at the start that no standing tyre has, and height above the road that is told, over the radius.
+/// Limits over the radius: penetration at the start, which is an error, and height above the road, which is reported.
 constexpr double deepest = 0.5, highest = 1.0;
 
-/// y along the axle, in the axes of the node.
+/// Axes with y along the axle, in the axes of the node.
 Matrix3d frame_with_y(const Vector3d& axle) {
   const Vector3d y = axle.normalized();
   Eigen::Index smallest = 0;
@@ -34,7 +34,7 @@ Matrix3d frame_with_y(const Vector3d& axle) {
   return R;
 }
 
-/// Where revolute joints carry the node, one of them is the axle.
+/// Checks that one of the revolute joints that carry the node, if there are any, has the axle as its axis.
 void check_axle(const formats::TyreSpec& spec, const Tyre& tyre, const Construction& c) {
   const Vector3d axle = tyre.wheel.R.col(1);
   const Joint* nearest = nullptr;
@@ -82,8 +82,8 @@ void check_tyre_start(const formats::TyreSpec& spec, const Tyre& tyre, Construct
         fmt::format("tyre '{}' starts {:.4g}{} above the road '{}'", spec.name, -terms.penetration, unit, road.name));
 }
 
-/// The law and the vertical spring of a file: F_z = (Q_FZ1 δ/R₀ + Q_FZ2 (δ/R₀)²)(1 + PFZ1 dp_i) F_z0 where it has
-/// Q_FZ2, and then Q_FZ1 from the stiffness at the nominal load unless it is given ([Pac12] (4.E68)).
+/// Takes the law and the vertical spring of a file: F_z = (Q_FZ1 δ/R₀ + Q_FZ2 (δ/R₀)²)(1 + PFZ1 dp_i) F_z0 if it has
+/// Q_FZ2. Then Q_FZ1, unless it is given, follows from the stiffness at the nominal load ([Pac12] (4.E68)).
 void take_properties(const formats::TyreSpec& spec, Tyre& tyre, Construction& c) {
   MagicFormulaLaw law{spec.properties->coefficients, 0.0, spec.mirrored};
   const formats::MagicFormula& p = law.p;
@@ -116,12 +116,12 @@ void take_properties(const formats::TyreSpec& spec, Tyre& tyre, Construction& c)
     names.resize(names.size() - more);
     const std::string note = fmt::format("{}: keys without effect here: {}{}", spec.properties->version,
                                          join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
-    if (std::ranges::find(c.notes, note) == c.notes.end()) c.notes.push_back(note);  // tyres of one file
+    if (std::ranges::find(c.notes, note) == c.notes.end()) c.notes.push_back(note);  // tyres of one file share a note
   }
   tyre.law = std::move(law);
 }
 
-/// Coordinates for the deflections of the tread.
+/// Adds coordinates for the deflections of the tread.
 void give_treads(const formats::TyreSpec& spec, Tyre& tyre, Construction& c) {
   if (c.model.nodes[tyre.wheel.node].modal >= 0)
     throw Error(fmt::format("tyre '{}' relaxes and is on a node of a modal body", spec.name), spec.where,
@@ -133,7 +133,7 @@ void give_treads(const formats::TyreSpec& spec, Tyre& tyre, Construction& c) {
   tyre.lag = std::exchange(c.model.sizes.modal, c.model.sizes.modal + 2);
 }
 
-/// The cuts across the line of the road that was built last do not cross on it.
+/// Checks that the cuts across the line of the latest road do not cross on it.
 void check_bends(const formats::RoadSpec& spec, const Construction& c) {
   const Road& road = c.model.roads.back();
   if (!road.surface || !road.surface->line) return;

@@ -11,14 +11,14 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Largest gap of a loop of ties, relative to the characteristic length and in radians: round-off.
+/// Round-off limit of the gap of a loop of ties, relative to the characteristic length and in radians.
 constexpr double loop_tolerance = 1e-9;
 
 double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return Eigen::Quaterniond(a).angularDistance(Eigen::Quaterniond(b));
 }
 
-/// A fixed joint with a virtual body on one side at least; markers as found by name.
+/// Fixed joint with a virtual body on at least one side; markers as found by name.
 struct Edge {
   const formats::JointSpec* spec;
   Marker a;
@@ -44,7 +44,7 @@ class Grouping {
   TiedBodies run() {
     for (std::size_t i = 0; i < count(); ++i)
       if (!placed_[i]) place_group(group_of(i));
-    // Rows of followers first.
+    // rows of followers first
     result_.ties.insert(result_.ties.end(), loops_.begin(), loops_.end());
     return std::move(result_);
   }
@@ -54,7 +54,7 @@ class Grouping {
   bool is_virtual(int node) const { return node >= first_; }
   std::size_t index(int node) const { return static_cast<std::size_t>(node - first_); }
 
-  /// Virtual bodies that are tied to `start` through virtual bodies alone, itself first.
+  /// Virtual bodies that are tied to `start` through virtual bodies alone; `start` is the first.
   std::vector<std::size_t> group_of(std::size_t start) const {
     std::vector<std::size_t> group{start};
     std::set<std::size_t> seen{start};
@@ -118,11 +118,11 @@ class Grouping {
     placed_[body] = true;
   }
 
-  /// The pose of a node of the table on its carrier, which all its group shares.
+  /// Pose of a node of the table on its carrier, which its whole group shares.
   Marker pose_of(int node) const { return is_virtual(node) ? result_.pose[index(node)] : Marker{node}; }
   bool is_placed(int node) const { return !is_virtual(node) || placed_[index(node)]; }
 
-  /// Goes along a tie of which one end is placed: places the other, or examines the loop that it closes.
+  /// Follows a tie with one placed end: places the other end, or checks the loop that it closes.
   void follow(Edge& edge, std::deque<std::size_t>& queue) {
     if (std::exchange(edge.is_done, true)) return;
     place_markers(markers_, *edge.spec, edge.a, edge.b);
@@ -154,7 +154,7 @@ class Grouping {
     add_rigid_arms(markers_, *edge.spec, joint, model_.length, result_.arms);
   }
 
-  /// Places a body so that its marker `own` is at `place` of the carrier.
+  /// Places a body so that its marker `own` is at `place_of_marker` on the carrier.
   void hang(std::size_t body, const Marker& place_of_marker, const Marker& own, const formats::JointSpec& joint) {
     Marker pose = place_of_marker;
     pose.R = place_of_marker.R * own.R.transpose();
