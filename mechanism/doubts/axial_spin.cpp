@@ -1,4 +1,4 @@
-// Whether slender superelements that can turn about their own axis keep their spin.
+// Validity check: spin of slender superelements that can turn about their own axis.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -18,13 +18,13 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Of examples/spherical_beam: one piece errs by five times what it vibrates by with A and by 74 % with B at 1.0 and
-/// 0.92 of the spin, two by 72 % with A at 0.72 and by 4 % with B at 0.032, four by 21 % with A at 0.13.
+/// Limit from examples/spherical_beam. One piece errs by five times its vibration with A, and by 74 % with B, at 1.0
+/// and 0.92 of the spin. Two err by 72 % with A at 0.72 and by 4 % with B at 0.032, four by 21 % with A at 0.13.
 constexpr double most_axial_spin = 0.05;
-/// Of two stiffnesses or inertias across the axis that count as one.
+/// Relative difference of two stiffnesses or inertias across the axis that count as equal.
 constexpr double alike = 0.01;
 
-/// The two eigenvalues across the axis, smaller and larger.
+/// The two eigenvalues across the axis, in ascending order.
 std::pair<double, double> across(const Matrix3d& matrix, const Vector3d& axis) {
   const Matrix3d P = Matrix3d::Identity() - axis * axis.transpose();
   const Vector3d values = Eigen::SelfAdjointEigenSolver<Matrix3d>(P * matrix * P, Eigen::EigenvaluesOnly).eigenvalues();
@@ -36,12 +36,12 @@ bool alike_across(const Matrix3d& matrix, const Vector3d& axis) {
   return most - least <= alike * most;
 }
 
-/// Take a beam that bends equally in all directions, as with round and square sections. Then ∫ ρJ Ω₁ ds changes by the
-/// axial moments at its ends alone, however it is bent (balance of moment of momentum of its sections: bending moments
-/// are parallel to curvatures). Superelements keep that sum with the moment of momentum of their bending shapes in it,
-/// which is far larger. So a bent one spins about its axis for no reason, and all the more the thinner it is. Measured
-/// is s = (Σ J Ω₁ − Σ J Ω₁(start) − ∫ Σ e·m dt)/Σ J over pieces welded in a row which nothing holds against that turn,
-/// with the moments m at their nodes; seen, the largest |s| beside the largest spin |Ω₀|.
+/// Validity check for beams that bend equally in all directions, as with round and square sections. Then ∫ ρJ Ω₁ ds
+/// changes only by the axial moments at the ends, however the beam is bent: balance of angular momentum of its
+/// sections, as bending moments are parallel to curvatures. Superelements conserve this sum plus the far larger angular
+/// momentum of their bending shapes. So a bent one gains spin about its axis, more the thinner it is. The error is s =
+/// (Σ J Ω₁ − Σ J Ω₁(start) − ∫ Σ e·m dt)/Σ J over pieces welded in a row that can turn freely, with the moments m at
+/// their nodes. The check compares the largest |s| with the largest spin |Ω₀|.
 class AxialSpin : public Doubt {
  public:
   explicit AxialSpin(const Model& model) : seen_(model.superelements.size()) {
@@ -92,7 +92,7 @@ class AxialSpin : public Doubt {
     time_ = state.time();
   }
 
-  /// At most one: the beam with the largest share.
+  /// At most one warning: the beam with the largest ratio.
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     double worst = most_axial_spin;
     int at = -1;
@@ -111,19 +111,19 @@ class AxialSpin : public Doubt {
   }
 
  private:
-  /// Per body; inertia 0: not judged.
+  /// Constants of a body; inertia 0: not checked.
   struct Judged {
     Eigen::Vector3d axis;
     double inertia = 0.0;  ///< J about the axis
   };
-  /// What was seen of one beam. Beams have the order of welded_beams().
+  /// Quantities of one beam during the run. Beams have the order of welded_beams().
   struct Seen {
     bool free = false;
     double inertia = 0.0;   ///< Σ J
     double start = 0.0;     ///< Σ J Ω₁
-    double momentum = 0.0;  ///< now
-    double moment = 0.0;    ///< Σ e·m, now
-    double before = 0.0;    ///< at the latest state
+    double momentum = 0.0;  ///< Σ J Ω₁ now
+    double moment = 0.0;    ///< Σ e·m now
+    double before = 0.0;    ///< Σ e·m at the latest state
     double impulse = 0.0;   ///< ∫ Σ e·m dt
     double spurious = 0.0;  ///< largest |s|
     double time = 0.0;

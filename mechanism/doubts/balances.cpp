@@ -19,31 +19,31 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// The largest error of the balance, as a share of the largest energy: "a small tolerance, generally on the order of
-/// 10^-2" (Belytschko, Liu, Moran, Nonlinear Finite Elements for Continua and Structures, 2000, section 6.2.3).
+/// Largest accepted error of the balance over the largest energy: "a small tolerance, generally on the order of 10^-2"
+/// (Belytschko, Liu, Moran, Nonlinear Finite Elements for Continua and Structures, 2000, section 6.2.3).
 constexpr double tolerance = 1e-2;
-/// A drift is told when a run ten times as long would pass the tolerance.
+/// A drift is reported if a run ten times as long would exceed the tolerance.
 constexpr double foreseen = tolerance / 10.0;
 /// Round-off of sums of energies.
 constexpr double round_off = 1e-12;
-/// Energy goes with the square of momentum, so the limit of momentum is half of that of energy.
+/// Energy is proportional to the square of momentum, so the limit of momentum is half of that of energy.
 constexpr double most_momentum = foreseen / 2.0;
 constexpr double instants = 100.0;
-/// Turns of the tumbling by which it may be off: bodies then point to other sides.
+/// Largest accepted error of the tumbling, in turns; beyond it bodies point in other directions.
 constexpr double most_turns = 0.1;
 constexpr double looks = 1000.0;
 
-/// Whether loads act, of any body.
+/// Whether loads act on any body.
 bool is_loaded(const Evaluation& evaluation) {
   const auto acts = [](const Eigen::Vector3d& load) { return !load.isZero(0.0); };
   const auto works = [](double factor) { return factor != 0.0; };
   return std::ranges::any_of(evaluation.load_values, acts) || std::ranges::any_of(evaluation.part_load_values, works);
 }
 
-/// Turns per time of ω around the axis of least or largest inertia, in axes of a body that nothing acts on:
-/// p/(4 K(m)) with p² = (I₃ − I₂)(h² − 2 I₁ T)/(I₁ I₂ I₃), m = (I₂ − I₁)(2 I₃ T − h²)/((I₃ − I₂)(h² − 2 I₁ T)) where
-/// h² > 2 I₂ T, else with 1 and 3 exchanged (Landau, Lifshitz, Mechanics, 1976, equations 37.8 to 37.12). Zero on the
-/// middle axis, where h² = 2 I₂ T but for the rounding of both.
+/// Turns per time of ω around the axis of least or largest inertia, in axes of a free body: p/(4 K(m)) with p² = (I₃ −
+/// I₂)(h² − 2 I₁ T)/(I₁ I₂ I₃), m = (I₂ − I₁)(2 I₃ T − h²)/((I₃ − I₂)(h² − 2 I₁ T)) if h² > 2 I₂ T, else with 1 and 3
+/// exchanged (Landau, Lifshitz, Mechanics, 1976, equations 37.8 to 37.12). Zero on the middle axis, where h² = 2 I₂ T
+/// up to round-off.
 double tumbling_frequency(const Eigen::Vector3d& I, double h2, double T2) {
   constexpr double rounding = 1e-13;
   if (!(std::abs(h2 - I[1] * T2) > rounding * h2)) return 0.0;
@@ -55,13 +55,13 @@ double tumbling_frequency(const Eigen::Vector3d& I, double h2, double T2) {
   return p / (4.0 * std::comp_ellint_1(std::sqrt(std::max(numerator, 0.0) / denominator)));
 }
 
-/// Whether the ground is a group of its own, and bodies are there.
+/// Whether the model has bodies that nothing connects with the ground.
 bool flies(const Model& model) {
   const auto groups = connected_groups(model, find_parts(model));
   return groups.size() > 1 && std::ranges::find(groups, std::vector<std::string>{"ground"}) != groups.end();
 }
 
-/// Rates of all coordinates while everything turns about the axis k of the origin.
+/// Rates of all coordinates in a rotation of everything about axis k through the origin.
 void turn_all(const Model& model, const Evaluation& evaluation, int k, Eigen::Ref<Eigen::VectorXd> rates) {
   const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
   rates.setZero();
@@ -73,9 +73,9 @@ void turn_all(const Model& model, const Evaluation& evaluation, int k, Eigen::Re
   }
 }
 
-/// Angular momentum about the origin while nothing connects the bodies with the ground, no weight and no load acts. It
-/// is vᵀ M w for the rates w of a turn of everything about an axis: by differences of the kinetic energy, for every
-/// kind of body.
+/// Validity check of the angular momentum about the origin, while nothing connects the bodies with the ground and
+/// neither weight nor load acts. It is vᵀ M w for the rates w of a rotation of everything about an axis. Differences of
+/// the kinetic energy give it for every kind of body.
 class MomentumBalance : public Doubt {
  public:
   MomentumBalance(const formats::Scene& scene, const Model& model)
@@ -83,8 +83,8 @@ class MomentumBalance : public Doubt {
         pause_((scene.integrator.end - scene.integrator.start) / instants),
         next_(scene.integrator.start) {}
 
-  /// Loads begin the balance anew. Compares at about a hundred
-  /// steps of a run, each of which costs 13 evaluations.
+  /// Restarts the balance while loads act. Compares at about a hundred steps of a run, each of which costs 13
+  /// evaluations.
   void after_step(const State&, const Instant& end) override {
     if (!scratch_) return;
     const auto& [model, state, evaluation] = end;
@@ -109,7 +109,7 @@ class MomentumBalance : public Doubt {
     }
   }
 
-  /// At most one: that it changes by more than a two-thousandth of what the speeds could have.
+  /// At most one warning: the change exceeds a two-thousandth of the momentum possible at these speeds.
   std::vector<std::string> doubts(const Model&, const StressedBodies&) const override {
     if (!(worst_ > most_momentum)) return {};
     return {
@@ -121,7 +121,7 @@ class MomentumBalance : public Doubt {
  private:
   struct Momentum {
     Eigen::Vector3d value = Eigen::Vector3d::Zero();
-    double most = 0.0;  ///< √(vᵀMv wᵀMw), of the axis where it is largest
+    double most = 0.0;  ///< √(vᵀMv wᵀMw) of the axis with the largest value
     double time = 0.0;
   };
   struct Scratch {
@@ -157,17 +157,17 @@ class MomentumBalance : public Doubt {
     return momentum;
   }
 
-  std::unique_ptr<Scratch> scratch_;  ///< none: something acts from outside
+  std::unique_ptr<Scratch> scratch_;  ///< null: something acts from outside
   double pause_, next_;
   std::optional<Momentum> begin_;
-  double worst_ = 0.0;  ///< change by `most`
+  double worst_ = 0.0;  ///< largest change relative to `most`
   double from_ = 0.0, to_ = 0.0;
 };
 
-/// Tumbling of rigid bodies that nothing is connected to. Its period follows from the energy of rotation T and the
-/// angular momentum h (Landau, Lifshitz, Mechanics, 1976, section 37), and near the middle axis from ln |h² − 2 I₂ T|,
-/// so that small losses of both shift it by whole turns. Measured is ∫ (ν − ν(start)) dt for the frequency ν of T and
-/// h.
+/// Validity check of the tumbling of free rigid bodies. Its period follows from the energy of rotation T and the
+/// angular momentum h (Landau, Lifshitz, Mechanics, 1976, section 37). Near the middle axis it depends on ln |h² − 2 I₂
+/// T|, so that small losses of both shift it by whole turns. The error is ∫ (ν − ν(start)) dt for the frequency ν of T
+/// and h.
 class TumblingBalance : public Doubt {
  public:
   TumblingBalance(const formats::Scene& scene, const Model& model)
@@ -178,12 +178,12 @@ class TumblingBalance : public Doubt {
       if (!body.gyroscopic || std::ranges::find(groups, std::vector<std::string>{body.name}) == groups.end()) continue;
       Seen seen{.body = i, .inertia = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia).eigenvalues()};
       const Eigen::Vector3d& I = seen.inertia;
-      // Alike about two axes: no middle axis.
+      // Two equal moments of inertia: there is no middle axis.
       if (I[0] > 0.0 && std::min(I[1] - I[0], I[2] - I[1]) > 1e-6 * I[2]) seen_.push_back(seen);
     }
   }
 
-  /// Loads begin the balance anew. Looks at about a thousand states.
+  /// Restarts the balance while loads act. Evaluates about a thousand states.
   void observe(const Instant& at) override {
     if (seen_.empty()) return;
     const auto& [model, state, evaluation] = at;
@@ -211,7 +211,7 @@ class TumblingBalance : public Doubt {
     }
   }
 
-  /// At most one: the body whose tumbling is off by the largest share of a turn.
+  /// At most one warning: the body whose tumbling has the largest error in turns.
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     const auto worst = std::ranges::max_element(seen_, {}, &Seen::worst);
     if (worst == seen_.end() || !(worst->worst > most_turns)) return {};
@@ -226,16 +226,16 @@ class TumblingBalance : public Doubt {
   struct Seen {
     int body = 0;
     Eigen::Vector3d inertia;  ///< principal, ascending
-    double start = -1.0;      ///< ν there; negative: not begun
+    double start = -1.0;      ///< ν at the start of the balance; negative: not started
     double now = 0.0;         ///< ν
     double turns = 0.0;       ///< ∫ ν dt
     double shift = 0.0;       ///< ∫ (ν − ν(start)) dt
     double worst = 0.0;       ///< largest |shift|
-    double time = 0.0;        ///< of it
+    double time = 0.0;        ///< time of the largest |shift|
   };
   std::vector<Seen> seen_;
   double pause_, next_;
-  double time_ = 0.0;  ///< of the latest look
+  double time_ = 0.0;  ///< time of the latest evaluation
 };
 
 }  // namespace
@@ -256,8 +256,8 @@ void EnergyBalance::observe(const formats::ResultsRow& row, double possible) {
   ++part.rows;
 }
 
-/// Whether the means of the stretches go one way throughout, in the second half of the time not much less than in the
-/// first: a start that settles is no drift.
+/// Whether the means of the intervals change monotonically, and in the second half of the time not much less than in
+/// the first. A start that settles is not a drift.
 bool EnergyBalance::drifts() const {
   const bool thin = std::ranges::any_of(part_, [](const Part& part) { return part.rows < 2; });
   if (thin) return false;

@@ -1,5 +1,5 @@
-// Whether the energy of a run adds up, at the rows that it stores, the angular momentum of what flies freely, and the
-// tumbling of what energy and angular momentum tell.
+// Validity checks of balances: energy of a run at the stored rows, angular momentum of free bodies, and tumbling, which
+// follows from energy and angular momentum.
 #pragma once
 
 #include <array>
@@ -16,15 +16,15 @@ class EnergyBalance {
  public:
   EnergyBalance(double start, double end) : start_(start), end_(end) {}
 
-  /// possible: work of the largest force of this row over the characteristic length. What stands still balances
-  /// round-off of that.
+  /// `possible` is the work of the largest force of this row over the characteristic length. At rest the balance is
+  /// round-off of it.
   void observe(const formats::ResultsRow& row, double possible);
 
   /// Largest kinetic + |strain| + |change of potential| + |work| + |dissipated| of the rows.
   double moved() const { return moved_; }
 
-  /// At most one: that the largest balance exceeds a hundredth of the energy that moved, or that it drifts there.
-  /// `cause`: what explains it, in place of the advice to take shorter steps; empty: nothing known.
+  /// At most one warning: the largest balance exceeds a hundredth of the energy that moved, or will do so by a drift.
+  /// `cause` is a known cause, which replaces the advice to take shorter steps; empty if unknown.
   std::vector<std::string> doubts(const std::string& cause) const;
 
  private:
@@ -37,12 +37,12 @@ class EnergyBalance {
   bool drifts() const;
 
   double start_, end_;
-  std::array<Part, parts> part_{};  ///< balances of equal stretches of the run's time
-  double largest_ = 0.0;            ///< with its sign
+  std::array<Part, parts> part_{};  ///< balances of equal intervals of the run's time
+  double largest_ = 0.0;            ///< signed
   double at_ = 0.0;
   double moved_ = 0.0;
   std::optional<double> potential_;  ///< of the first row
-  double level_ = 0.0;               ///< largest |total| or work that was possible, whose round-off is no balance
+  double level_ = 0.0;               ///< largest |total| or possible work; its round-off is not an error of the balance
 };
 
 }  // namespace tisserand::mechanism

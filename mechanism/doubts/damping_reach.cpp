@@ -15,13 +15,13 @@ namespace {
 constexpr double least_share = 0.1;
 
 struct Ratios {
-  double lowest = 0.0;  ///< of the lowest vibration of the held body
+  double lowest = 0.0;  ///< damping ratio of the lowest vibration of the held body
   double omega = 0.0;   ///< its frequency [rad/time]; 0: none
   double asked =
-      0.0;  ///< what the scene asks for: the largest of the internal modes, or that of the free body's lowest
+      0.0;  ///< ratio in the scene: the largest of the internal modes, or that of the lowest mode of the free body
 };
 
-/// ζ = φᵀDφ/(2 ω) of a vibration with φᵀMφ = 1.
+/// Damping ratio ζ = φᵀDφ/(2 ω) of a vibration with φᵀMφ = 1.
 double ratio_of(const SuperelementBody& body, const HeldMode& mode) {
   const SuperelementDamping& D = body.damping;
   const Eigen::VectorXd b = mode.shape.head(body.boundary_size), i = mode.shape.tail(body.modes);
@@ -46,14 +46,14 @@ Ratios ratios_of(const SuperelementBody& body, const std::vector<bool>& held) {
   return ratios;
 }
 
-/// Damping in proportion to stiffness, which any way of holding the body leaves, with the ratio at ω.
+/// Advice: damping proportional to stiffness, which acts for any boundary conditions, with the ratio at ω.
 std::string remedy(const Ratios& ratios) {
   return fmt::format(
       "'damping: {{stiffness: {:.2g}}}' gives it {:.2g}, and other modes in proportion to their frequency",
       2.0 * ratios.asked / ratios.omega, ratios.asked);
 }
 
-/// Of bodies with a full matrix of damping, or of those without.
+/// Messages on bodies with a full damping matrix, or on those without.
 std::vector<std::string> of_bodies(const Model& model, bool full) {
   std::vector<std::string> told_of;
   std::map<std::pair<int, std::vector<bool>>, bool> told;

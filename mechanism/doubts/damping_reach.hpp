@@ -1,4 +1,4 @@
-// Whether the damping of superelements reaches their lowest modes.
+// Validity check: whether the damping of superelements acts on their lowest modes.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace tisserand::mechanism {
 
-/// One per superelement, alike ones once, whose lowest vibration, held as others hold it (held_coordinates()), has less
-/// than a tenth of the damping ratio of its internal modes: `ratio_internal` damps shapes whose boundary rests, and no
-/// others.
+/// Warnings, one per superelement, equal ones once. The lowest vibration with the boundary conditions of the scene
+/// (held_coordinates()) has less than a tenth of the damping ratio of the internal modes. The reason is that
+/// `ratio_internal` damps only shapes whose boundary rests.
 std::vector<std::string> damping_doubts(const Model& model);
 
-/// The same of `ratio`, which is that of the modes of the body without joints.
+/// Notes of the same kind on `ratio`, which applies to the modes of the body without joints.
 std::vector<std::string> damping_notes(const Model& model);
 
 }  // namespace tisserand::mechanism

@@ -1,5 +1,5 @@
-// A doubt of a run: a quantity that is measured at its states, and sentences where it leaves the limit that has a
-// source.
+// A validity check of a run: it measures a quantity at the states of the run, and warns if it exceeds a limit that has
+// a source.
 #pragma once
 
 #include <functional>
@@ -21,12 +21,11 @@ struct Instant {
   const Evaluation& evaluation;
 };
 
-/// Per superelement, whether joints can stress it though no load acts (switching/constraint_stress.hpp); empty: not
-/// known.
+/// Per superelement, whether joints can stress it without loads (switching/constraint_stress.hpp). Empty: unknown.
 using StressedBodies = std::function<std::vector<bool>()>;
 
-/// Questions that others ask the doubts: why a run fails, why it fails although its equations are regular, and where
-/// energy went.
+/// Questions to the validity checks: why a run fails, why it fails although its equations are regular, and where energy
+/// was lost.
 enum class Puzzle { failure, regular_failure, energy };
 
 class Doubt {
@@ -34,27 +33,27 @@ class Doubt {
   virtual ~Doubt() = default;
 
   virtual void observe(const Instant&) {}
-  /// The state is the end of a step from `before`.
+  /// Observes the state at the end of a step from `before`.
   virtual void after_step(const State& /*before*/, const Instant& end) { observe(end); }
 
-  /// Sentences on the worst of each kind, mostly with the number of others. `stressed` is called only where it matters.
+  /// Warnings on the worst case of each kind, mostly with the number of others. `stressed` is called only if needed.
   virtual std::vector<std::string> doubts(const Model& model, const StressedBodies& stressed) const = 0;
-  /// Sentence on what was seen that answers the question; empty if nothing was.
+  /// Sentence on an observation that answers the question; empty if there is none.
   virtual std::string explanation(Puzzle, const Model&) const { return {}; }
 };
 
-/// How far something is beyond its limit, and the sentence on it.
+/// Ratio of a quantity to its limit, and the warning on it.
 struct Excess {
   double ratio = 0.0;
   std::string text;
 };
-/// The largest alone, "(and 3 <others>)"; none: nothing.
+/// Warning with the largest ratio alone, plus "(and 3 <others>)"; none if there are no excesses.
 std::vector<std::string> worst_of(const std::vector<Excess>& excesses, const char* others);
 
-/// Whether it is dynamics by steps of generalised alpha or HHT.
+/// Whether the analysis is dynamics with steps of generalised alpha or HHT.
 bool has_alpha_steps(const formats::Scene& scene);
 
-/// One kind for a run; null where it cannot arise.
+/// Factory of one validity check for a run; null if the check does not apply.
 using MakeDoubt = std::unique_ptr<Doubt>(const formats::Scene& scene, const Model& model);
 MakeDoubt axial_spin, beam_range, bushing_range, inertia_choice, linear_range, momentum_balance, multiplier_swing,
     reaction_vibration, step_resolution, table_range, torsion, touch_resolution, tumbling_balance, tyre_range;

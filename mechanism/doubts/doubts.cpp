@@ -1,4 +1,4 @@
-// The doubts of a run, asked one after the other.
+// The validity checks of a run, called one after the other.
 #include "mechanism/doubts/doubts.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Conditions of B and of the iteration matrix, growth of the motion.
+// Conditions of B and of the iteration matrix, and growth of the motion.
 #include "mechanism/doubts/failure_cause.hpp"
 
 #include <algorithm>
@@ -18,18 +18,18 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Condition of B beyond which its rows are nearly dependent: of the digits of BBᵀ a third is left. Mechanisms away
-/// from singular positions have 1 to 1e3, at a step before one 6e5 (tests/stability, four-bar).
+/// Condition of B beyond which its rows are nearly dependent: BBᵀ keeps a third of its digits. Mechanisms away from
+/// singular positions have 1 to 1e3, one step before them 6e5 (tests/stability, four-bar).
 constexpr double dependent = 1e5;
-/// Products with B up to which its condition is asked for: a second at most.
+/// Largest sizes for which the condition of B is computed: a second at most.
 constexpr int most_constraints = 400, longest_row = 4000;
-/// Reciprocal condition of the iteration matrix below which two digits of a solution are left.
+/// Reciprocal condition of the iteration matrix at which two digits of a solution remain.
 constexpr double nearly_singular = 1e-14;
-/// Gaps of an assembly: far above round-off, far below those of a millisecond beyond a dead point.
+/// Tolerance of the gaps of an assembly: far above round-off, far below gaps a millisecond after a dead point.
 constexpr double closed = 1e-9;
 
-/// Condition of the rows of B that are solved for, lengths and rotations scaled with the characteristic length; 0: not
-/// asked for. After evaluate().
+/// Condition of the active rows of B, with lengths and rotations scaled by the characteristic length. 0: not computed.
+/// Needs evaluate().
 double constraint_condition(const Model& model, const State& state, const Evaluation& now) {
   const int rows = model.sizes.constraints, columns = model.sizes.boundary;
   if (rows == 0 || rows > most_constraints || columns > longest_row) return 0.0;
@@ -53,7 +53,7 @@ double constraint_condition(const Model& model, const State& state, const Evalua
   return std::sqrt(squares[squares.size() - 1] / std::max(squares[0], 1e-32 * squares[squares.size() - 1]));
 }
 
-/// The iteration matrix of a step of the given size from the evaluated state.
+/// Factors the iteration matrix of a step of the given size from the evaluated state.
 FactorReport factored(const Model& model, const formats::IntegratorSpec& options, double size, const State& state,
                       Workspace& workspace) {
   const StepScheme scheme = step_scheme(model, options, state, state.time() + size);
@@ -64,7 +64,7 @@ bool is_singular(const FactorReport& factors) {
   return !factors.regular || factors.reciprocal_condition < nearly_singular;
 }
 
-/// Where drives move joints: what stays open at the end of the step, however whole bodies are moved.
+/// Text on drives that joints cannot follow: what stays open at the end of the step for any motion of whole bodies.
 std::string unreachable(const Model& model, double size, State state, Evaluation& now) {
   if (model.motions.empty() || model.sizes.constraints > most_constraints || model.sizes.boundary > longest_row)
     return {};

@@ -1,4 +1,4 @@
-// Why a run had to end: a decision on measured numbers, and the setting that would help.
+// Cause of the end of a run: a decision on measured numbers, and the setting that would help.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace tisserand::mechanism {
 
-/// What a run of generalised alpha or HHT failed at, after its last step at the accepted `state`.
+/// Failure of a run of generalised alpha or HHT, after its last step at the accepted `state`.
 struct Failure {
   StepReport step;    ///< of the last attempt
-  double size = 0.0;  ///< of the step that was first tried there
+  double size = 0.0;  ///< size of the step that was tried first
 };
 
-/// "; <cause>: <remedy>", asked in this order: multipliers that swing; torsion too soft for the spin; drives that
-/// joints cannot follow, with the step first tried; a constraint Jacobian that is nearly of lower rank at the state; an
-/// iteration matrix that is singular there with the step first tried, and with a quarter of it or not; a motion that
-/// changes much per step. Empty: none of these. Overwrites the evaluation and the matrix.
+/// Text "; <cause>: <remedy>". Causes are checked in this order: multipliers that oscillate; torsion too soft for the
+/// spin; drives that joints cannot follow with the step first tried; a constraint Jacobian that is nearly
+/// rank-deficient; an iteration matrix that is singular with the step first tried, and perhaps with a quarter of it; a
+/// motion that changes much per step. Empty: none of these. Overwrites the evaluation and the matrix.
 std::string failure_cause(const Model& model, const formats::IntegratorSpec& options, const Doubts& doubts,
                           const Failure& failure, State& state, Workspace& workspace);
 

@@ -14,9 +14,9 @@ namespace {
 
 constexpr int most_coordinates = 80;
 
-/// Rigid motions that the held coordinates leave: rank Φ − rank Φ_held.
+/// Number of rigid motions that the held coordinates leave free: rank Φ − rank Φ_held.
 Eigen::Index rigid_motions(const SuperelementBody& body, const std::vector<bool>& held) {
-  constexpr double independent = 1e-6;  // six digits of a place in a file
+  constexpr double independent = 1e-6;  // files give positions with six digits
   const auto rank = [&](const Eigen::MatrixXd& A) -> Eigen::Index {
     if (A.rows() == 0) return 0;
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
@@ -115,8 +115,8 @@ HeldMode first_mode(const SuperelementBody& body, const std::vector<bool>& held,
   Eigen::MatrixXd& M = part.M;
   const Eigen::Index n = M.rows();
   if (n == 0) return {};
-  // M x = μ (S + from² M) x, ω² = 1/μ − from². Rigid motions that are left have the largest μ. They are counted, since
-  // round-off gives them a frequency that no bound separates from that of a soft body.
+  // M x = μ (S + from² M) x, ω² = 1/μ − from². Remaining rigid motions have the largest μ. They are counted, because
+  // round-off gives them a frequency that no limit separates from that of a soft body.
   const double shift = from * from;
   const Eigen::LLT<Eigen::MatrixXd> factor(part.S + shift * M);
   if (factor.info() != Eigen::Success) return {};

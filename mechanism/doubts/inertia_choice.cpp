@@ -1,4 +1,4 @@
-// What hangs on the inertia option of a linear superelement: the deflection that the other options would add.
+// Validity check of the inertia option of a linear superelement: the deflection that the other options would add.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,16 +18,14 @@ namespace {
 
 using formats::InertiaOption;
 
-/// Half of a tenth, as for other terms that are left out (EN 1993-1-1, 5.2.1 (3)): forces that set in suddenly deflect
-/// twice as far as at rest (Timoshenko, Vibration Problems in Engineering, 1928, dynamic load factor). Measured with B
-/// in one, two and four pieces: slider-crank 0.095, 0.10 and 0.028 (error 19, 13 and 3.3 %), four-bar 0.062, 0.098 and
-/// 0.023 (61, 12.5 and 3 %). Spin-up and pendulum have at most 0.046.
+/// Half of a tenth, the limit of other omitted terms (EN 1993-1-1, 5.2.1 (3)): sudden forces deflect twice as far as
+/// static ones (Timoshenko, Vibration Problems in Engineering, 1928, dynamic load factor).
 constexpr double most_difference = 0.05;
-/// Instants at which a run is looked at, and steps between them: a hundredth of its time at most.
+/// Largest number of instants, and least number of steps between them: a hundredth of the run's time at most.
 constexpr double most_instants = 200.0;
 constexpr int fewest_steps = 10;
 
-/// None for M, whose centre of mass moves as it should.
+/// Options to compare with; none for M, which moves the centre of mass exactly.
 std::vector<InertiaOption> others_of(const SuperelementBody& body) {
   if (body.second_order.any() || body.inertia == InertiaOption::M) return {};
   std::vector<InertiaOption> others{body.inertia == InertiaOption::A ? InertiaOption::B : InertiaOption::A};
@@ -35,7 +33,7 @@ std::vector<InertiaOption> others_of(const SuperelementBody& body) {
   return others;
 }
 
-/// The boundary part of `forces` in axes of the frame, then the internal part.
+/// Adds the boundary part of `forces` in axes of the frame, then the internal part.
 void add_local(const SuperelementBody& body, const SuperelementScratch& scratch, double sign, Eigen::VectorXd& load) {
   const auto& r = scratch.forces.r_B;
   for (const SuperelementNode& node : body.node) {
@@ -48,12 +46,12 @@ void add_local(const SuperelementBody& body, const SuperelementScratch& scratch,
   load.tail(body.modes) += sign * scratch.forces.r_I;
 }
 
-/// Options A and B interpolate the motion of the centre of mass with the rotations of nodes in axes of their own: a
-/// body that translates with v while its axis e turns with Ω feels moments ~ (Ω x e) x v that bend it, deformed or not;
-/// M has none. A and B part where a body bends out of the plane in which it turns. At some hundred instants of a run
-/// the forces of the others are evaluated at the same motion; what they differ by deflects the body, held as in
-/// held_coordinates(), by e = (S + Ω² M)⁻¹ Δr. Seen is the largest √(Σ eᵀSe), beside the largest √(Σ yᵀSy) of the run,
-/// sums over pieces that are welded together.
+/// Options A and B interpolate the motion of the centre of mass with nodal rotations in axes of their own. A body that
+/// translates with v while its axis e turns with Ω feels moments ~ (Ω x e) x v that bend it, deformed or not; M has
+/// none. A and B differ if a body bends out of the plane in which it turns. At some hundred instants of a run the
+/// forces of the other options are evaluated at the same motion. Their difference deflects the body, held as in
+/// held_coordinates(), by e = (S + Ω² M)⁻¹ Δr. The check compares the largest √(Σ eᵀSe) with the largest √(Σ yᵀSy) of
+/// the run, summed over pieces that are welded together.
 class InertiaChoice : public Doubt {
  public:
   InertiaChoice(const formats::Scene& scene, const Model& model)
@@ -96,7 +94,7 @@ class InertiaChoice : public Doubt {
     }
   }
 
-  /// The largest excess, and how many others there are.
+  /// Warning of the largest excess, with the number of others.
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     std::vector<Excess> excesses;
     for (int i = 0; i < std::ssize(uses_); ++i) {
@@ -116,23 +114,23 @@ class InertiaChoice : public Doubt {
   }
 
  private:
-  /// A body with another option, which one use after the other is evaluated with.
+  /// A body with another option, with which its uses are evaluated in turn.
   struct Other {
     SuperelementBody body;
     SuperelementScratch scratch;
   };
   struct Use {
     FreePart part;
-    Eigen::LLT<Eigen::MatrixXd> factor;  ///< of S + shift M
+    Eigen::LLT<Eigen::MatrixXd> factor;  ///< factors of S + shift M
     double shift = 0.0;
     int beam = 0;
   };
-  /// What was seen of one beam. Beams have the order of welded_beams().
+  /// Quantities of one beam during the run. Beams have the order of welded_beams().
   struct Seen {
     double now = 0.0;         ///< ½ Σ yᵀSy
-    double strain = 0.0;      ///< the largest
+    double strain = 0.0;      ///< largest ½ Σ yᵀSy
     double difference = 0.0;  ///< largest ½ Σ eᵀSe
-    double time = 0.0;        ///< of the latter
+    double time = 0.0;        ///< time of the largest difference
     formats::InertiaOption option{};
     std::array<double, 3> change{};  ///< ½ Σ eᵀSe of each option, now
   };
@@ -169,7 +167,7 @@ class InertiaChoice : public Doubt {
     }
   }
 
-  std::vector<std::vector<Other>> others_;  ///< per body; none: it is not judged
+  std::vector<std::vector<Other>> others_;  ///< per body; empty: not checked
   std::vector<Use> uses_;
   std::vector<Seen> seen_;
   Eigen::VectorXd load_, deflection_;

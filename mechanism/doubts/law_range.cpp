@@ -1,4 +1,4 @@
-// Whether nonlinear beams, bushings, springs, drives and angles stay within what their laws represent.
+// Validity check: whether nonlinear beams, bushings, springs, drives and angles stay in the range of their laws.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,24 +15,24 @@ namespace {
 
 using Eigen::Matrix3d;
 
-/// Relative rotation between neighbouring nodes [rad]. Arcs of it are too short by 7 ψ⁴/5760 (remainder of the series
-/// of (ψ/2)/sin(ψ/2) behind 1 + ψ²/24): 1.2e-3 at 1 rad.
+/// Relative rotation between neighbouring nodes [rad]. Its arc is too short by 7 ψ⁴/5760 (remainder of the series of
+/// (ψ/2)/sin(ψ/2) after 1 + ψ²/24): 1.2e-3 at 1 rad.
 constexpr double most_turn = 1.0;
 /// A constant E A means a constant cross-section, but an area shrinks by 2 ν ε in tension (Poisson): 3 % at 0.05 with ν
 /// = 0.3.
 constexpr double most_stretch = 0.05;
 
-/// 2 (1 − cos ψ) = 3 − trace; ψ² of it to 1e-3 below 1 rad.
+/// 2 (1 − cos ψ) = 3 − trace. From it squared_angle() gives ψ² to 1e-3 below 1 rad.
 double versine(double trace) { return std::max(0.0, 3.0 - trace); }
 double squared_angle(double versine) { return versine * (1.0 + versine / 12.0); }
 double angle(double versine) { return std::acos(std::clamp(1.0 - 0.5 * versine, -1.0, 1.0)); }
 
-/// The logarithm of a rotation ends at π (bushing.hpp). A tenth before it a step of 18 degrees may pass it.
+/// The logarithm of a rotation ends at π (bushing.hpp). From 0.9 π on, a step of 18 degrees may exceed it.
 constexpr double farthest = 0.9 * std::numbers::pi;
-/// A value may lie outside a table by this share of its width: the straight continuation differs little there.
+/// Accepted distance of a value from a table, over its width: there the straight continuation differs little.
 constexpr double beyond_table = 0.01;
 
-/// Largest relative rotation between neighbouring nodes of a beam element, and largest stretch of an element, over the
+/// Validity check of beam elements: largest relative rotation between neighbouring nodes, and largest stretch, over the
 /// run.
 class BeamRange : public Doubt {
  public:
@@ -47,7 +47,7 @@ class BeamRange : public Doubt {
     add(model.beams3);
   }
 
-  /// At an evaluated state; some twenty flops per element.
+  /// Observes an evaluated state; costs some twenty flops per element.
   void observe(const Instant& at) override {
     const auto raise = [&](Extreme& extreme, double value, int span) {
       if (value > extreme.value) extreme = {value, at.state.time(), span};
@@ -62,7 +62,7 @@ class BeamRange : public Doubt {
     }
   }
 
-  /// At most two lines: the element that turns most and the one that stretches most.
+  /// At most two warnings: the largest rotation and the largest stretch of an element.
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     const auto place = [&](const Extreme& extreme) {
       return fmt::format("between '{}' and '{}' (at t = {:.6g})", model.nodes[spans_[extreme.span].first].name,
@@ -82,10 +82,10 @@ class BeamRange : public Doubt {
   }
 
  private:
-  /// Two neighbouring nodes. Node axes coincide at the reference, sections there differ by `bend`.
+  /// Two neighbouring nodes. In the reference configuration node axes coincide, and sections differ by `bend`.
   struct Span {
     int first, last;
-    double length;         ///< arc length at the reference
+    double length;         ///< arc length in the reference configuration
     Eigen::Matrix3d bend;  ///< D₂ D₁ᵀ of the section triads D
   };
   struct Extreme {
@@ -98,8 +98,8 @@ class BeamRange : public Doubt {
   Extreme stretch_;  ///< |ε| of the arc through both nodes
 };
 
-/// Largest rotation vector of each bushing that acts on rotations. Beyond half a turn it is that of the other way
-/// round, and the moment changes its sign. With an axis whose turns are counted, the swing across it.
+/// Validity check: largest rotation vector of each bushing that acts on rotations. Beyond half a turn the vector
+/// reverses, and the moment changes its sign. If turns about an axis are counted, the swing across the axis is checked.
 class BushingRange : public Doubt {
  public:
   explicit BushingRange(const Model& model) {
@@ -122,7 +122,7 @@ class BushingRange : public Doubt {
     }
   }
 
-  /// At most one line, with the number of bushings and the name of the first.
+  /// At most one warning, with the number of bushings and the name of the first.
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     const auto far = [](const Seen& seen) { return seen.angle > 0.0; };
     const auto first = std::ranges::find_if(seen_, far);
@@ -138,7 +138,7 @@ class BushingRange : public Doubt {
         first->time, remedy)};
   }
 
-  /// "bushing 'mount' passed half a turn", which energy does not survive; empty: none did.
+  /// Text "bushing 'mount' passed half a turn", which changes the energy; empty: none did.
   std::string explanation(Puzzle puzzle, const Model& model) const override {
     if (puzzle != Puzzle::energy) return {};
     const auto first = std::ranges::find_if(seen_, &Seen::passed);
@@ -152,15 +152,15 @@ class BushingRange : public Doubt {
     int bushing = 0;
     int axis = -1;  ///< Bushing::axis
     Eigen::Vector3d before = Eigen::Vector3d::Zero();
-    double angle = 0.0, time = 0.0;  ///< where it first came near half a turn or passed it; 0: never
-    int about = 0;                   ///< marker axis about which it turned most then
-    bool passed = false;             ///< half a turn
+    double angle = 0.0, time = 0.0;  ///< first instant near or beyond half a turn; angle 0: never
+    int about = 0;                   ///< marker axis of its largest rotation then
+    bool passed = false;             ///< it passed half a turn
   };
   std::vector<Seen> seen_;
 };
 
-/// Springs beyond the tables of their laws, drives that go on behind their tables, and angles about axes that come near
-/// opposite directions, where they are not defined.
+/// Validity check of tables and axes: springs beyond the tables of their laws, drives after the end of their tables,
+/// and angles about axes that come near opposite directions, where they are undefined.
 class TableRange : public Doubt {
  public:
   explicit TableRange(const Model& model) {
@@ -181,7 +181,7 @@ class TableRange : public Doubt {
         const MotionTable motion(*table);
         const double low = table->time.front(), high = table->time.back(), visible = beyond_table * (most - least);
         laws_.push_back({Kind::drive, i, low, high, low - visible / std::abs(motion(low).rate),
-                         high + visible / std::abs(motion(high).rate)});  // infinite where it rests
+                         high + visible / std::abs(motion(high).rate)});  // infinite if it rests
       }
     for (int i = 0; i < std::ssize(model.coordinates); ++i)
       if (const Coordinate& c = model.coordinates[i]; c.active && c.relation.kind == RelationKind::angle)
@@ -198,7 +198,7 @@ class TableRange : public Doubt {
     }
   }
 
-  /// At most one line per kind: the first that left its range, and how many others did.
+  /// At most one warning per kind: the first that left its range, with the number of others.
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     std::vector<std::string> doubts;
     for (const Kind kind : {Kind::stiffness, Kind::damping, Kind::drive, Kind::angle}) {
@@ -230,8 +230,8 @@ class TableRange : public Doubt {
 
  private:
   enum class Kind { stiffness, damping, drive, angle };
-  /// One law: its range of deflections, rates, times or angles between axes, what is told about, and where it left it
-  /// first.
+  /// One law: its range of deflections, rates, times or angles between axes, and the first instant at which it left the
+  /// range.
   struct Watched {
     Kind kind;
     int index;

@@ -1,5 +1,5 @@
-// Whether superelements and modal bodies stay where their linear strain serves: deflection, axial force, displaced
-// forces, spin.
+// Validity check of the linear strain of superelements and modal bodies: deflection, axial force, displaced forces,
+// spin.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -25,35 +25,35 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using std::numbers::pi;
 
-/// Deflection over length at which a cantilever with a load at its tip deflects 4 % less than the linear one (Bisshopp,
-/// Drucker, Quarterly of Applied Mathematics 3, 1945: 0.302 at P L²/EI = 1, where the linear one has 0.333).
+/// Deflection over length at which a cantilever with a tip load deflects 4 % less than the linear one (Bisshopp,
+/// Drucker, Quarterly of Applied Mathematics 3, 1945: 0.302 at P L²/EI = 1; the linear value is 0.333).
 constexpr double most_deflection = 0.2;
-/// Forces of the second order matter from a tenth of the buckling load on (EN 1993-1-1, 5.2.1 (3): α_cr < 10). Tension
+/// Second-order forces matter from a tenth of the buckling load on (EN 1993-1-1, 5.2.1 (3): α_cr < 10). Tension
 /// stiffens as much as compression softens.
 constexpr double most_axial = 0.1;
 /// A spin Ω raises the square of a cantilever's first frequency by 1.193 Ω² (Southwell, Gough, ARC R&M 766, 1921): 10 %
 /// of its stiffness at 0.29.
 constexpr double most_spin = 0.29;
-/// Equilibrium of a linear body holds in its undeformed shape. In the deformed one forces F and moments m on nodes that
-/// are displaced by u and turned by θ have the moment Σ u × F + ½ θ × m besides (½: m works on rotation vectors). A
-/// cantilever under an axial force P and a force across has P/P_cr·π²/12 of its largest moment there: the limit of
-/// most_axial.
+/// A linear body is in equilibrium in its undeformed shape. In the deformed shape, forces F and moments m on nodes that
+/// are displaced by u and turned by θ have the additional moment Σ u × F + ½ θ × m (½: m works on rotation vectors).
+/// For a cantilever under an axial force P and a force across it is P/P_cr·π²/12 of the largest moment there, the limit
+/// of most_axial.
 constexpr double most_displaced = 0.1;
-/// The limit for bodies that joints stress though no load acts. Their reactions are a stiffness times small
-/// differences: of a misaligned four-bar, bars of one piece have 0.038, and the largest force errs by 25 %; bars of two
-/// have 0.015, and it errs by 7 %; of four 0.0034, and 2 % (tests/verification/trials/automatic_loops_test.cpp).
+/// Limit for bodies that joints can stress without loads. Their reactions are a stiffness times small differences. In a
+/// misaligned four-bar, bars of one piece have 0.038 and the largest force errs by 25 %; bars of two have 0.015 and 7
+/// %, of four 0.0034 and 2 % (tests/verification/trials/automatic_loops_test.cpp).
 constexpr double most_displaced_stressed = 0.005;
-/// A body counts as undeformed while displacements over its span and turns [rad] are smaller.
+/// A body counts as undeformed if displacements over its span and rotations [rad] are smaller.
 constexpr double least_displacement = 1e-3;
-/// The arm of a force, over the span, where it is compared with moments. Bodies between hinges bear no moments.
+/// Arm of a force, over the span, for its comparison with moments: bodies between hinges bear no moments.
 constexpr double least_arm = 0.1;
-/// Displacements of a turn by θ are θ × r in a linear body, and err by θ²/2 of it: 2 % here.
+/// A linear body displaces points by θ × r in a rotation θ, with the error θ²/2: 2 % here.
 constexpr double most_inner_turn = 0.2;
 constexpr const char* superelement_remedy = "cut it into several, or use second_order with its companion file";
 constexpr const char* modal_remedy = "cut it into several, or take superelements with second_order, or beams";
 
-/// 12 EI/L³ about the weaker axis: the force that moves the last node across the line while the first is held, the last
-/// does not turn, and the nodes between them are free.
+/// Stiffness 12 EI/L³ about the weaker axis: the force that moves the last node across the line while the first is
+/// held, the last does not turn, and the nodes between them are free.
 double transverse_stiffness(const SuperelementBody& body, const Axis& axis) {
   std::vector<int> kept, between;
   const int n = body.translations();
@@ -74,21 +74,20 @@ double transverse_stiffness(const SuperelementBody& body, const Axis& axis) {
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(across * S * across, Eigen::EigenvaluesOnly).eigenvalues()[1];
 }
 
-/// What the geometric stiffness of a body without internal modes errs by, whose shapes are the cubics of its ends: they
-/// buckle at 12 EI/L² between pins, where π² EI/L² is right. Tension stiffens the body by r beside its own.
+/// Error of the geometric stiffness of a body without internal modes, whose shapes are the cubics of its ends. Between
+/// pins they buckle at 12 EI/L² instead of π² EI/L². Tension adds the stiffness r to that of the body.
 double cubic_share(double r) { return (12.0 / (pi * pi) - 1.0) * std::abs(r) / (1.0 + std::max(0.0, r)); }
 
-/// What an axial force of r times the buckling load of a piece (tension positive) leaves out of the stiffness of a beam
-/// of n of them. All of it for one; the turning chords of n pieces carry it but for the part (π/n)²/12 that bends
-/// within the pieces, and tension stiffens the beam by n² r beside its own. A limit on the force of each piece alone
-/// would report a four-bar of eight pieces at r = 0.25, which errs by 1 %.
+/// Missing share of the stiffness of a beam of n pieces under an axial force of r times the buckling load of a piece
+/// (tension positive). One piece misses all of it. The turning chords of n pieces carry it except for the part
+/// (π/n)²/12 that bends within the pieces, and tension adds the stiffness n² r to that of the beam.
 double missing_share(double r, int pieces) {
   if (pieces == 1) return std::abs(r);
   return pi * pi / 12.0 * std::abs(r) / (1.0 + pieces * pieces * std::max(0.0, r));
 }
 
-/// Largest values over the accepted states of a run, of superelements without stiffening or without internal modes and
-/// of modal bodies. The turn of their nodes is FrameAngles' (mechanism/run).
+/// Validity check by the largest values over the accepted states of a run, for superelements without stiffening or
+/// without internal modes and for modal bodies. FrameAngles (mechanism/run) checks the rotations of their nodes.
 class LinearRange : public Doubt {
  public:
   LinearRange(const Model& model, double start)
@@ -122,7 +121,7 @@ class LinearRange : public Doubt {
     }
   }
 
-  /// One per quantity: its largest excess, and the number of others. `stressed`: asked only where it matters.
+  /// One warning per quantity: its largest excess, with the number of others. `stressed` is called only if needed.
   std::vector<std::string> doubts(const Model& model, const StressedBodies& stressed) const override {
     Findings found;
     std::map<std::pair<int, std::vector<bool>>, double> frequencies;
@@ -152,35 +151,35 @@ class LinearRange : public Doubt {
   }
 
  private:
-  /// Constants of a body. Axial force N = axial · y_B = along · S̄ y_B and Euler's load of a body whose nodes lie on a
-  /// line, the ends with rotations.
+  /// Constants of a body. If its nodes lie on a line and the end nodes have rotations, they include the axial force N =
+  /// axial · y_B = along · S̄ y_B and Euler's load.
   struct Limits {
     bool linear = false;
-    bool bare = false;      ///< stiffens by its companion file, has two nodes and no internal modes
+    bool bare = false;      ///< has stiffening by its companion file, two nodes and no internal modes
     double span = 0.0;      ///< largest distance of its nodes
-    Eigen::VectorXd axial;  ///< empty: not known from S and M alone
-    Eigen::VectorXd along;  ///< N of forces on nodes, boundary
-    double buckling = 0.0;  ///< π² EI/span², between pins
+    Eigen::VectorXd axial;  ///< empty: unknown from S and M alone
+    Eigen::VectorXd along;  ///< N from forces on nodes, boundary rows
+    double buckling = 0.0;  ///< π² EI/span² between pins
     double lag = 0.0;       ///< half the period of the first bending vibration between pins
     int loose = 0;          ///< internal coordinates without stiffness: mechanisms inside the part
-    double inertia = 0.0;   ///< largest about x, y or z through the centre of mass
+    double inertia = 0.0;   ///< largest moment of inertia about x, y or z through the centre of mass
   };
   struct Extreme {
     double value = 0.0;
     double time = 0.0;
   };
   struct Seen {
-    double force = 0.0;  ///< axial, its mean over `lag`; tension is positive
+    double force = 0.0;  ///< axial force, its mean over `lag`; tension is positive
     Extreme deflection, axial, spin;
-    Extreme displaced;    ///< moment of the elastic forces on the nodes in their displaced places, in the frame
-    Extreme loose;        ///< turn of a mechanism inside [rad], if it moves all of the inertia
+    Extreme displaced;    ///< moment of the elastic forces on the nodes in their displaced positions, in the frame
+    Extreme loose;        ///< rotation of an internal mechanism [rad], if it moves all of the inertia
     double moment = 0.0;  ///< largest moment on one node, or a tenth of the span times the force on it
   };
-  /// A body as its limits are judged.
+  /// Data of a body for the comparison with its limits.
   struct Judged {
     std::string name;
-    double span = 0.0, buckling = 0.0;  ///< 0: not known
-    int pieces = 1;                     ///< welded in a row
+    double span = 0.0, buckling = 0.0;  ///< 0: unknown
+    int pieces = 1;                     ///< number of pieces welded in a row
     bool bare = false;
     std::string remedy;
     double most_displaced = 0.0;
@@ -192,7 +191,7 @@ class LinearRange : public Doubt {
   struct Findings {
     std::vector<Excess> bent, pressed, displaced, spun, coarse, swung;
 
-    /// first_frequency(spin) is that of the body in a frame that turns with the spin.
+    /// Compares a body with its limits. first_frequency(spin) is that in a frame that turns with the spin.
     void judge(const Judged& body, const Seen& seen, auto first_frequency) {
       const auto& [force, deflection, axial, spin, moved, loose, moment] = seen;
       if (loose.value > most_inner_turn)
@@ -267,7 +266,7 @@ class LinearRange : public Doubt {
     if (!axis) return limits;
     limits.buckling = pi * pi / 12.0 * limits.span * transverse_stiffness(body, *axis);
     if (!(limits.buckling > 0.0)) return limits;
-    // N̄ = Σ sⱼ fⱼ/L of the elastic forces f along the axis at distances s: between two nodes the force itself.
+    // N̄ = Σ sⱼ fⱼ/L of the elastic forces f along the axis at distances s; between two nodes it is the force itself.
     limits.axial = limits.along = Eigen::VectorXd::Zero(body.boundary_size);
     for (const int j : body.translation_nodes) {
       const double share = (body.node[j].X - body.node[axis->first].X).dot(axis->direction) / limits.span;
@@ -307,7 +306,7 @@ class LinearRange : public Doubt {
       const int row = node.rotation_row;
       return body.planar ? Vector3d(0.0, 0.0, of[row]) : Vector3d(of.segment<3>(row));
     };
-    // Rows of S y, one by one: nothing is allocated in a step.
+    // Rows of S y are computed one by one, so that a step allocates nothing.
     const auto elastic = [&](bool exists, int row, int count, int first) -> Vector3d {
       Vector3d value = Vector3d::Zero();
       for (int k = 0; exists && k < count; ++k) value[first + k] = body.S_BB.col(row + k).dot(y_B);

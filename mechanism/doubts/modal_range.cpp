@@ -1,4 +1,4 @@
-// Range of a modal body from its modes, and the axial force from what acts on its nodes.
+// Range of a modal body from its modes, and its axial force from the forces on its nodes.
 #include "mechanism/doubts/modal_range.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Largest distance from the line through the ends, over the length, of what counts as one.
+/// Largest distance of nodes on a line from the line through the ends, over the length.
 constexpr double straight = 1e-3;
 
 }  // namespace
@@ -136,7 +136,7 @@ double ModalRange::axial_force(const Model& model, const State& state, const Eva
     sum += distance(model, load.at.node) *
            e.dot(load_force(load, motion_of(evaluation, load.at.node), evaluation.load_values[i]).head<3>());
   }
-  // Σ m s e·(a − g) of the undeformed body, a = r̈ + (ω̇~ + ω~ω~) x.
+  // Σ m s e·(a − g) of the undeformed body, with a = r̈ + (ω̇~ + ω~ω~) x.
   const auto turned = [&now](const Vector3d& x) -> Vector3d {
     return now.omd.cross(x) + now.om.cross(now.om.cross(x));
   };
@@ -159,7 +159,7 @@ double ModalRange::first_frequency(const Model& model, double from) const {
   const int rows = held.size() == 1 ? 6 : 3;
   const auto of_nodes = rows * static_cast<Eigen::Index>(held.size());
   MatrixXd G = MatrixXd::Zero(of_nodes + 3, n);
-  if (body.planar) G.block<3, 3>(of_nodes, 2).setIdentity();  // nothing leaves the plane
+  if (body.planar) G.block<3, 3>(of_nodes, 2).setIdentity();  // no motion out of the plane
   for (std::size_t i = 0; i < held.size(); ++i) {
     ModalNodeTerms terms = make_terms(model.modal_nodes[held[i]]);
     NodeMotion motion;
@@ -172,11 +172,11 @@ double ModalRange::first_frequency(const Model& model, double from) const {
   const MatrixXd M = free.transpose() * scratch.tangent * free, K = free.transpose() * S.asDiagonal() * free;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(K, M, Eigen::EigenvaluesOnly);
   if (eigen.info() != Eigen::Success) return 0.0;
-  // Rigid motions that the nodes leave are counted: round-off gives them a frequency.
+  // Counts the rigid motions that the nodes leave free, because round-off gives them a frequency.
   MatrixXd Phi = G.leftCols<6>();
   Phi.rightCols<3>() /= span_ > 0.0 ? span_ : 1.0;
   Eigen::ColPivHouseholderQR<MatrixXd> qr;
-  qr.setThreshold(1e-6);  // six digits of a place in a file
+  qr.setThreshold(1e-6);  // files give positions with six digits
   for (Eigen::Index k = 6 - qr.compute(Phi).rank(); k < K.rows(); ++k)
     if (const double square = eigen.eigenvalues()[k]; square > 1e-6 * from * from) return std::sqrt(square);
   return 0.0;

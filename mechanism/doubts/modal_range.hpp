@@ -1,4 +1,4 @@
-// What a modal body knows of its linear range: its length, buckling load, axial force, deflection, first frequency.
+// Linear range of a modal body: its length, buckling load, axial force, deflection, first frequency.
 #pragma once
 
 #include <vector>
@@ -9,33 +9,33 @@
 
 namespace tisserand::mechanism {
 
-/// Constants of one modal body, and what it measures at an evaluated state. A body whose nodes stand on a line is a
-/// beam: Euler's load N between pins follows from its modes, largest 1/N = max φᵀGφ/φᵀKφ with the work G of a unit
-/// force on the slopes of its nodes against the line through the ends.
+/// Constants of one modal body, and its quantities at an evaluated state. A body with its nodes on a line counts as a
+/// beam. Euler's load N between pins follows from its modes: largest 1/N = max φᵀGφ/φᵀKφ, where G is the work of a unit
+/// force on the slopes of its nodes relative to the line through the ends.
 class ModalRange {
  public:
   ModalRange(const Model& model, int body);
 
-  double span() const { return span_; }          ///< between the nodes farthest from one another
-  double buckling() const { return buckling_; }  ///< 0: no beam
+  double span() const { return span_; }          ///< between the two most distant nodes
+  double buckling() const { return buckling_; }  ///< 0: not a beam
   double lag() const { return lag_; }            ///< half the period of the lowest mode
 
   /// Largest |x − x(w = 0)| of a node, axes of the frame.
   double deflection(const Model& model, const Evaluation& evaluation) const;
-  /// Its mean over the length, tension positive: forces of joints, couplings, springs (but for what they apply as
-  /// functions of time) and loads, and the inertia and weight between them.
+  /// Mean axial force over the length, tension positive. It contains forces of joints, couplings, springs (without
+  /// forces given as functions of time) and loads, and the inertia and weight between them.
   double axial_force(const Model& model, const State& state, const Evaluation& evaluation) const;
-  /// Lowest frequency above `from`/1000 with the nodes that something is attached to held: all of the only one, the
-  /// translations of several. 0: there is none. [rad/time]
+  /// Lowest frequency [rad/time] above `from`/1000 with the attached nodes held: all coordinates of a single node, the
+  /// translations of several. 0: there is none.
   double first_frequency(const Model& model, double from) const;
 
  private:
-  /// s of a node of this body, its distance along the line; 0 for others.
+  /// Distance s of a node of this body along the line; 0 for others.
   double distance(const Model& model, int node) const;
   void set_buckling(const Model& model);
   void find_forces(const Model& model);
 
-  /// Of all items with markers a and b those that are on this body.
+  /// Indices of the items with markers a and b that are on this body.
   template <class Items>
   std::vector<int> on_body(const Model& model, const Items& items) const;
   bool carries(const Model& model, int node) const;
@@ -45,9 +45,9 @@ class ModalRange {
     int coupling = 0;
     CouplingTerm term;
   };
-  std::vector<int> joints_, springs_, bushings_, loads_;  ///< that act on it
+  std::vector<int> joints_, springs_, bushings_, loads_;  ///< indices of those that act on the body
   std::vector<Term> terms_;
-  std::vector<int> nodes_;  ///< of Model::modal_nodes, along the line if it is a beam
+  std::vector<int> nodes_;  ///< indices in Model::modal_nodes, along the line if it is a beam
   std::vector<bool> attached_;
   Eigen::Vector3d axis_ = Eigen::Vector3d::Zero(), start_ = Eigen::Vector3d::Zero();
   double span_ = 0.0, buckling_ = 0.0, lag_ = 0.0;

@@ -1,5 +1,4 @@
-// Whether reactions can be told by the steps of a run: multipliers that swing from step to step, and vibrations that
-// nothing damps.
+// Validity checks of reactions: multipliers that oscillate from step to step, and undamped vibrations.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,23 +12,23 @@ namespace tisserand::mechanism {
 namespace {
 
 constexpr int swing_stretch = 16;
-/// Reactions that swing by a tenth of themselves are wrong by a twentieth.
+/// Reactions that oscillate by a tenth of their size have an error of a twentieth.
 constexpr double visible = 0.1;
-/// A change is fast if it is more than this share of the largest size in its stretch. A size that swings between that
-/// and zero with fewer than 16 steps per period changes so fast in half of the steps. The trapezoidal rule stretches
-/// such a period by (ωh)²/12 = 1.3 %, and is wrong by 1 rad after 12 of them.
+/// A change is fast if it exceeds this share of the largest size in its stretch of steps. A size that oscillates
+/// between that and zero with fewer than 16 steps per period changes so fast in half of the steps. The trapezoidal rule
+/// lengthens such a period by (ωh)²/12 = 1.3 %, an error of 1 rad after 12 periods.
 constexpr double fast_change = 0.25;
-constexpr int fast_changes = 8;    ///< of 16 steps
-constexpr int fast_stretches = 4;  ///< what jumps or settles has fewer
-constexpr double large = 0.3;      ///< of the largest reaction of the run
+constexpr int fast_changes = 8;    ///< out of 16 steps
+constexpr int fast_stretches = 4;  ///< jumps and decaying starts have fewer
+constexpr double large = 0.3;      ///< relative to the largest reaction of the run
 
 bool is_damped(const SuperelementBody& body) { return body.damping.active; }
 bool bends(const SuperelementBody& body) { return body.boundary_size + body.modes > (body.planar ? 3 : 6); }
 
-/// Index 3 without numerical damping is weakly unstable: errors of multipliers change their sign at every step and grow
-/// (Cardona, Geradin, Computers and Structures 33, 1989). Measured over stretches of 16 steps with the changes
-/// d_n = λ_n − λ_{n−1}: they swing where −Σ d_n·d_{n−1} exceeds half of Σ |d_n|², by √(Σ |d_n|²/Σ |λ_n|²) of their
-/// size.
+/// Validity check of multipliers. Index 3 without numerical damping is weakly unstable: errors of multipliers change
+/// their sign at every step and grow (Cardona, Geradin, Computers and Structures 33, 1989). The check uses stretches of
+/// 16 steps with the changes d_n = λ_n − λ_{n−1}. Multipliers oscillate if −Σ d_n·d_{n−1} exceeds half of Σ |d_n|², by
+/// √(Σ |d_n|²/Σ |λ_n|²) of their size.
 class MultiplierSwing : public Doubt {
  public:
   explicit MultiplierSwing(const formats::Scene& scene)
@@ -53,12 +52,12 @@ class MultiplierSwing : public Doubt {
     steps_ = 0;
   }
 
-  /// At most one: of the worst stretch.
+  /// At most one warning, on the worst stretch.
   std::vector<std::string> doubts(const Model&, const StressedBodies&) const override {
     std::string worst = text(worst_);
     return worst.empty() ? std::vector<std::string>{} : std::vector<std::string>{std::move(worst)};
   }
-  /// Tells of the latest stretch of swinging steps.
+  /// Text on the latest stretch with oscillations.
   std::string explanation(Puzzle puzzle, const Model&) const override {
     return puzzle == Puzzle::failure ? text(latest_) : "";
   }
@@ -76,16 +75,15 @@ class MultiplierSwing : public Doubt {
         swing.size, swing.time, settings_, remedy_);
   }
 
-  std::string settings_, remedy_;  ///< of the integrator, in words
+  std::string settings_, remedy_;  ///< of the integrator, as text
   Eigen::VectorXd change_;
   double turned_ = 0.0, changed_ = 0.0, size_ = 0.0;
   int steps_ = 0;
   Swing worst_, latest_;
 };
 
-/// Reactions that vibrate with flexible bodies which nothing damps. Where vibrations of few steps per period make the
-/// largest reactions, peaks depend on the step: its numerical damping and the phases of what excites them anew. A
-/// driven parallelogram had 424 to 16 326 N with three steps, and 349 to 353 N with 5 % of damping.
+/// Validity check of reactions that vibrate with undamped flexible bodies. If vibrations with few steps per period
+/// cause the largest reactions, peaks depend on the step: on its numerical damping and the phase of each excitation.
 class ReactionVibration : public Doubt {
  public:
   explicit ReactionVibration(std::string body) : body_(std::move(body)) {}
@@ -110,7 +108,7 @@ class ReactionVibration : public Doubt {
     steps_ = 0;
   }
 
-  /// At most one.
+  /// At most one warning.
   std::vector<std::string> doubts(const Model&, const StressedBodies&) const override {
     if (count_ < fast_stretches || !(fast_ > large * largest_)) return {};
     return {fmt::format(
@@ -122,13 +120,13 @@ class ReactionVibration : public Doubt {
  private:
   static constexpr int stretch = 16;  ///< steps
 
-  std::string body_;                        ///< one of those that nothing damps
+  std::string body_;                        ///< one of the undamped bodies
   std::array<double, stretch + 1> size_{};  ///< |λ| of the last steps
   int steps_ = 0;
-  double largest_ = 0.0;  ///< of the run
-  double fast_ = 0.0;     ///< of a stretch that vibrates
-  double time_ = 0.0;     ///< of that
-  int count_ = 0;         ///< stretches that vibrate
+  double largest_ = 0.0;  ///< largest |λ| of the run
+  double fast_ = 0.0;     ///< largest |λ| of a stretch that vibrates
+  double time_ = 0.0;     ///< time of this stretch
+  int count_ = 0;         ///< number of stretches that vibrate
 };
 
 }  // namespace

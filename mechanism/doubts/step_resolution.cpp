@@ -1,4 +1,4 @@
-// Whether steps of a given size resolve what moves.
+// Validity check: whether steps of a given size resolve the motion.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,19 +17,19 @@ namespace tisserand::mechanism {
 namespace {
 
 constexpr int stretch = 16;
-/// Ten steps per period: the trapezoidal rule then stretches periods by (ωh)²/12 = 3 % (Hughes, The Finite Element
+/// Ten steps per period. The trapezoidal rule then lengthens periods by (ωh)²/12 = 3 % (Hughes, The Finite Element
 /// Method, 1987, section 9.3).
 constexpr double coarse = 2.0 * std::numbers::pi / 10.0;
-/// A touch is half a period of the body on its stop.
+/// Least number of steps of a contact, which lasts half a period of the body on its stop.
 constexpr int least_touch = 5;
-/// A quarter of a revolution, half of where angles of joints cannot be unwrapped any more.
+/// A quarter of a revolution, half of the angle from which on joint angles cannot be unwrapped.
 constexpr double largest_turn = std::numbers::pi / 2.0;
-/// Binary exponents below the largest energy that count: a tenth of it, about.
+/// Range of binary exponents below the largest energy that count: about a tenth of it.
 constexpr int depth = 3;
-/// Change of velocities by themselves in a step, from which on a failure is laid to it.
+/// Relative change of velocities in a step from which on it is named as the cause of a failure.
 constexpr double fast = 0.3;
 
-/// Diagonal of the mass matrix. Superelements turn: means of three axes for their translations.
+/// Diagonal of the mass matrix. Superelements rotate, so their translations get means of three axes.
 Eigen::ArrayXd masses(const Model& model, const State& state) {
   Eigen::ArrayXd mass = Eigen::ArrayXd::Zero(model.sizes.velocities());
   Evaluation now(model);
@@ -57,14 +57,14 @@ Eigen::ArrayXd masses(const Model& model, const State& state) {
   return mass;
 }
 
-/// Whether the scene says how long steps are, and no error does.
+/// Whether the scene gives the step size, without error control.
 bool steps_are_given(const formats::Scene& scene) {
   return has_alpha_steps(scene) && !scene.integrator.error_control.active;
 }
 
-/// ωh of the motion as √(Σ w Δv² / Σ w v²) over stretches of 16 steps, w the masses: for one frequency 2 sin(ωh/2), for
-/// several their mean by kinetic energy. Of generalised alpha and HHT without control of the error; the other methods
-/// choose their steps.
+/// Validity check of the step. ωh of the motion is √(Σ w Δv² / Σ w v²) over stretches of 16 steps, with the masses w.
+/// For one frequency it is 2 sin(ωh/2), for several their mean by kinetic energy. It applies to generalised alpha and
+/// HHT without error control; other methods choose their steps.
 class StepResolution : public Doubt {
  public:
   void after_step(const State& before, const Instant& end) override {
@@ -78,8 +78,8 @@ class StepResolution : public Doubt {
     if (++steps_ == stretch) close(model, before, state);
   }
 
-  /// At most one: a node that turns by more than a quarter of a revolution per step, or the coarsest stretch in which
-  /// at least a tenth of the largest kinetic energy moves.
+  /// At most one warning: a node that rotates by more than a quarter of a revolution per step, or the coarsest stretch
+  /// with at least a tenth of the largest kinetic energy.
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     if (fastest_.angle > largest_turn)
       return {
@@ -111,10 +111,10 @@ class StepResolution : public Doubt {
     double rate = 0.0;  ///< ωh
     double time = 0.0;
     double step = 0.0;
-    int coordinate = -1;  ///< that changes most
+    int coordinate = -1;  ///< coordinate that changes most
   };
   struct Turn {
-    double angle = 0.0;  ///< of a node in a step
+    double angle = 0.0;  ///< rotation of a node in a step
     double time = 0.0;
     int node = -1;
   };
@@ -140,15 +140,15 @@ class StepResolution : public Doubt {
     steps_ = 0;
   }
 
-  Eigen::ArrayXd mass_;  ///< of velocity coordinates; sized at the first step
+  Eigen::ArrayXd mass_;  ///< masses of velocity coordinates; sized at the first step
   double change_ = 0.0, motion_ = 0.0;
-  double latest_ = 0.0;  ///< |Δv|/|v| of the latest step, weighted with the masses
+  double latest_ = 0.0;  ///< Δv|/|v| of the latest step, weighted with the masses
   int steps_ = 0;
   Turn fastest_;
   std::map<int, Stretch> coarsest_;  ///< by the binary exponent of the energy of the stretch
 };
 
-/// Steps in which a stop is touched, from one side, until it is left. Of the same runs as StepResolution.
+/// Validity check: number of steps of each contact with a stop. It applies to the same runs as StepResolution.
 class TouchResolution : public Doubt {
  public:
   explicit TouchResolution(const Model& model) {
@@ -177,7 +177,7 @@ class TouchResolution : public Doubt {
     }
   }
 
-  /// At most one: the touch of fewest steps among those that press at least a tenth as hard as the hardest.
+  /// At most one warning: the contact of fewest steps among those with at least a tenth of the largest penetration.
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     const Seen* worst = nullptr;
     Touch shortest;

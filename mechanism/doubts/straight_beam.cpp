@@ -1,4 +1,4 @@
-// Axes of superelements from their nodes; rows of joints against turns about them.
+// Axes of superelements from their nodes, and rows of joints that act on rotations about them.
 #include "mechanism/doubts/straight_beam.hpp"
 
 #include <algorithm>
@@ -9,10 +9,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of a line, and of what works on a turn: a hundredth.
+/// Limit for a line, and for the effect on a rotation: a hundredth.
 constexpr double small = 1e-2;
 
-/// Axis of every node in node axes; zero: it is on no straight body.
+/// Axis of every node in node axes; zero if the node is on no straight body.
 std::vector<Vector3d> node_axes(const Model& model, const Evaluation& evaluation, Twist& twist) {
   std::vector<Vector3d> axes(model.nodes.size(), Vector3d::Zero());
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
@@ -35,12 +35,12 @@ std::vector<Vector3d> node_axes(const Model& model, const Evaluation& evaluation
   return axes;
 }
 
-/// Whether a row [x Θ] of one marker works on turns about the axis.
+/// Whether a row [x Θ] of one marker does work on rotations about the axis.
 bool works_on(const Eigen::Matrix<double, 1, 6>& row, const Vector3d& axis, double length) {
   return std::abs(row.tail<3>().dot(axis)) > small * (row.tail<3>().norm() + length * row.head<3>().norm());
 }
 
-/// Of every node: the row works on its turning.
+/// Marks the nodes on whose rotation about the axis the row does work.
 template <class Item>
 void note_row(const Item& item, const Row12& row, const std::vector<Vector3d>& axes, double length, Twist& twist) {
   if (item.a.node >= 0 && works_on(row.head<6>(), axes[item.a.node], length)) twist.held[item.a.node] = true;
@@ -55,7 +55,7 @@ bool welds(const Joint& joint, const std::vector<Vector3d>& axes, const Evaluati
   return a != Vector3d::Zero() && b != Vector3d::Zero() && a.cross(b).norm() < 10.0 * small;
 }
 
-/// Nodes of rigid bodies on which one joint alone works: they go along, and hold nothing.
+/// Marks nodes of rigid bodies with a single joint: they follow it and hold nothing.
 std::vector<bool> loose_bodies(const Model& model) {
   std::vector<int> uses(model.nodes.size(), 0);
   const auto count = [&](const auto& items, auto counts) {

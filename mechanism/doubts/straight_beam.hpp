@@ -1,4 +1,4 @@
-// Superelements whose boundary nodes stand on a line: their axes, and what holds their turning about them.
+// Superelements whose boundary nodes lie on a line: their axes, and what holds their rotation about them.
 #pragma once
 
 #include <optional>
@@ -10,25 +10,25 @@
 
 namespace tisserand::mechanism {
 
-/// The line through the nodes of a body, from one end to the other; the ends have rotations.
+/// Line through the nodes of a body, from one end to the other. The ends have rotations.
 struct Axis {
   int first = 0, last = 0;
   double span = 0.0;
-  Eigen::Vector3d direction;  ///< axes of the body
+  Eigen::Vector3d direction;  ///< in axes of the body
 };
 
-/// None where nodes stand beside the line between the two that are farthest from one another, or where one is alone.
+/// Axis of a body; none if nodes are off the line between the two most distant ones, or if there is one node.
 std::optional<Axis> axis_of(const SuperelementBody& body);
 
-/// Sum of e·S e, e·M e of the turns of two nodes about the axis.
+/// Sum of e·S e or e·M e over the rotations of two nodes about the axis.
 double along(const Eigen::MatrixXd& matrix, const SuperelementNode& a, const SuperelementNode& b, const Axis& axis);
 
-/// The turning of nodes about the axes of the superelements that they are on.
+/// Rotation of nodes about the axes of their superelements.
 struct Twist {
-  std::vector<int> place;  ///< per node: one number for all that are welded together
-  std::vector<bool> held;  ///< per place: something else than a weld works on that turning
+  std::vector<int> place;  ///< per node: a common number for all that are welded together
+  std::vector<bool> held;  ///< per place: an element other than a weld acts on this rotation
 };
-/// After evaluate().
+/// Twist at an evaluated state.
 Twist twist_of(const Model& model, const Evaluation& evaluation);
 
 }  // namespace tisserand::mechanism

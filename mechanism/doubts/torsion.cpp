@@ -1,4 +1,4 @@
-// Whether straight superelements are stiff enough in torsion for the inertia option that they spin with.
+// Validity check of the torsional stiffness of straight superelements that spin, for their inertia option.
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -23,11 +23,11 @@ using formats::InertiaOption;
 /// A tenth of a stiffness, as for axial forces (EN 1993-1-1, 5.2.1 (3)). Two halves of a 10 m blade at 6 rad/s turn
 /// over from round-off within 40 s at 2.8 and 1.2 of their stiffness. At 0.84 and 0.28 they stay in their plane.
 constexpr double most_moment = 0.1;
-/// Of spins that are measured anew; between them the moments grow with the square of the spin.
+/// Growth of the spin after which moments are measured again. In between they grow with the square of the spin.
 constexpr double growth = 1.5;
-/// Instants of a run at most.
+/// Largest number of instants of a run.
 constexpr double most_measured = 200.0;
-/// Of the central differences [rad].
+/// Increment of the central differences [rad].
 constexpr double turn = 1e-3;
 
 bool is_judged(const SuperelementBody& body) {
@@ -36,7 +36,7 @@ bool is_judged(const SuperelementBody& body) {
          body.frame != FrameAlgorithm::incremental;
 }
 
-/// The node turned by `angle` about an axis of its own while its angular velocity rests in space.
+/// The node rotated by `angle` about one of its own axes, with constant angular velocity in space.
 NodeMotion turned(NodeMotion node, const Vector3d& axis, double angle) {
   const Eigen::Matrix3d E = exp_so3<double>(angle * axis);
   node.R *= E;
@@ -45,11 +45,11 @@ NodeMotion turned(NodeMotion node, const Vector3d& axis, double angle) {
   return node;
 }
 
-/// With B and M the momentum p of a node's turning holds that of the bending shapes, up to m L v/12 in a piece that
-/// moves with v, and the moments Ω x p turn with the node: a twist θ feels ~ m L v Ω θ/12 of its own axis, positive at
-/// one end of a piece and negative at the other. No beam feels it, A does not. Measured is ∂(r − r_A)/∂θ of the nodes
-/// while spins grow, scaled to the fastest; seen, the largest eigenvalue of these moments of all pieces welded in a row
-/// against their torsional stiffness. Above one they turn over.
+/// Validity check of torsion. With B and M the momentum p of a node's rotation contains that of the bending shapes, up
+/// to m L v/12 in a piece that moves with v. The moments Ω x p turn with the node: a twist θ feels ~ m L v Ω θ/12 about
+/// its axis, positive at one end of a piece and negative at the other. A real beam does not feel it, nor does A. The
+/// check measures ∂(r − r_A)/∂θ of the nodes as spins grow, scaled to the fastest. It takes the largest eigenvalue of
+/// these moments of all pieces welded in a row relative to their torsional stiffness. Above one they turn over.
 class Torsion : public Doubt {
  public:
   Torsion(const formats::Scene& scene, const Model& model)
@@ -85,7 +85,7 @@ class Torsion : public Doubt {
     }
   }
 
-  /// At most one: the softest beam.
+  /// At most one warning: the softest beam.
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     double worst = most_moment;
     int at = -1;
@@ -112,14 +112,14 @@ class Torsion : public Doubt {
     SuperelementBody body;
     SuperelementScratch scratch;
   };
-  /// Per body; options empty: not judged.
+  /// Constants of a body; without options: not checked.
   struct Judged {
     std::optional<Axis> axis;
     std::vector<Option> options;  ///< its own, then A
   };
   struct Seen {
-    double spin = 0.0, time = 0.0;  ///< the fastest
-    double measured = 0.0;          ///< spin at which the moments are
+    double spin = 0.0, time = 0.0;  ///< fastest spin and its time
+    double measured = 0.0;          ///< spin at which the moments were measured
     Eigen::MatrixXd moment;         ///< ∂(r − r_A)/∂θ, in the order of the body's rotation nodes
   };
   void measure(const Model& model, const State& state, const Evaluation& evaluation, std::size_t use) {
@@ -160,7 +160,7 @@ class Torsion : public Doubt {
   }
 
   double ratio(const Model& model, int beam) const {
-    std::map<int, int> row;  // of places that can turn
+    std::map<int, int> row;  // rows of places that can turn
     const auto row_of = [&](std::size_t use, int node) {
       const int place = twist_.place[model.superelements[use].nodes[node]];
       return twist_.held[place] ? -1 : row.try_emplace(place, count_of(row)).first->second;
@@ -186,7 +186,7 @@ class Torsion : public Doubt {
           moment(p, q) += 0.5 * grown * (seen_[i].moment(a, b) + seen_[i].moment(b, a));
         }
     });
-    // Free to turn as a whole: its axial spin is another doubt.
+    // The whole beam can turn freely: the check of axial spin covers this.
     if (n == 0 || Eigen::SelfAdjointEigenSolver<MatrixXd>(stiffness, Eigen::EigenvaluesOnly).eigenvalues()[0] <
                       1e-9 * stiffness.trace())
       return 0.0;

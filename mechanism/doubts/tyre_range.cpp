@@ -1,4 +1,4 @@
-// Whether tyres stayed in the ranges for which the coefficients of their files were fitted.
+// Validity check: whether tyres stay in the ranges for which the coefficients of their files were fitted.
 #include <array>
 #include <cmath>
 #include <variant>
@@ -10,13 +10,13 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Numbers of a file are rounded; a range is left only by more than that.
+/// Tolerance of a range, because numbers of a file are rounded.
 constexpr double rounding = 1.01;
 
-/// Speed over v₀ above which slips of the wheel count.
+/// Least speed over v₀ at which slips of the wheel count.
 constexpr double rolling_speed = 10.0;
 
-/// Longitudinal slip and slip angle of the wheel itself: those of the law are limited by its ranges, and lag.
+/// Longitudinal slip and slip angle of the wheel itself. Those of the law are limited by its ranges, and lag.
 std::array<double, 2> wheel_slips(const Tyre& tyre, const TyreTerms& now, const Evaluation& evaluation) {
   const NodeMotion& node = motion_of(evaluation, tyre.wheel.node);
   const Eigen::Vector3d axle = marker_rotation(tyre.wheel, node).col(1), velocity = marker_velocity(tyre.wheel, node);
@@ -34,8 +34,8 @@ constexpr int quantities = 4;
 constexpr std::array<Name, quantities> names{
     {{"load", ""}, {"longitudinal slip", ""}, {"slip angle", " rad"}, {"camber", " rad"}}};
 
-/// Load, longitudinal slip, slip angle and camber of tyres of the Magic Formula against FZMIN .. CAMMAX of their files.
-/// A load below the range is not told: every wheel that lifts passes through it.
+/// Validity check of load, longitudinal slip, slip angle and camber of Magic Formula tyres against FZMIN .. CAMMAX of
+/// their files. A load below the range is not reported, because every wheel that lifts passes through it.
 class TyreRange : public Doubt {
  public:
   explicit TyreRange(const Model& model) : worst_(model.tyres.size()) {}
@@ -62,7 +62,7 @@ class TyreRange : public Doubt {
     }
   }
 
-  /// At most one: the tyre and quantity farthest outside, and how many others were.
+  /// At most one warning: the tyre and quantity farthest outside, with the number of others.
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     Excess worst;
     std::size_t tyre = 0;
@@ -86,7 +86,7 @@ class TyreRange : public Doubt {
 
  private:
   struct Excess {
-    double ratio = 0.0;  ///< |value| over the end of the range
+    double ratio = 0.0;  ///< value| over the limit of the range
     double value = 0.0, limit = 0.0, time = 0.0;
   };
   std::vector<std::array<Excess, quantities>> worst_;
