@@ -10,7 +10,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Inertia and internal forces of a superelement one by one: they cancel in the residual of a free vibration.
+/// Notes inertia and internal forces separately, because they cancel in the residual of a free vibration.
 void note_scale(const SuperelementBody& body, const SuperelementScratch& scratch, Evaluation& evaluation) {
   const auto& forces = scratch.forces;
   const auto note = [&evaluation, &forces](int kind, int row, int count) {

@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Columns of a carrier.
+/// Number of columns of a carrier.
 Index width_of(const Model& model, int node) {
   const int modal = modal_node(model, node);
   return modal < 0 ? 6 : 6 + modal_body_of(model, modal).modes;
@@ -32,7 +32,7 @@ void for_each_carrier(const Model& model, const ElementMap& map, Visit visit) {
 
 const ModalNodeTerms& terms_of(const Evaluation& evaluation, int modal) { return evaluation.modal_nodes[modal]; }
 
-/// Where the coordinates of the carrier begin whose columns begin at `first` of local vectors.
+/// Index of the first coordinate of the carrier whose columns begin at `first` of local vectors.
 Index first_coordinate(const Model& model, const ElementMap& map, int first) {
   if (map.carriers.empty()) return first;
   Index coordinate = 0;

@@ -1,9 +1,9 @@
-// Carriers: forces and relations on nodes of modal bodies, which own no coordinates, expressed in the coordinates of
-// these bodies.
+// Carriers: forces and relations on nodes of modal bodies, expressed in the coordinates of these bodies, because such
+// nodes own no coordinates.
 //
 // Joints, coordinates and loads use six coordinates per carrier. If a carrier follows a modal body, their map lists the
 // carriers, and T of each carrier transforms the terms: [ẋ; Ω] = T [ṙ ω ẇ], 6 x (6 + m). For other nodes T is the unit
-// matrix. Maps without such a carrier list none, and no T is applied.
+// matrix. Maps without such a carrier list none, and T is not applied.
 #pragma once
 
 #include "mechanism/equations/evaluate.hpp"
@@ -14,7 +14,7 @@ namespace tisserand::mechanism {
 /// Buffers for any pair of carriers of the model.
 CarrierScratch make_carrier_scratch(const Model& model);
 
-/// A result in one of the buffers, and a matrix of fixed size or a row that is handed over without a copy.
+/// A result in one of the buffers, and a view of a matrix of fixed size or of a row, without a copy.
 using CarrierMatrix = Eigen::Map<Eigen::MatrixXd>;
 using LocalMatrix = Eigen::Map<const Eigen::MatrixXd>;
 template <class Matrix>
@@ -22,33 +22,33 @@ LocalMatrix local_view(const Matrix& m) {
   return {m.data(), m.rows(), m.cols()};
 }
 
-/// The carriers of a joint, a coordinate or a force element, which its map lists if one of them follows a modal body,
-/// and their motion.
+/// Carriers of a joint, a coordinate or a force element, and their motion. The map lists them if one of them follows a
+/// modal body.
 struct Carriers {
   const Model& model;
   const ElementMap& map;
   const Evaluation& evaluation;
 
-  // For maps that list carriers; local matrices have six columns (and rows) per carrier, results n = size of
+  // For maps that list carriers. Local matrices have six columns (and rows) per carrier, results n, the size of
   // map.coordinates.
 
-  /// Tᵀ K T + ∂(Tᵀ force)/∂q, n x n: the tangent of a force that the carriers receive.
+  /// Tangent Tᵀ K T + ∂(Tᵀ force)/∂q, n x n, of a force on the carriers.
   CarrierMatrix tangent(const LocalMatrix& K, const double* force, CarrierScratch& scratch) const;
-  /// B T, in `buffer`.
+  /// Product B T, in `buffer`.
   CarrierMatrix rows(const LocalMatrix& B, Eigen::VectorXd& buffer) const;
-  /// ∂(B T v)/∂q = N T + B ∂(T v)/∂q for N = ∂(B v)/∂(local q).
+  /// Derivative ∂(B T v)/∂q = N T + B ∂(T v)/∂q for N = ∂(B v)/∂(local q).
   CarrierMatrix rate_gradient(const LocalMatrix& B, const LocalMatrix& N, CarrierScratch& scratch) const;
-  /// Multiplies the columns of turns with T(displacement of the step): rows for increments of rotation vectors.
+  /// Multiplies the columns of rotations by T(displacement of the step), for increments of rotation vectors.
   void turn_columns(CarrierMatrix& matrix) const;
-  /// Ṫ v, six numbers per carrier: the carriers' accelerations less T v̇.
+  /// Computes Ṫ v, six numbers per carrier: the carriers' accelerations less T v̇.
   void bias(double* values) const;
 
-  // For all maps, and of the carrier alone whose columns begin at `first` of local vectors:
+  // For all maps, on the single carrier whose columns begin at `first` of local vectors:
 
-  /// T d for the increments d of all coordinates, turns as increments of the rotation vectors of the step.
+  /// Product T d for increments d of all coordinates; those of rotations are of the rotation vectors of the step.
   template <int D>
   CarrierVector<D> pushed(int node, int first, const Eigen::VectorXd& d) const;
-  /// result += Tᵀ force.
+  /// Adds Tᵀ force to result.
   template <int D>
   void scatter(int first, const CarrierVector<D>& force, Eigen::VectorXd& result) const {
     if (map.carriers.empty())
@@ -62,10 +62,10 @@ struct Carriers {
   void scatter_through(int first, const CarrierVector<D>& force, Eigen::VectorXd& result) const;
 };
 
-/// Adds Tᵀ force to the residual, six numbers per carrier. Evaluation::modal_forces keeps the share of modal nodes.
+/// Adds Tᵀ force to the residual, six numbers per carrier. Evaluation::modal_forces stores the share of modal nodes.
 void add_pulled_force(const Model& model, const ElementMap& map, const double* force, Evaluation& evaluation);
 
-/// Adds Tᵀ force of the one carrier whose columns begin at `first`.
+/// Adds Tᵀ force of the single carrier whose columns begin at `first`.
 template <int D>
 void add_carrier_force(const Model& model, const ElementMap& map, int first, const CarrierVector<D>& force,
                        Evaluation& evaluation) {
@@ -75,11 +75,11 @@ void add_carrier_force(const Model& model, const ElementMap& map, int first, con
     for (int c = 0; c < force.size(); ++c) evaluation.modal_forces[modal][Space<D>::columns[c]] += force[c];
 }
 
-/// B in the columns of map.coordinates, for maps with and without carriers. Allocates memory, so not for the step.
+/// Rows B in the columns of map.coordinates, for maps with and without carriers. Allocates memory, so not for the step.
 Eigen::MatrixXd model_rows(const Model& model, const ElementMap& map, const LocalMatrix& B,
                            const Evaluation& evaluation);
 
-/// T(dΘ) for the rotation over the step of the node, or of the body that it follows; 1 for ground and without rotation.
+/// T(dΘ) for the rotation over the step of the node or of the body that it follows; 1 without rotations.
 Eigen::Matrix3d step_tangent(const Model& model, const Evaluation& evaluation, int node);
 
 }  // namespace tisserand::mechanism

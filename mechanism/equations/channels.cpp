@@ -1,4 +1,4 @@
-// Channels and what depends on them.
+// Channels and the terms that depend on them.
 #include "mechanism/equations/terms.hpp"
 #include "mechanism/model/element_map.hpp"
 
@@ -18,7 +18,7 @@ TimeFunction& function_of(const ChannelUse& use, Evaluation& evaluation) {
   return *evaluation.spring_forces[at];
 }
 
-/// c_c ∂(channel)/∂v + c_k ∂(channel)/∂q.
+/// Row c_c ∂(channel)/∂v + c_k ∂(channel)/∂q.
 Row12 channel_row(const Model& model, const Channel& channel, const TangentCoefficients& coefficients,
                   const Evaluation& evaluation) {
   if (channel.tyre >= 0) {
@@ -34,13 +34,13 @@ Row12 channel_row(const Model& model, const Channel& channel, const TangentCoeff
   return coefficients.stiffness * gradient.by_position + coefficients.damping * gradient.by_velocity;
 }
 
-/// The force itself is that of the load or spring, whose own tangent holds its stiffness on moving nodes.
+/// Zero force: the tangent of the load or spring contains the stiffness of the force on moving nodes.
 template <int size>
 Eigen::Matrix<double, size, 1> no_force() {
   return Eigen::Matrix<double, size, 1>::Zero();
 }
 
-/// On the columns of the channel, rows of the load.
+/// Adds the derivatives of a part load by a channel: columns of the channel, rows of the load.
 void add_part_load_channel(const Model& model, const State& state, std::size_t use, Evaluation& evaluation,
                            const TangentTarget& target) {
   const auto at = static_cast<std::size_t>(model.channel_uses[use].index);

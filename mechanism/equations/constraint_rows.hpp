@@ -1,4 +1,4 @@
-// The rows of the constraint Jacobian one by one, for uses outside of the iteration matrix.
+// Rows of the constraint Jacobian one by one, for uses outside of the iteration matrix.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace tisserand::mechanism {
 
-/// Visits the rows of B in the motions [ẋ Ω] of the two nodes of each joint or coupling term, after evaluate():
-/// visit(row, coordinate map, markers, values).
+/// Visits the rows of B in the motions [ẋ Ω] of the two nodes of each joint or coupling term: visit(row, coordinate
+/// map, markers, values). Needs evaluate().
 template <class Visit>
 void for_each_row(const Model& model, const Evaluation& evaluation, Visit visit) {
   for (std::size_t i = 0; i < model.joints.size(); ++i)
@@ -23,7 +23,7 @@ void for_each_row(const Model& model, const Evaluation& evaluation, Visit visit)
     }
 }
 
-/// visit(coordinate of the model, value) for a row in the motions of two nodes; some values may be zero.
+/// Calls visit(coordinate of the model, value) for a row in the motions of two nodes; some values may be zero.
 template <class Visit>
 void for_each_entry(const Model& model, const ElementMap& map, const Row12& row, const Evaluation& evaluation,
                     Visit visit) {

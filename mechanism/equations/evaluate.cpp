@@ -1,4 +1,4 @@
-// What a model does at a state, on a page: motion, constraints, forces.
+// Evaluation of a model at a state in order: motion, constraints, forces.
 #include "mechanism/equations/evaluate.hpp"
 
 #include <limits>
@@ -11,7 +11,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Where assertions are on, results of another state become NaN.
+/// Sets results of another state to NaN if assertions are enabled.
 void forget_results([[maybe_unused]] Evaluation& evaluation) {
 #ifndef NDEBUG
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();

@@ -1,4 +1,4 @@
-// Evaluation: all results of a model at one state, in stages. It is sized once, so no stage allocates memory.
+// Evaluation: all results of a model at one state, in stages. It is allocated once, so no stage allocates memory.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace tisserand::mechanism {
 
-/// Sums over the bodies at one instant.
+/// Energies of all bodies at one instant.
 struct Energy {
   double kinetic = 0.0;
   double strain = 0.0;     ///< of bodies and springs
@@ -28,26 +28,26 @@ struct CarrierScratch {
   Eigen::VectorXd lower, upper, rate;  ///< rows of constraints and of rates
 };
 
-/// The generalised force of the factor 1 of a part load: on the coordinates of its map, and the internal ones.
+/// Generalised force of a part load with the factor 1: on the coordinates of its map, and on the internal ones.
 struct PartLoadDirection {
   Eigen::VectorXd boundary, internal;
 };
 
-/// How far the latest evaluate() of a state has come; each stage needs the one before (evaluate.hpp).
+/// Stages of evaluate() at a state; each stage needs the one before (evaluate.hpp).
 enum class Stage { nothing, motion, constraints, forces };
 
-/// Results of the stages motion, constraints and forces, and results on request. With assertions, every evaluation
-/// begins by filling the results of later stages with NaN, and readers call require_stage(). So results of another
-/// state cannot be taken for those of this one.
+/// Results of the stages motion, constraints and forces, and results on request. If assertions are enabled, every
+/// evaluation first fills the results of later stages with NaN, and readers call require_stage(). So results of another
+/// state cannot be mistaken for those of this one.
 struct Evaluation {
   explicit Evaluation(const Model& model);
 
   Stage stage = Stage::nothing;
-  long tangents = 0;         ///< number of times that tangents of superelements were computed; identifies their factors
-  double load_factor = 1.0;  ///< of loads and gravity (load steps of statics): set by the caller
-  bool standing = false;     ///< statics: tangents hold tyres at their place; set by the caller
-  /// θ of every node and displacement of every other coordinate since the state from which a step is taken: rows of Φ
-  /// are derivatives by it (ConstraintRows). Zero unless evaluate_in_step() was given one.
+  long tangents = 0;         ///< number of computations of superelements' tangents; identifies their factors
+  double load_factor = 1.0;  ///< factor of loads and gravity (load steps of statics): set by the caller
+  bool standing = false;     ///< statics: tangents hold tyres in place; set by the caller
+  /// θ of every node and displacement of every other coordinate since the start of the step: rows of Φ are derivatives
+  /// by it (ConstraintRows). Zero unless evaluate_in_step() uses it.
   Eigen::VectorXd displacement;
 
   // Stage motion.
@@ -71,7 +71,7 @@ struct Evaluation {
   std::vector<BushingTerms> bushings;
   std::vector<TyreTerms> tyres;
   std::vector<Eigen::Vector3d> load_values;
-  std::vector<double> part_load_values;  ///< factors
+  std::vector<double> part_load_values;  ///< factors of part loads
   Eigen::VectorXd residual;              ///< r, boundary coordinates (uncondensed)
   std::vector<Vector6d> modal_forces;    ///< share of each modal node in r: −[force, world; moment, node axes]
   std::array<double, 3> force_scale{};   ///< largest force, moment and internal force of any single term
@@ -90,12 +90,12 @@ struct Evaluation {
   std::vector<std::optional<TimeFunction>> spring_forces;
   std::vector<std::array<TimeFunction, 3>> load_functions;
   std::vector<TimeFunction> part_load_functions;
-  std::vector<PartLoadDirection> part_load_directions;  ///< sized where channels enter the factor
+  std::vector<PartLoadDirection> part_load_directions;  ///< allocated if channels enter the factor
   std::vector<SuperelementWork> superelement_work;      ///< of each body
   CarrierScratch carriers;
 };
 
-/// Fails (a fault of the program) if the latest evaluation has not reached this stage.
+/// Fails (an internal error) if the latest evaluation has not reached this stage.
 void require_stage(const Evaluation& evaluation, Stage stage);
 
 /// Motion of a node at the last evaluate(); −1: ground.
@@ -108,7 +108,7 @@ inline NodeView<NodeMotion> nodes_of(const Model& model, std::size_t superelemen
   return {evaluation.motion.data(), model.superelements[superelement].nodes.data()};
 }
 
-/// Work space that all uses of a superelement's body share.
+/// Work matrices that all uses of a superelement's body share.
 inline SuperelementWork& work_of(const Model& model, std::size_t superelement, Evaluation& evaluation) {
   return evaluation.superelement_work[model.superelements[superelement].body];
 }

@@ -15,7 +15,7 @@ LoadedJoint loaded_joint(const Model& model, const State& state, const Evaluatio
   return loaded;
 }
 
-/// Adds the first `size` rows, transposed, beside Bᵀ.
+/// Adds the first `size` rows, transposed, to the block of Bᵀ.
 template <class Rows>
 void add_upper(const ConstraintMap& map, int size, const Rows& rows, std::vector<double>& values) {
   for (Eigen::Index j = 0; j < rows.cols(); ++j)
@@ -74,7 +74,7 @@ void add_friction_tangents(const Model& model, const State& state, Evaluation& e
     };
     const Eigen::Matrix<double, 6, 12> by_lambda = result.by_lambda.transpose();
     add(model.constraint_maps[at], loaded.joint.size(), by_lambda);
-    if (friction.thread >= 0) {  // its first term is the shift, between the same markers
+    if (friction.thread >= 0) {  // its first term is the displacement between the same markers
       const Row12 by_thread = result.by_thread.transpose();
       add(model.coupling_constraint_maps[friction.thread], 1, by_thread);
     }

@@ -1,11 +1,11 @@
-// What forces contribute to an evaluation: the overloads of a type of force T (model/forces.hpp lists the types).
+// Contributions of forces to an evaluation: the overloads of a type of force T (model/forces.hpp lists the types).
 #pragma once
 
 #include "mechanism/equations/terms.hpp"
 
 namespace tisserand::mechanism {
 
-/// Adds the forces of a pool (sign of r), their energy and powers. A superelement adds its part loads by itself.
+/// Adds the forces of a pool (sign of r), their energy and powers. A superelement adds its own part loads.
 void add_forces(const Model& model, const State& state, const Pool<Bushing>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<Tyre>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<Load>& pool, Evaluation& evaluation);

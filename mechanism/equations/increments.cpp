@@ -1,4 +1,4 @@
-// Exponential of rotation vectors, and the rows of constraints.
+// Exponential of rotation vectors, and products with the rows of constraints.
 #include "mechanism/equations/increments.hpp"
 
 #include "common/math/rotation.hpp"
@@ -9,7 +9,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// exp of a rotation vector as a quaternion.
+/// Quaternion of exp of a rotation vector.
 Eigen::Quaterniond exp_quaternion(const Eigen::Vector3d& turn) {
   const double a2 = turn.squaredNorm();
   const AngleFunctions<double> half(0.25 * a2);

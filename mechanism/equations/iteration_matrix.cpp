@@ -1,4 +1,4 @@
-// Condensation and expansion around the global solve.
+// Condensation and expansion around the global solution.
 #include "mechanism/equations/iteration_matrix.hpp"
 
 #include <algorithm>

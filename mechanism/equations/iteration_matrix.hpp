@@ -1,5 +1,5 @@
-// The matrix of a Newton iteration: a saddle system whose internal coordinates are condensed, with the request that its
-// factors belong to.
+// Matrix of a Newton iteration: a saddle system with condensed internal coordinates, and the request to which its
+// factors belong.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace tisserand::mechanism {
 
-/// [A/s Bᵀ; rows 0] of the boundary coordinates and multipliers, its factors, and the solutions found with them.
-/// It decides whether its factors can be used: they belong to the request that they were made for, and are invalid
-/// after a failed factorisation or forget().
+/// Matrix [A/s Bᵀ; rows 0] of the boundary coordinates and multipliers, its factors, and solutions with them. It
+/// decides whether its factors can be used: they belong to the request for which they were made, and are invalid after
+/// a failed factorisation or forget().
 class IterationMatrix {
  public:
   explicit IterationMatrix(const Model& model);
@@ -24,9 +24,9 @@ class IterationMatrix {
   bool serves(const TangentRequest& request, const Evaluation& evaluation) const {
     return factored_ == request && tangent_ == evaluation.tangents;
   }
-  /// Makes the next iteration factor again.
+  /// Forces a factorisation in the next iteration.
   void invalidate() { factored_.reset(); }
-  /// Resets: the next factorisation chooses its pivots as the first one did.
+  /// Resets the matrix: the next factorisation chooses its pivots like the first one.
   void forget();
 
   /// Solves A d + Bᵀ dλ = −r, B d = rows with the factors. `increment` (boundary and internal) receives d,
@@ -36,8 +36,8 @@ class IterationMatrix {
   /// `correction` receives d, `projection_multipliers` μ.
   void solve_projection(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& rows, Evaluation& evaluation);
 
-  /// Name of the coordinate or constraint that dominates the solution for a unit right-hand side: with nearly singular
-  /// factors the direction that nothing holds.
+  /// Name of the coordinate or constraint that dominates the solution for a unit right-hand side. With nearly singular
+  /// factors it is the direction that nothing holds.
   std::string weakest_equation(const Model& model);
   const SolverHealth& health() const { return system_.health(); }
 

@@ -1,4 +1,4 @@
-// Joints, couplings and springs: everything that two markers do to each other.
+// Joints, couplings and springs: all forces and relations between two markers.
 
 #include "common/math/rotation.hpp"
 #include "mechanism/equations/terms.hpp"
@@ -21,8 +21,8 @@ void evaluate_coordinate(const Coordinate& coordinate, const State& state, const
   });
 }
 
-/// Rows of B of a joint or coordinate, the first `size` of which belong to the matrix, from slot `first` of their map
-/// on; `gradient()`: ∂(B v)/∂q, asked for only if needed.
+/// Rows of B of a joint or coordinate. The first `size` of them belong to the matrix, from slot `first` of their map
+/// on. `gradient()`, ∂(B v)/∂q, is called only if needed.
 template <class Rows, class Gradient>
 struct ConstraintBlock {
   const Rows& B;
@@ -32,7 +32,7 @@ struct ConstraintBlock {
   std::size_t first;
 };
 
-/// Adds rows and, transposed, columns.
+/// Adds rows and their transposed columns.
 template <class Block, class Lower, class Upper>
 void add_rows(const Block& block, const Lower& lower, const Upper& upper, std::vector<double>& values) {
   std::size_t at = block.first;
@@ -44,7 +44,7 @@ void add_rows(const Block& block, const Lower& lower, const Upper& upper, std::v
     }
 }
 
-/// B with the columns of the iteration matrix.
+/// Rows of B, or B̂, in the columns of the iteration matrix.
 template <class Pair, class Rows, class Gradient>
 Rows constraint_rows(const Carriers& on, const Pair& item, const ConstraintBlock<Rows, Gradient>& block,
                      const ConstraintRows& kind) {
@@ -64,7 +64,7 @@ Rows constraint_rows(const Carriers& on, const Pair& item, const ConstraintBlock
   return rows;
 }
 
-/// Adds the terms in the coordinates of carriers that follow modal bodies.
+/// Transforms the rows to the coordinates of carriers that follow modal bodies.
 template <class Rows, class Gradient>
 CarrierMatrix pulled_constraint_rows(const Carriers& on, const ConstraintBlock<Rows, Gradient>& block,
                                      const ConstraintRows& kind, CarrierScratch& scratch) {
@@ -95,7 +95,7 @@ void add_constraint_rows(const Carriers& on, const Pair& item, const ConstraintB
   add_rows(block, pulled_constraint_rows(on, block, target.rows, target.scratch), upper, target.values);
 }
 
-/// Adds what `force_on(first)` gives for each carrier of a pair, whose columns begin at `first`: 0 (A) or 6 (B).
+/// Adds force_on(first) for each carrier of a pair, whose columns begin at `first`: 0 (A) or 6 (B).
 template <int D, class Force>
 void add_forces(const Model& model, const ElementMap& map, Evaluation& evaluation, Force force_on) {
   for (const int first : {0, 6}) {
@@ -105,7 +105,7 @@ void add_forces(const Model& model, const ElementMap& map, Evaluation& evaluatio
   }
 }
 
-/// Adds Gᵀ Q of coordinate `at`.
+/// Adds the generalised force Gᵀ Q of coordinate `at`.
 void add_along(const Model& model, std::size_t at, double Q, Evaluation& evaluation) {
   in_space(model.coordinates[at].relation.planar, [&]<int D>() {
     add_forces<D>(model, model.coordinates.maps[at], evaluation, [&](int first) {
@@ -114,7 +114,7 @@ void add_along(const Model& model, std::size_t at, double Q, Evaluation& evaluat
   });
 }
 
-/// Bᵀλ of a joint.
+/// Force Bᵀλ of a joint.
 Vector12 joint_force(const Joint& joint, const JointTerms& terms, const State& state) {
   Vector12 force;
   for (const int first : {0, 6})
@@ -122,7 +122,7 @@ Vector12 joint_force(const Joint& joint, const JointTerms& terms, const State& s
   return force;
 }
 
-/// −∂(GᵀQ)/∂(q, v) of a spring on carriers that follow modal bodies.
+/// Adds −∂(GᵀQ)/∂(q, v) of a spring on carriers that follow modal bodies.
 void add_pulled_spring(const Carriers& on, const Coordinate& c, const Row12& G, const SpringForce& f,
                        const TangentTarget& target) {
   const TangentCoefficients& coefficients = target.coefficients;

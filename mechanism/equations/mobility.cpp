@@ -1,4 +1,4 @@
-// Ranks of the constraint Jacobian.
+// Ranks of the constraint Jacobian, free motions and locked joints.
 #include "mechanism/equations/mobility.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Constraint Jacobians up to this size are decomposed densely.
+/// Largest size of a constraint Jacobian with a dense decomposition.
 constexpr int dense_rank_limit = 150;
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
@@ -33,7 +33,7 @@ Eigen::SparseMatrix<double> compressed(int rows, int columns, const Triplets& en
   return B;
 }
 
-/// Bᵀ with rotation rows divided by the characteristic length and angle columns multiplied with it.
+/// Matrix Bᵀ with rotation rows divided by the characteristic length and angle columns multiplied by it.
 Eigen::SparseMatrix<double> scaled_jacobian(const Model& model, const Evaluation& evaluation) {
   Triplets entries;
   for_each_row(model, evaluation, [&](int row, const ElementMap& map, const auto&, const Row12& values) {
@@ -46,8 +46,8 @@ Eigen::SparseMatrix<double> scaled_jacobian(const Model& model, const Evaluation
 
 using Row6 = Eigen::Matrix<double, 1, 6>;
 
-/// A row in the motion [ẋ Ω] of a node, for the rigid motion [velocity of the first node; angular velocity, world] of
-/// its part, rotations divided by the characteristic length: a node at x moves with ẋ = v − (x − x_0)~ ω, Ω = Rᵀ ω.
+/// Row for the rigid motion [velocity of the first node; angular velocity, world] of a part, from that for [ẋ Ω] of a
+/// node. Rotations are divided by the characteristic length. A node at x has ẋ = v − (x − x_0)~ ω, Ω = Rᵀ ω.
 Row6 rigid_row(const Model& model, const Parts& parts, const Evaluation& evaluation, int carrier, const Row6& values) {
   const NodeMotion& node = motion_of(evaluation, carrier);
   const Eigen::Vector3d arm = node.x - motion_of(evaluation, parts.first_node[parts.of_node[carrier]]).x;
@@ -57,7 +57,7 @@ Row6 rigid_row(const Model& model, const Parts& parts, const Evaluation& evaluat
   return rigid;
 }
 
-/// scaled_jacobian() for rigid motions of the parts; in planar models behind it columns that hold what leaves the
+/// scaled_jacobian() for rigid motions of the parts; in planar models followed by columns that hold motions out of the
 /// plane.
 Eigen::SparseMatrix<double> rigid_jacobian(const Model& model, const Parts& parts, const Evaluation& evaluation) {
   Triplets entries;
@@ -78,8 +78,8 @@ Eigen::SparseMatrix<double> rigid_jacobian(const Model& model, const Parts& part
   return compressed(6 * parts.count(), columns, entries);
 }
 
-/// By Gram and Schmidt. The next column is the first of those whose part across the ones before is longer than 0.9 of
-/// the longest such part: among equals the order of the file decides, not the last bit.
+/// Rank by the Gram-Schmidt method. The next column is the first whose component normal to the chosen ones is longer
+/// than 0.9 of the longest such component. Among nearly equal columns the order of the file decides, not round-off.
 ColumnRank dense_rank(Eigen::MatrixXd A, double tolerance) {
   constexpr double equal = 0.9;
   ColumnRank rank;
@@ -104,8 +104,8 @@ ColumnRank dense_rank(Eigen::MatrixXd A, double tolerance) {
   return rank;
 }
 
-/// Rows that repeat others do so where the constraints hold. Where these are open by Φ (relative), what is left of a
-/// repeated row is of the size of Φ, and no rank: rows that are left out stand open by what their integration leaves.
+/// Tolerance of the rank. Redundant rows repeat others only if the constraints are closed. If these are open by Φ
+/// (relative), a redundant row differs by the size of Φ. Inactive rows stay open by the errors of their integration.
 double tolerance_at(const Model& model, const Evaluation& evaluation) {
   constexpr double per_violation = 100.0, most = 1e-6;
   const double open = largest_violation(model, evaluation.constraint).value;
@@ -125,13 +125,13 @@ ColumnRank rank_of(const Eigen::SparseMatrix<double>& A, double tolerance) {
   return rank;
 }
 
-/// Motions of rigid parts, one per column, of which names are taken one by one: each takes a motion along, and the
-/// others no longer change what it names.
+/// Motions of rigid parts, one per column, to be named one after the other. Each name removes one motion, and the
+/// remaining ones no longer change the named coordinate.
 struct OpenMotions {
   Eigen::MatrixXd Z;
-  double least = 1e-9;  ///< of the largest entry of Z: what counts as a motion
+  double least = 1e-9;  ///< smallest change that counts as a motion, relative to the largest entry of Z
 
-  /// Whether some motion changes the row; then it is taken.
+  /// Whether some motion changes the row. If so, that motion is removed.
   bool take(const Eigen::RowVectorXd& row) {
     if (Z.cols() == 0) return false;
     const Eigen::RowVectorXd change = row * Z;
@@ -157,7 +157,7 @@ Eigen::RowVectorXd part_row(const Model& model, const Parts& parts, const Evalua
   return row;
 }
 
-/// Motions that joints and held drives let the rigid parts do.
+/// Motions of the rigid parts that joints and held drives allow.
 Eigen::MatrixXd open_motions(const Model& model, const Parts& parts, const Evaluation& evaluation, bool drives_hold) {
   Eigen::MatrixXd B = Eigen::MatrixXd(rigid_jacobian(model, parts, evaluation));
   for (const Coupling& coupling : model.couplings)
@@ -182,7 +182,7 @@ void name_turns(const Model& model, const Parts& parts, const Evaluation& evalua
     }
 }
 
-/// What is left moves no joint: groups of bodies as a whole, named by their heaviest.
+/// Names remaining motions, which move no joint: groups of bodies as a whole, named after their heaviest.
 void name_bodies(const Parts& parts, OpenMotions& open, std::vector<std::string>& names) {
   std::vector<int> order(static_cast<std::size_t>(parts.count()));
   for (int p = 0; p < parts.count(); ++p) order[p] = p;
@@ -195,7 +195,7 @@ void name_bodies(const Parts& parts, OpenMotions& open, std::vector<std::string>
   }
 }
 
-/// Joints between parts that do not move against each other, and the parts (the ground behind them).
+/// A joint between parts without relative motion, and these parts (ground is the last).
 struct LockedJoint {
   int joint = 0;
   int a = 0;
@@ -226,8 +226,8 @@ std::vector<LockedJoint> locked_joints(const Model& model, const Parts& parts, c
   return locked;
 }
 
-/// Those in loops: alone, a joint may just be in a singular position, as at the dead centre of a slider-crank. Loops of
-/// fewer than two rigid bodies with mass are held by flexible ones, which give way.
+/// Names the locked joints in loops. A single joint may just be in a singular position, as at the dead centre of a
+/// slider-crank. Loops of fewer than two rigid bodies with mass contain flexible ones, which deform.
 void name_locked(const Model& model, const Parts& parts, const Evaluation& evaluation,
                  std::vector<std::string>& names) {
   std::vector<LockedJoint> locked = locked_joints(model, parts, evaluation);

@@ -14,25 +14,25 @@ namespace tisserand::mechanism {
 struct Mobility {
   int coordinates = 0;  ///< boundary and internal, without those of treads
   int constraints = 0;
-  int rank = 0;                ///< of the constraint Jacobian
+  int rank = 0;                ///< rank of the constraint Jacobian
   int degrees_of_freedom = 0;  ///< coordinates − rank
-  int parts = 0;               ///< bodies, each counted as a rigid one
-  int freedoms = 6;            ///< of one body; in planar models 3
+  int parts = 0;               ///< bodies, each as a rigid one
+  int freedoms = 6;            ///< degrees of freedom of one rigid body; in planar models 3
   int rigid_mobility = 0;      ///< degrees of freedom if every body were rigid: freedoms · parts − rank
   int gruebler() const { return freedoms * parts - constraints; }
   std::vector<int> redundant;  ///< constraint rows that depend on the others
-  // By find_freedoms(), every body counted as a rigid one:
+  // Results of find_freedoms(), with every body as a rigid one:
   std::vector<std::string>
-      free;  ///< independent motions, drives held: joint coordinates, turns in joints, whole bodies
+      free;  ///< independent motions with held drives: joint coordinates, rotations in joints, whole bodies
   std::vector<std::string> locked;  ///< joints of loops that cannot move although nothing drives them
 };
 
-/// Rank of B by a rank-revealing QR (rotations scaled with the characteristic length; up to 150 rows dense, above
-/// sparse), and that of B on the motions of rigid parts.
+/// Computes the rank of B by a rank-revealing QR (rotations scaled by the characteristic length; dense up to 150 rows,
+/// sparse above), and that of B on the motions of rigid parts.
 Mobility count_mobility(const Model& model, const State& state, Evaluation& evaluation);
 
 /// Names the free motions and the locked joints at the state, by the null space of B on the motions of rigid parts.
-/// With more than 50 parts both lists stay empty.
+/// With more than 50 parts both lists are empty.
 void find_freedoms(const Model& model, const State& state, Evaluation& evaluation, Mobility& mobility);
 
 }  // namespace tisserand::mechanism

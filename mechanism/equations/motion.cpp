@@ -1,4 +1,4 @@
-// Stage motion: what nodes and modes do at a state.
+// Stage motion: motion of nodes and modes at a state.
 #include "mechanism/equations/terms.hpp"
 
 #include "mechanism/model/node_coordinates.hpp"
@@ -29,7 +29,7 @@ void update_motion(const Model& model, const State& state, Evaluation& evaluatio
     NodeMotion& motion = evaluation.motion[i];
     const auto column = static_cast<Eigen::Index>(i);
     motion.x = x.col(column);
-    if (model.planar) {  // what leaves the plane stays 0, or as it was made
+    if (model.planar) {  // components out of the plane keep their initial values
       const double w = Q(0, column), z = Q(3, column);
       motion.R(0, 0) = motion.R(1, 1) = 1.0 - 2.0 * z * z;
       motion.R(0, 1) = -(motion.R(1, 0) = 2.0 * w * z);
@@ -60,9 +60,9 @@ void update_motion(const Model& model, const State& state, Evaluation& evaluatio
     }
 }
 
-/// Frames, modes and the nodes that something acts on.
+/// Updates frames, modes and the active nodes of modal bodies.
 void update_modal_bodies(const Model& model, const State& state, Evaluation& evaluation) {
-  for (Vector6d& force : evaluation.modal_forces) force.setZero();  // what acts there is added with all forces
+  for (Vector6d& force : evaluation.modal_forces) force.setZero();  // forces there are added with all forces
   for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
     const ModalBody& body = model.modal_bodies[i];
     const int first = model.sizes.first_modal() + body.offset;

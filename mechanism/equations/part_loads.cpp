@@ -1,11 +1,10 @@
-// Part loads: factors for the superelements that bear them, whose bodies know the forces, and resultants on rigid
-// bodies.
+// Part loads: factors for superelements, whose bodies compute the forces, and resultants on rigid bodies.
 #include "mechanism/equations/forces.hpp"
 
 namespace tisserand::mechanism {
 namespace {
 
-/// Wrench of the factor 1 on the node of a rigid body [force world; moment material].
+/// Wrench of the load with the factor 1 on the node of a rigid body [force world; moment material].
 Vector6d resultant(const PartLoad& load, const NodeMotion& node) {
   Vector6d force;
   force << node.R * load.force, load.moment;

@@ -1,4 +1,4 @@
-// Rounding of positions and turns, through the generalised strains.
+// Round-off of positions and rotations, and its effect through the generalised strains.
 #include "mechanism/equations/round_off.hpp"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace tisserand::mechanism {
 namespace {
 constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
-/// Round-off of reactions relative to the forces of the scene: condition 1e3 of the mass matrix.
+/// Round-off of reactions relative to the forces of the scene, for a condition 1e3 of the mass matrix.
 constexpr double reaction_round_off = 1e-12;
 
 template <class Counts>

@@ -1,4 +1,4 @@
-// Scaling around the solver.
+// Scaling of the saddle system around the solver.
 #include "mechanism/equations/saddle_system.hpp"
 
 namespace tisserand::mechanism {

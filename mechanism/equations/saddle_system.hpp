@@ -1,4 +1,4 @@
-// The one linear system of this stage: [A Bᵀ; C 0][d; μ] = [f; g], scaled so that pivots do not depend on units.
+// The linear system [A Bᵀ; C 0][d; μ] = [f; g], scaled so that pivots do not depend on units.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,19 +8,19 @@
 
 namespace tisserand::mechanism {
 
-/// Values, factors and the vector of unknowns of one such matrix; A is stored as A/s. The matrix of Newton's iteration
-/// and that of the position projection are two of them.
+/// Values, factors and the vector of unknowns of one such matrix; A is stored as A/s. The matrices of Newton's
+/// iteration and of the position projection are two of them.
 class SaddleSystem {
  public:
-  explicit SaddleSystem(const Model& model);  ///< symbolic factorisation
+  explicit SaddleSystem(const Model& model);  ///< performs the symbolic factorisation
 
-  /// Factors the values. Fill `matrix` with evaluate_tangent() or evaluate_weight() before: factoring scales it in
-  /// place, and it must then stay as it is.
+  /// Factors the values. Before, evaluate_tangent() or evaluate_weight() must fill `matrix`. The factorisation scales
+  /// it in place, so it must not change afterwards.
   [[nodiscard]] FactorReport factor(const Model& model);
-  /// unknowns <- solution for the right-hand side in `unknowns`. The upper part of the right-hand side belongs to A/s,
-  /// and so do the multipliers that come back.
+  /// Replaces the right-hand side in `unknowns` by the solution. The upper part of the right-hand side belongs to A/s,
+  /// and so do the resulting multipliers.
   void solve(const Model& model);
-  /// Forgets pivots and factors, so that the next factor() does what the first did.
+  /// Discards pivots and factors, so that the next factor() repeats the first one.
   void forget() { solver_.forget(); }
   const SolverHealth& health() const { return solver_.health(); }
 

@@ -12,7 +12,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Rows and columns of constraints that others imply: δλ = 0.
+/// Sets rows and columns of inactive constraints to δλ = 0.
 void deactivate_rows(const Model& model, const State& state, std::vector<double>& values) {
   const SparsePattern& pattern = *model.pattern;
   for (int row = 0; row < model.sizes.constraints; ++row) {

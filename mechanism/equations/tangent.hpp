@@ -7,7 +7,7 @@
 
 namespace tisserand::mechanism {
 
-/// The rows B̂ of THEORY (70): what the constraint rows of a tangent are derivatives of.
+/// Kind of the rows B̂ of THEORY (70): of which quantities, and by which increments, they are derivatives.
 struct ConstraintRows {
   enum class Kind {
     plain,     ///< B: Φ for material increments
@@ -20,7 +20,7 @@ struct ConstraintRows {
   bool operator==(const ConstraintRows&) const = default;
 };
 
-/// A of THEORY (69), c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q, by hand-written or exact derivatives, and the rows beside it.
+/// Request for A of THEORY (69), c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q, hand-written or exact, and the rows below it.
 struct TangentRequest {
   TangentCoefficients coefficients;
   TangentKind kind = TangentKind::step;
@@ -28,24 +28,24 @@ struct TangentRequest {
   bool operator==(const TangentRequest&) const = default;
 };
 
-/// The stored values of [A/s Bᵀ; rows 0] in the slots of the model's pattern.
+/// Stored values of [A/s Bᵀ; rows 0] in the slots of the model's pattern.
 struct MatrixValues {
   explicit MatrixValues(const Model& model) : values(model.pattern->values(), 0.0) {}
   std::vector<double> values;
-  double scale = 1.0;  ///< s: so that A/s is of order one
+  double scale = 1.0;  ///< s, which makes A/s of order one
 };
 
-/// Internal coordinates of superelements are condensed; their blocks stay in the evaluation for condense() and
-/// expand().
+/// Computes the values of the request. Internal coordinates of superelements are condensed; their blocks stay in the
+/// evaluation for condense() and expand().
 void evaluate_tangent(const Model& model, const State& state, const TangentRequest& request, Evaluation& evaluation,
                       MatrixValues& matrix);
 
-/// evaluate_tangent() without the superelements, for callers that keep internal coordinates. All values but the scale
-/// are linear in the coefficients.
+/// Computes evaluate_tangent() without the superelements, for callers that keep internal coordinates. All values except
+/// the scale are linear in the coefficients.
 void evaluate_tangent_without_superelements(const Model& model, const State& state, const TangentRequest& request,
                                             Evaluation& evaluation, MatrixValues& matrix);
 
-/// W = c_m M + c_k K of the bodies alone in place of A, and B; superelements with their boundary coordinates.
+/// Computes W = c_m M + c_k K of the bodies alone instead of A, and B; superelements with their boundary coordinates.
 void evaluate_weight(const Model& model, const State& state, const TangentCoefficients& coefficients,
                      Evaluation& evaluation, MatrixValues& matrix);
 

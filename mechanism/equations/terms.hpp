@@ -1,5 +1,5 @@
 // Parts of evaluate(): scattering of local vectors and matrices, and the loops over joints, their coordinates and
-// what acts between two markers.
+// elements between two markers.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace tisserand::mechanism {
 
-/// Where kernels add their derivatives: c_m, c_c, c_k, the kind of constraint rows, the factor of A (0: rows alone),
-/// the stored values, and buffers for carriers.
+/// Target of derivatives: c_m, c_c, c_k, the kind of constraint rows, the factor of A (0: rows alone), the stored
+/// values, and buffers for carriers.
 struct TangentTarget {
   const TangentCoefficients& coefficients;
   const ConstraintRows& rows;
@@ -21,7 +21,7 @@ struct TangentTarget {
   CarrierScratch& scratch;
 };
 
-/// The markers of a joint, a coordinate or a force element with the motion of their carriers.
+/// Markers of a joint, a coordinate or a force element with the motion of their carriers.
 template <class Item>
 MarkerPair markers_of(const Item& item, const Evaluation& evaluation) {
   return {item.a, item.b, motion_of(evaluation, item.a.node), motion_of(evaluation, item.b.node)};
@@ -57,8 +57,8 @@ void add_force(const Model& model, const ElementMap& map, const Vector& local, E
     add_pulled_force(model, map, local.data(), evaluation);
 }
 
-/// Adds factor times the local matrix ∂(force)/∂(local coordinates) to the stored values; `force()` gives the local
-/// force, which modal bodies feel through moving nodes.
+/// Adds factor times the local matrix ∂(force)/∂(local coordinates) to the stored values. `force()` gives the local
+/// force, whose direction matters for modal bodies because their nodes move.
 template <class Matrix, class Force>
 void add_matrix(const Carriers& on, const Matrix& local, double factor, Force force, const TangentTarget& target) {
   if (on.map.carriers.empty()) {
@@ -69,7 +69,7 @@ void add_matrix(const Carriers& on, const Matrix& local, double factor, Force fo
   scatter_matrix(on.map, on.tangent(local_view(local), f.data(), target.scratch), factor, target.values);
 }
 
-/// Force and moment rows of nodes with six coordinates.
+/// Updates the force scales with force and moment rows of nodes with six coordinates.
 template <class Vector>
 void note_scale(const Vector& local, Evaluation& evaluation) {
   for (Eigen::Index i = 0; i < local.size(); i += 6) {
@@ -79,57 +79,57 @@ void note_scale(const Vector& local, Evaluation& evaluation) {
   }
 }
 
-/// Values of a carrier in the plane.
+/// Updates the force scales with the values of a carrier in the plane.
 inline void note_scale(const CarrierVector<2>& local, Evaluation& evaluation) {
   double &force = evaluation.force_scale[0], &moment = evaluation.force_scale[1];
   force = std::max({force, std::abs(local[0]), std::abs(local[1])});
   moment = std::max(moment, std::abs(local[2]));
 }
 
-/// What all items of a pool of bodies or forces exert: bodies.hpp and forces.hpp have it for each type.
+/// Adds the forces of all items of a pool of bodies or forces; bodies.hpp and forces.hpp declare it for each type.
 template <class T>
 void add_forces(const Model& model, const State& state, const Pool<T>& pool, Evaluation& evaluation) = delete;
 
-/// F(t) of spring i at the load time, scaled as loads are.
+/// Applied force F(t) of spring i at the load time, scaled like loads.
 double applied_force(const Model& model, std::size_t i, double time, Evaluation& evaluation);
 
-/// Motion of all nodes that own their coordinates; of modal bodies and those of their nodes that something acts on.
+/// Updates the motion of all nodes with own coordinates; then that of modal bodies and their active nodes.
 void update_motion(const Model& model, const State& state, Evaluation& evaluation);
 void update_modal_bodies(const Model& model, const State& state, Evaluation& evaluation);
 
-/// Φ, B and B v of the joints.
+/// Updates Φ, B and B v of the joints.
 void update_joints(const Model& model, Evaluation& evaluation);
-/// Values, rates and gradients G of the active coordinates.
+/// Updates values, rates and gradients G of the active coordinates.
 void update_coordinates(const Model& model, const State& state, Evaluation& evaluation);
-/// Φ and its rate of couplings and motions, after their coordinates.
+/// Updates Φ and its rate of couplings and motions, after their coordinates.
 void update_couplings(const Model& model, const State& state, Evaluation& evaluation);
 
-/// Bᵀλ of joints, of couplings and motions; forces, energy and powers of springs.
+/// Adds Bᵀλ of joints, of couplings and motions; forces, energy and powers of springs.
 void add_joints(const Model& model, const State& state, Evaluation& evaluation);
 void add_couplings(const Model& model, const State& state, Evaluation& evaluation);
 void add_springs(const Model& model, const State& state, Evaluation& evaluation);
 
-/// Values of the channels, and their passing on to the expressions that use them; after the active coordinates.
+/// Updates the channels and passes their values to the expressions that use them, after the active coordinates.
 void update_channels(const Model& model, Evaluation& evaluation);
 
-/// Forces of friction in joints, after add_joints().
+/// Adds the forces of friction in joints, after add_joints().
 void add_frictions(const Model& model, const State& state, Evaluation& evaluation);
-/// Factors of part loads, also in the scratch of the superelements that bear them: before the forces of bodies.
+/// Updates the factors of part loads, also in the scratch of their superelements, before the forces of bodies.
 void update_part_loads(const Model& model, const State& state, Evaluation& evaluation);
 
-/// Rows, columns and geometric stiffness of joints, of couplings and motions; tangents of springs, of friction (also
-/// ∂r/∂λ beside Bᵀ), and of loads and spring forces by the channels (of part loads on superelements without what
-/// internal coordinates pass on).
+/// Add rows, columns and geometric stiffness of joints, of couplings and motions. Further tangents are those of
+/// springs, of friction (with ∂r/∂λ in the block of Bᵀ), and of loads and spring forces by the channels. For part loads
+/// on superelements they omit the effect of internal coordinates.
 void add_joint_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
 void add_coordinate_tangents(const Model& model, const State& state, Evaluation& evaluation,
                              const TangentTarget& target);
-/// evaluation.part_load_directions[i] at the motion of the last evaluate().
+/// Updates evaluation.part_load_directions[i] at the motion of the last evaluate().
 void update_direction(const Model& model, std::size_t i, Evaluation& evaluation);
 void add_friction_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
 void add_channel_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
 
-/// c_c ∂(channel)/∂v + c_k ∂(channel)/∂q times ∂(factor)/∂(channel) for one use by a part load, in the coordinates of
-/// the map of the use behind those of the load. Takes memory.
+/// Row c_c ∂(channel)/∂v + c_k ∂(channel)/∂q times ∂(factor)/∂(channel) for one use by a part load, in the coordinates
+/// of the map of the use that follow those of the load. Allocates memory.
 Eigen::MatrixXd part_load_channel_row(const Model& model, const State& state, std::size_t use,
                                       const TangentCoefficients& coefficients, Evaluation& evaluation);
 

@@ -1,10 +1,10 @@
-// What the vanished fixed joints of eliminated virtual bodies transmit.
+// Wrenches that the vanished fixed joints of eliminated virtual bodies transmit.
 #include "mechanism/equations/terms.hpp"
 
 namespace tisserand::mechanism {
 namespace {
 
-/// Adds the wrenches on both ends, [force world; moment about the node, its axes], to the followers that they are on.
+/// Adds the wrenches on both ends, [force world; moment about the node, its axes], to their followers.
 void add_pair(const Marker& a, const Marker& b, const Row12& force, Evaluation& evaluation) {
   if (a.follower >= 0) evaluation.tie_wrenches[a.follower] += force.head<6>().transpose();
   if (b.follower >= 0) evaluation.tie_wrenches[b.follower] += force.tail<6>().transpose();
@@ -54,7 +54,7 @@ void evaluate_ties(const Model& model, const State& state, const double* lambda,
 JointReaction tie_reaction(const Model& model, std::size_t i, const Evaluation& evaluation) {
   const Tie& tie = model.ties[i];
   const NodeMotion& carrier = motion_of(evaluation, tie.a.node);
-  // The wrench on B is that on the follower, or its opposite; a multiplier's wrench is minus its pulled-back row.
+  // The wrench on B is that on the follower, or its opposite. A multiplier's wrench is minus its pulled-back row.
   const double sign = tie.child == Tie::Side::b ? -1.0 : 1.0;
   Row12 row = Row12::Zero();
   row.tail<6>() = sign * evaluation.tie_wrenches[i].transpose();
