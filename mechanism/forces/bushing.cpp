@@ -11,7 +11,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Rows3 = Eigen::Matrix<double, 3, 12>;
 
-/// R_AB of the markers, and δΘ = J δq of B against A in axes of marker B.
+/// Rotation R_AB of the markers; relative_increment() gives J of δΘ = J δq of B relative to A, in axes of marker B.
 Matrix3d relative_rotation(const MarkerPair& p) {
   return marker_rotation(p.a, p.node_a).transpose() * marker_rotation(p.b, p.node_b);
 }
@@ -65,7 +65,7 @@ void tangent(const Bushing& bushing, const MarkerPair& pair, const BushingTerms&
   const Vector3d Omega_A = R.transpose() * (pair.a.R.transpose() * pair.node_a.Omega);
   const Vector3d omega = pair.b.R.transpose() * pair.node_b.Omega - Omega_A;
   N.bottomRows<3>().noalias() = (turn.rate_gradient(omega) - turn.B() * skew<double>(Omega_A)) * J;
-  // The moment m = Bᵀ w_ψ in axes of marker B, turned to the nodes: +R_MB m on B, −R_MA R m on A.
+  // The moment m = Bᵀ w_ψ in axes of marker B acts on the nodes as +R_MB m on B and −R_MA R m on A.
   const Vector3d w_psi = terms.w.tail<3>();
   const Vector3d m = turn.B().transpose() * w_psi;
   const Matrix3d dm = turn.moment_gradient(w_psi);

@@ -13,10 +13,10 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector12d = Eigen::Matrix<double, 12, 1>;
 
-/// Deflection d = [p; ψ]: p = R_Aᵀ(x_B − x_A), ψ of R_AᵀR_B (relative_turn.hpp), with the origins and axes of the
-/// markers. The law is w = K (d − free) + D ḋ − preload, and the virtual work of what acts on the bodies is −w·δd: a
-/// moment of Bᵀ w_ψ about the axes of B, since δψ = B δΘ_AB. With K = Kᵀ it derives from V = ½(d − free)ᵀK(d − free) −
-/// preload·(d − free). Translations are in A's axes: swapping the bodies is the same law only for small rotations.
+/// Constants of a bushing. Its deflection is d = [p; ψ]: p = R_Aᵀ(x_B − x_A), ψ of R_AᵀR_B (relative_turn.hpp), with
+/// the origins and axes of the markers. The law is w = K (d − free) + D ḋ − preload. The virtual work of its forces is
+/// −w·δd, a moment Bᵀ w_ψ about the axes of B, since δψ = B δΘ_AB. If K = Kᵀ, w derives from V = ½(d − free)ᵀK(d −
+/// free) − preload·(d − free). Translations are in axes of A, so A and B can be exchanged only for small rotations.
 struct Bushing {
   std::string name;
   Marker a;
@@ -26,9 +26,9 @@ struct Bushing {
   Vector6d free = Vector6d::Zero();
   bool free_at_start = false;  ///< `free` is the deflection at the start
   Vector6d preload = Vector6d::Zero();
-  int axis = -1;          ///< marker axis about which its turns are counted; −1: none, ψ ends at half a turn
-  int coordinate = -1;    ///< with an axis: the coordinate that counts them, row of Model::coordinates
-  bool rotations = true;  ///< whether ψ matters
+  int axis = -1;          ///< marker axis about which turns are counted; −1: none, and ψ ends at half a turn
+  int coordinate = -1;    ///< with an axis: the coordinate that counts turns, row of Model::coordinates
+  bool rotations = true;  ///< whether ψ is used
 };
 
 /// Values at one instant. Columns of J and rows of force: [x_A Θ_A x_B Θ_B], world translations, material rotations.
@@ -41,10 +41,10 @@ struct BushingTerms {
   double dissipated = 0.0;  ///< power ḋᵀD ḋ
   double supplied = 0.0;    ///< power of the antisymmetric part of K: −ḋᵀ ½(K − Kᵀ)(d − free)
 };
-/// `near`: with an axis, an angle from which the turn about it differs by less than half a turn.
+/// Evaluates a bushing. `near`: with an axis, an angle from which the turn about it differs by less than half a turn.
 void evaluate(const Bushing& bushing, const MarkerPair& pair, double near, BushingTerms& terms);
 
-/// c_c ∂(Jᵀw)/∂v + c_k ∂(Jᵀw)/∂q, exact, from the terms at the same state.
+/// Computes A = c_c ∂(Jᵀw)/∂v + c_k ∂(Jᵀw)/∂q, exact, from the terms at the same state.
 void tangent(const Bushing& bushing, const MarkerPair& pair, const BushingTerms& terms,
              const TangentCoefficients& coefficients, Square12& A);
 

@@ -6,7 +6,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Slopes at the points: [FB84] (2) inside, no curvature at the ends.
+/// Slopes at the points: [FB84] (2) inside, zero curvature at the ends.
 std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vector<double>& y) {
   const std::size_t n = x.size();
   std::vector<double> secant(n - 1), slope(n, 0.0);

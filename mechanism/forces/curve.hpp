@@ -9,9 +9,9 @@
 
 namespace tisserand::mechanism {
 
-/// y(x). Tables are linear between the points or monotone cubic: in each interval the Hermite cubic with the slopes of
-/// [FB84] (2), 0 where the secants change sign, so that it has no extremum between the points; no curvature at the
-/// ends. Outside the table it goes on straight with its last slope.
+/// Law y(x). Tables are linear or monotone cubic between the points. In each interval the cubic is that of Hermite with
+/// the slopes of [FB84] (2), 0 where the secants change sign, so that it has no extremum between the points. The
+/// curvature is zero at the ends. Outside the table the law continues straight with its last slope.
 class Curve {
  public:
   Curve(double factor) : factor_(factor) {}  // NOLINT(google-explicit-constructor): a number is a law
@@ -24,14 +24,14 @@ class Curve {
   };
   Value operator()(double x) const;
 
-  /// First and last x of a table, beyond which the law goes on straight; a proportional law has none.
+  /// First and last x of a table, outside which the law continues straight; a proportional law has none.
   std::optional<std::pair<double, double>> range() const {
     if (pieces_.empty()) return std::nullopt;
     return std::pair(pieces_[1].start, pieces_.back().start);
   }
 
  private:
-  /// value + c1 t + c2 t² + c3 t³ with t = x − start; integral: ∫ y dx from the first point to start.
+  /// Cubic value + c1 t + c2 t² + c3 t³ with t = x − start; integral: ∫ y dx from the first point to start.
   struct Piece {
     double start = 0.0, value = 0.0, c1 = 0.0, c2 = 0.0, c3 = 0.0, integral = 0.0;
     Value at(double x) const;
@@ -40,7 +40,7 @@ class Curve {
 
   double factor_ = 0.0;
   double at_zero_ = 0.0;       ///< integral from the first point to 0
-  std::vector<Piece> pieces_;  ///< before the table, its intervals, behind it; empty: proportional
+  std::vector<Piece> pieces_;  ///< before the table, its intervals, after the table; empty: proportional
 };
 
 }  // namespace tisserand::mechanism

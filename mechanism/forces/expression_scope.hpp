@@ -1,4 +1,4 @@
-// What expressions may use besides t: input channels, which are functions of time, and channels of the mechanism.
+// Names that expressions may use besides t: input channels, which are functions of time, and channels of the mechanism.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct Input {
   Curve curve;
   double first = 0.0;
   double last = 0.0;
-  std::vector<double> breakpoints;  ///< where its slope jumps
+  std::vector<double> breakpoints;  ///< instants at which its slope jumps
 
   double operator()(double t) const { return curve(std::clamp(t, first, last)).value; }
 };

@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 using formats::LoadAxes;
 using formats::LoadKind;
 
-/// A load in world axes, in axes of the node.
+/// Components in node axes of a load given in world axes.
 Vector3d in_node_axes(const Load& load, const NodeMotion& node, const Vector3d& value) {
   return node.R.transpose() * (load.turn ? Vector3d(*load.turn * value) : value);
 }

@@ -13,7 +13,7 @@
 
 namespace tisserand::mechanism {
 
-/// Constant part of a load; its time functions live in the workspace (they own a parser).
+/// Constant part of a load; its time functions are in the workspace because they own a parser.
 struct Load {
   std::string name;
   formats::LoadKind kind = formats::LoadKind::force;
@@ -30,7 +30,7 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 /// Generalised force on the carrier node [force world; moment material] for the components `value` in the load's axes.
 Vector6d load_force(const Load& load, const NodeMotion& node, const Eigen::Vector3d& value);
 
-/// ∂(generalised force)/∂(x, Θ material).
+/// Derivative ∂(generalised force)/∂(x, Θ material).
 Matrix6d load_stiffness(const Load& load, const NodeMotion& node, const Eigen::Vector3d& value);
 
 }  // namespace tisserand::mechanism

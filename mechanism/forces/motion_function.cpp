@@ -1,4 +1,4 @@
-// Differences of expressions.
+// Finite differences of expressions.
 #include "mechanism/forces/motion_function.hpp"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ MotionFunction::Value MotionFunction::operator()(double t, double side) {
 }
 
 MotionFunction::Value MotionFunction::differences(double t, double side) {
-  // Round-off of t must not carry a point into the next piece, whose value at the breakpoint may be another one.
+  // Round-off of t must not move a point to the next piece, whose value at the breakpoint may differ.
   constexpr double ulps = 4.0 * std::numeric_limits<double>::epsilon();
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double d = spacing_, center = t, first = -infinity, last = infinity;

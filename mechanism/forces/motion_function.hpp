@@ -10,11 +10,11 @@
 
 namespace tisserand::mechanism {
 
-/// f, ḟ, f̈ of a formats::TimeFunctionSpec. Tables become a MotionTable; expressions are differentiated by central
-/// differences of order six with a spacing that the caller chooses (a quarter of the step resolves all that the step
-/// resolves), which are exact for polynomials of degree six. Near a breakpoint the seven points move to the side on
-/// which the derivatives are asked for, so that none lies beyond it: where an acceleration jumps, each side has its
-/// own. So has the value, whichever piece the comparison in the formula gives to the breakpoint itself.
+/// Value f, rate ḟ and acceleration f̈ of a formats::TimeFunctionSpec. Tables become a MotionTable. Expressions get
+/// central differences of order six, exact for polynomials of degree six. The caller chooses their spacing; a quarter
+/// of the step resolves all that the step resolves. Near a breakpoint all seven points move to the side of the
+/// requested derivatives. So each side of a jump has its own acceleration and value, whichever piece the formula
+/// assigns to the breakpoint.
 class MotionFunction {
  public:
   MotionFunction(const formats::TimeFunctionSpec& spec, double spacing, const ExpressionScope& scope);
@@ -22,8 +22,8 @@ class MotionFunction {
       : MotionFunction(spec, spacing, ExpressionScope{}) {}
 
   using Value = MotionValue;
-  /// At t; at a breakpoint, of the side on which `side` lies (from the breakpoint itself on: after it). Remembers the
-  /// last instant: the iterations of a step ask for the same.
+  /// Values at t; at a breakpoint, those of the side of `side` (after the breakpoint if equal to it). Caches the last
+  /// instant, because the iterations of a step use the same one.
   Value operator()(double t, double side);
   Value operator()(double t) { return (*this)(t, t); }
 

@@ -16,7 +16,7 @@ struct Slopes {
   double s = 0.0;
 };
 
-/// Of the polynomial through the five points nearest to point i by number (all, if there are fewer): Newton's form.
+/// Slopes at point i of Newton's polynomial through the five points nearest by number (all, if there are fewer).
 Slopes polynomial_slopes(const std::vector<double>& t, const std::vector<double>& y, int i) {
   const int count = std::min<int>(5, count_of(t));
   const int first = std::clamp(i - 2, 0, count_of(t) - count);
@@ -37,17 +37,17 @@ Slopes polynomial_slopes(const std::vector<double>& t, const std::vector<double>
   return out;
 }
 
-/// An interval of the table as one of its ends sees it.
+/// An interval of the table, seen from one of its ends.
 struct Side {
-  double h = 0.0;       ///< its length
-  double secant = 0.0;  ///< its mean rate
-  double share = 0.5;   ///< of its rise that belongs to this end: the control points of this end stay in it
+  double h = 0.0;       ///< length of the interval
+  double secant = 0.0;  ///< mean rate of the interval
+  double share = 0.5;   ///< share of its rise within which the control points of this end stay
 };
 
-/// A quintic is monotone if its control points are, in steps of h/5: y, y + h d/5, y + 2 h d/5 + h² s/20, and the
-/// same from the other end. Those of one end are kept ascending and within a share of the rise, and those of the other
-/// within the rest:  −4 d/h ≤ s ≤ (20 share Δ − 8 d)/h  ahead of the point, and the same with −s behind it. These have
-/// a solution s if d is not above what follows here. Rates of the rise are counted positive (`sign`).
+/// Limits the slopes so that the quintic is monotone. It is monotone if its control points are, in steps of h/5: y, y +
+/// h d/5, y + 2 h d/5 + h² s/20, and likewise from the other end. Those of one end stay ascending within a share of the
+/// rise, those of the other within the rest: −4 d/h ≤ s ≤ (20 share Δ − 8 d)/h after the point, with −s before it. A
+/// solution s exists if d is below the limit computed here. `sign` makes rates of the rise positive.
 Slopes limited(Slopes given, double sign, const Side* behind, const Side* ahead) {
   double most = std::numeric_limits<double>::infinity();
   for (const Side* side : {behind, ahead})
@@ -70,15 +70,15 @@ Slopes limited(Slopes given, double sign, const Side* behind, const Side* ahead)
   return {sign * d, sign * std::min(std::max(sign * given.s, low), high)};
 }
 
-/// Where the data turn: rate 0, and an acceleration towards the inside on both sides (`sign` of the rise before).
+/// Slopes at an extremum of the data: rate 0, and an acceleration inwards on both sides (`sign` of the rise before).
 Slopes turning(Slopes given, double sign, const Side& behind, const Side& ahead) {
   const double most = 20.0 * std::min(behind.share * std::abs(behind.secant) / behind.h,
                                       ahead.share * std::abs(ahead.secant) / ahead.h);
   return {0.0, -sign * std::clamp(-sign * given.s, 0.0, most)};
 }
 
-/// The share of the rise of an interval that belongs to its first end: halfway between the inner control points of
-/// the slopes that are wished for.
+/// Share of the rise of an interval that belongs to its first end: halfway between the inner control points of the
+/// requested slopes.
 double first_share(double h, double secant, const Slopes& a, const Slopes& b) {
   if (secant == 0.0) return 0.5;
   const double from_a = 0.4 * a.d + h * a.s / 20.0, from_b = secant - 0.4 * b.d + h * b.s / 20.0;
@@ -113,7 +113,7 @@ std::vector<Slopes> smooth_slopes(const std::vector<double>& t, const std::vecto
   return slopes;
 }
 
-/// Second derivatives at the points of the natural cubic spline (tridiagonal elimination).
+/// Second derivatives of the natural cubic spline at the points (tridiagonal elimination).
 std::vector<double> spline_curvature(const std::vector<double>& t, const std::vector<double>& y) {
   const int n = count_of(t);
   std::vector<double> m(n, 0.0), upper(n, 0.0);
@@ -128,7 +128,7 @@ std::vector<double> spline_curvature(const std::vector<double>& t, const std::ve
   return m;
 }
 
-/// The Hermite quintic over a length h with the rise `rise`.
+/// Coefficients of the Hermite quintic over a length h with the rise `rise`.
 std::array<double, 6> quintic(double y, double rise, double h, const Slopes& a, const Slopes& b) {
   const double da = h * a.d, db = h * b.d, sa = h * h * a.s, sb = h * h * b.s;
   const double h3 = h * h * h;

@@ -15,21 +15,21 @@ struct MotionValue {
   double acceleration = 0.0;
 };
 
-/// Polynomials between the points of a table (times ascend), going on straight with the last rate outside.
+/// Curve of polynomials between the points of a table with ascending times; outside it is straight with the last rate.
 /// smooth: Hermite quintics, twice continuously differentiable, monotone between any two points. Rates and
-///   accelerations at the points are those of the quartic through the five nearest points, made smaller where a quintic
-///   would not be monotone; points that are equal are held, and where the data turn the rate is 0. Data of a polynomial
-///   of degree 4 are met exactly where no limit acts. Without a limit values err by O(h⁵) of the spacing h, rates and
-///   accelerations by O(h⁴) and O(h³); beside a turn that lies between two points by O(h²), O(h), O(1).
+/// accelerations at the points are those of the quartic through the five nearest points, reduced where a quintic would
+/// not be monotone. Equal values stay constant, and the rate is 0 at an extremum of the data. Data of a polynomial of
+/// degree 4 are reproduced exactly without limits. Then values err by O(h⁵) of the spacing h, rates and accelerations
+/// by O(h⁴) and O(h³). Next to an extremum between two points the errors are O(h²), O(h), O(1).
 /// natural: the natural cubic spline, which overshoots.
-/// linear: straight, with steps of the rate.
+/// linear: straight, with jumps of the rate.
 class MotionTable {
  public:
   explicit MotionTable(const formats::TimeTable& table);
   MotionValue operator()(double t) const;
 
  private:
-  /// Σ cₖ (t − start)ᵏ
+  /// Polynomial Σ cₖ (t − start)ᵏ.
   struct Piece {
     double start = 0.0;
     std::array<double, 6> c{};

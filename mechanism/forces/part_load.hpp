@@ -9,15 +9,15 @@
 
 namespace tisserand::mechanism {
 
-/// Constant part; its function of time lives in the workspace. Of a superelement the forces are those of its body
-/// (bodies/superelement/forces/load_cases.hpp); one that is rigid takes the resultant on its node.
+/// Constant part of a load; its function of time is in the workspace. A superelement takes the forces of its body
+/// (bodies/superelement/forces/load_cases.hpp); a rigid one takes the resultant on its node.
 struct PartLoad {
   std::string name;
   int superelement = -1;                             ///< row of Model::superelements, −1: the body is rigid
-  int load_case = 0;                                 ///< of the superelement's body
-  int node = -1;                                     ///< of a rigid body
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< resultant of the factor 1, axes of the part
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< of a rigid body: about its node
+  int load_case = 0;                                 ///< index in the superelement's body
+  int node = -1;                                     ///< node of a rigid body
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< resultant for the factor 1, axes of the part
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< on a rigid body: about its node
   formats::TimeFunctionSpec value = 0.0;
   std::string where;
 };

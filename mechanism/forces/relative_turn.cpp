@@ -12,7 +12,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// ∂(w + s/2 ψ × w + e ψ × (ψ × w))/∂ψ: of T(ψ)⁻¹ w for s = 1, of T(ψ)⁻ᵀ w for s = −1.
+/// Derivative ∂(w + s/2 ψ × w + e ψ × (ψ × w))/∂ψ, of T(ψ)⁻¹ w for s = 1, of T(ψ)⁻ᵀ w for s = −1.
 Matrix3d inverse_tangent_gradient(const Vector3d& psi, const Vector3d& w, double s) {
   const AngleFunctions<Dual> f(Dual(psi.squaredNorm(), 1.0));  // e and its derivative by |ψ|²
   const double along = psi.dot(w);
@@ -26,7 +26,7 @@ Matrix3d inverse_tangent_gradient(const Vector3d& psi, const Vector3d& w, double
 template <class S>
 using Quaternion = Eigen::Matrix<S, 4, 1>;
 
-/// h(s²) = 2 asin(s)/s and its derivative by s², for the sine s of half the swing.
+/// Function h(s²) = 2 asin(s)/s and its derivative by s², for the sine s of half the swing.
 template <class S>
 struct SwingFunctions {
   S h, slope;
@@ -54,7 +54,7 @@ struct SwingFunctions {
   }
 };
 
-/// B of swing and twist about axis k.
+/// Matrix B of swing and twist about axis k.
 template <class S>
 Mat3<S> swing_twist_rates(const Quaternion<S>& q, int k) {
   const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -74,7 +74,7 @@ Mat3<S> swing_twist_rates(const Quaternion<S>& q, int k) {
   return B;
 }
 
-/// ∂B/∂Θ_m of swing and twist.
+/// Derivative ∂B/∂Θ_m of swing and twist.
 Matrix3d rates_along(const Eigen::Vector4d& q, int axis, int m) {
   const Vector3d v = q.tail<3>(), e = Vector3d::Unit(m), dv = 0.5 * (q[0] * e + v.cross(e));
   Quaternion<Dual> moved;

@@ -9,8 +9,8 @@
 
 namespace tisserand::mechanism {
 
-/// Generalised force on a coordinate q: Q = −f(q − q_free) − d(q̇) + Q_stop + F(t), where a stop that is passed by
-/// g > 0 pushes back with k_s g (1 + d ġ), never pulling ([HC75] with exponent 1).
+/// Generalised force on a coordinate q: Q = −f(q − q_free) − d(q̇) + Q_stop + F(t). A stop that is exceeded by g > 0
+/// pushes back with k_s g (1 + d ġ) and never pulls ([HC75] with exponent 1).
 struct Spring {
   std::string name;
   int coordinate = 0;     ///< row of Model::coordinates
@@ -27,14 +27,14 @@ struct Spring {
 
 struct SpringForce {
   double Q = 0.0;
-  double stop = 0.0;  ///< Q_stop, part of Q
+  double stop = 0.0;  ///< force Q_stop of a stop, included in Q
   double dQ_dq = 0.0;
   double dQ_dqd = 0.0;
-  double energy = 0.0;      ///< of spring and stops
-  double dissipated = 0.0;  ///< power taken out by damper and stops
+  double energy = 0.0;      ///< energy of spring and stops
+  double dissipated = 0.0;  ///< power dissipated by damper and stops
 };
 
-/// `applied`: F(t).
+/// Computes the force at q and its rate; `applied` is F(t).
 inline SpringForce spring_force(const Spring& s, double q, double qd, double applied) {
   SpringForce f;
   const Curve::Value elastic = s.stiffness(q - s.free), viscous = s.damping(qd);
@@ -48,7 +48,7 @@ inline SpringForce spring_force(const Spring& s, double q, double qd, double app
     if (g <= 0.0) return;
     f.energy += 0.5 * s.stop_stiffness * g * g;
     const double factor = 1.0 + s.stop_damping * gd;
-    if (factor <= 0.0) {  // leaves faster than the stop can follow: no contact force
+    if (factor <= 0.0) {  // leaves faster than the stop can follow: no contact
       f.dissipated += -s.stop_stiffness * g * gd;
       return;
     }

@@ -19,7 +19,7 @@ struct TimeFunction::Expression {
     std::size_t variable;
   };
   double t = 0.0;
-  std::vector<double> variables;  ///< inputs, then channels that it uses; the parser points into it
+  std::vector<double> variables;  ///< inputs, then channels in use; the parser holds pointers to them
   std::vector<UsedInput> inputs;
   mu::Parser parser;
 };

@@ -1,4 +1,4 @@
-// Functions of time that loads use: a constant, a table or an expression, also in inputs and channels.
+// Functions of time for loads: a constant, a table or an expression, which may use inputs and channels.
 #pragma once
 
 #include <memory>
@@ -12,11 +12,11 @@
 namespace tisserand::mechanism {
 
 /// Evaluates a formats::TimeFunctionSpec. Tables are linear between points and constant outside. Expressions may use
-/// the inputs of the scope at the same t, and its channels at their values last set.
+/// the inputs of the scope at the same t, and its channels with their last values from set_channels().
 class TimeFunction {
  public:
-  /// Throws Error at the place of the expression if it cannot be parsed. Its values may still not be finite: simulate()
-  /// examines them at the start and where a step fails.
+  /// Throws Error at the place of the expression if it cannot be parsed. Its values may still not be finite; simulate()
+  /// checks them at the start and where a step fails.
   TimeFunction(const formats::TimeFunctionSpec& spec, const ExpressionScope& scope);
   explicit TimeFunction(const formats::TimeFunctionSpec& spec) : TimeFunction(spec, ExpressionScope{}) {}
   ~TimeFunction();
@@ -27,10 +27,10 @@ class TimeFunction {
 
   /// Channels that the expression uses, by number in the scope.
   const std::vector<int>& channels() const { return channels_; }
-  /// Sets them from the values of all channels of the scope.
+  /// Sets the used channels from the values of all channels of the scope.
   void set_channels(const Eigen::VectorXd& values);
-  /// ∂/∂(the channel channels()[argument]) by a central difference of 6e-6 of its value, but no less than 6e-9: errors
-  /// of 1e-10 relative, which only the speed of Newton's iteration sees.
+  /// Derivative by the channel channels()[argument], a central difference of 6e-6 of its value, at least 6e-9. The
+  /// relative error is 1e-10 and affects only the convergence of Newton's iteration.
   double derivative(std::size_t argument, double t);
 
   /// Instants at which the function or its derivative may jump.
