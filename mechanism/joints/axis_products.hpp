@@ -1,4 +1,4 @@
-// Products of axes that relations consist of: shared by what they are in space and in the plane.
+// Products of axes in relations, shared by their formulas in space and in the plane.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace tisserand::mechanism {
 
-/// sign · a_i·b_j.
+/// Term sign · a_i·b_j.
 struct NormalTerm {
   int i;
   int j;
@@ -22,8 +22,8 @@ struct NormalSum {
 inline NormalSum normal_sum(const Relation& r) { return {{{{r.i, r.j, 1.0}, {}}}, 1}; }
 inline constexpr NormalSum twist_sum{{{{0, 1, 1.0}, {1, 0, -1.0}}}, 2};
 
-/// θ = atan2(sine, cosine). About z: of the rotation R_AB with z_B near z_A, exact where they agree. About x: where x_A
-/// is normal to y_B; about y: where y_B is normal to x_A (the two pins of a universal joint, R_AB = R_x R_y).
+/// Angle θ = atan2(sine, cosine). About z it is that of the rotation R_AB with z_B near z_A, exact if they agree. About
+/// x it requires x_A normal to y_B; about y, y_B normal to x_A (the two pins of a universal joint, R_AB = R_x R_y).
 struct AngleTerms {
   NormalSum sine;
   NormalSum cosine;

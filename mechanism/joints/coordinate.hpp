@@ -11,11 +11,11 @@
 namespace tisserand::mechanism {
 
 struct Coordinate {
-  std::string name;  ///< "hinge", "slide/z": the joint, and which of its coordinates if there are several
+  std::string name;  ///< "hinge", "slide/z": the joint, and its coordinate if there are several
   Marker a;
   Marker b;
   Relation relation;
-  int turn = -1;        ///< angles: index of the unwrapped value in the state
+  int turn = -1;        ///< for angles: index of the unwrapped value in the state
   bool active = false;  ///< used by a coupling, a motion or a spring: evaluated in every step
 };
 
@@ -26,13 +26,13 @@ struct CoordinateTerms {
   Row12 G = Row12::Zero();
 };
 
-/// The angle nearest to `near` that differs from `angle` by whole turns.
+/// Angle nearest to `near` that differs from `angle` by whole turns.
 inline double unwrapped(double angle, double near) {
   return near + std::remainder(angle - near, 2.0 * std::numbers::pi);
 }
 
-/// Φ = Σ factor · coordinate − constant − f(t): a gear, a rack and pinion, a screw (two terms), a driven coordinate
-/// (one).
+/// Term of Φ = Σ factor · coordinate − constant − f(t). Gears, racks and screws have two terms, a driven coordinate has
+/// one.
 struct CouplingTerm {
   int coordinate = 0;  ///< row of Model::coordinates
   double factor = 1.0;
@@ -43,9 +43,9 @@ struct Coupling {
   double constant = 0.0;
   int motion = -1;          ///< index of f in Evaluation::motions, −1: none
   bool length = false;      ///< whether Φ is a length
-  bool thread = false;      ///< of a screw: its force is part of the joint's reaction
-  bool from_start = false;  ///< the constant is the value at the start: gears hold changes only
-  int row = 0;              ///< its multiplier
+  bool thread = false;      ///< coupling of a screw: its force is part of the joint's reaction
+  bool from_start = false;  ///< the constant is the value at the start: gears constrain changes only
+  int row = 0;              ///< index of its multiplier
 };
 
 }  // namespace tisserand::mechanism

@@ -13,13 +13,13 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Rows3 = Eigen::Matrix<double, 3, 12>;
 
-/// s = S v; unused rows are zero.
+/// Sliding velocity s = S v; unused rows are zero.
 struct Slip {
   Rows3 S = Rows3::Zero();
   Vector3d s = Vector3d::Zero();
 };
 
-/// The derivatives of a slip: ∂(S v)/∂q, and ∂(Sᵀ weight)/∂q.
+/// Derivatives of a slip: ∂(S v)/∂q and ∂(Sᵀ weight)/∂q.
 struct SlipGradient {
   Rows3 rate = Rows3::Zero();
   Square12 geometric = Square12::Zero();
@@ -28,10 +28,10 @@ struct SlipGradient {
 constexpr Relation turn{RelationKind::angle, 2, 0};
 constexpr Relation shift_z{RelationKind::along, 2, 0};
 
-/// Whether the slip is that of a ball, a turn in any direction.
+/// Whether the slip is that of a ball, a rotation in any direction.
 bool slips_like_a_ball(JointKind kind) { return joint_law(kind).slip == SlipKind::ball; }
 
-/// Relation and factor of each row, for joints whose slip is made of joint coordinates; factor 0: no row.
+/// Relation and factor of each row, for joints whose slip consists of joint coordinates; factor 0: no row.
 struct SlipRow {
   Relation relation;
   double factor = 0.0;
@@ -87,7 +87,7 @@ SlipGradient slip_gradient(const Friction& friction, const LoadedJoint& loaded, 
   return gradient;
 }
 
-/// N and its derivatives by force and moment.
+/// Normal force N and its derivatives by force and moment.
 struct ContactForce {
   double N = 0.0;
   Vector3d by_force = Vector3d::Zero();
@@ -117,7 +117,7 @@ Row12 pulled_back(const LoadedJoint& loaded, const Row12& thread) {
   return sum;
 }
 
-/// ∂N/∂q at fixed multipliers, from that of g = Bᵀλ: f = R_MᵀR_Aᵀ(−g_x), m likewise of R_B(−g_Θ − p_B × R_Bᵀ(−g_x)).
+/// ∂N/∂q at fixed multipliers from that of g = Bᵀλ: f = R_MᵀR_Aᵀ(−g_x), m likewise of R_B(−g_Θ − p_B × R_Bᵀ(−g_x)).
 Row12 normal_gradient(const Friction& friction, const LoadedJoint& loaded, const Row12& g, const ContactForce& normal) {
   const MarkerPair& p = loaded.pair;
   Square12 K;
@@ -174,7 +174,7 @@ void tangent(const Friction& friction, const LoadedJoint& loaded, const TangentC
   const ContactForce normal = normal_of(friction, loaded.joint.kind, reaction_of(g, loaded.pair));
   const double speed = slip.s.norm();
   const FrictionLaw law = friction_law(friction, speed);
-  Matrix3d by_slip = law.ratio * Matrix3d::Identity();  // of μ(|s|) s/|s|
+  Matrix3d by_slip = law.ratio * Matrix3d::Identity();  // derivative of μ(|s|) s/|s|
   if (speed > 0.0) by_slip += (law.slope / speed) * slip.s * slip.s.transpose();
   const Vector3d pull = law.ratio * slip.s;
   const SlipGradient gradient = slip_gradient(friction, loaded, pull);

@@ -29,7 +29,7 @@ int count_normals(const Joint& joint, int column) {
   return count;
 }
 
-/// Whether what `hold` chose leaves a displacement along an axis free, or the turn about it alone.
+/// Whether the directions that `hold` chose leave a displacement along an axis free, or only the rotation about it.
 bool is_free(const Joint& joint, const Relation& coordinate) {
   if (coordinate.kind == RelationKind::angle) return aligned_axis(joint) == coordinate.i;
   const Relation* end = joint.relations.data() + joint.relation_count;
@@ -38,7 +38,7 @@ bool is_free(const Joint& joint, const Relation& coordinate) {
   });
 }
 
-/// Φ = X_B − X_A and B of origins that are kept together.
+/// Computes Φ = X_B − X_A and B of origins that are kept together.
 template <int D>
 void keep_together(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms) {
   constexpr int turns = Space<D>::turns, first = Space<D>::first_turn;
@@ -55,7 +55,7 @@ void keep_together(const Joint& joint, const NodeMotion& a, const NodeMotion& b,
   }
 }
 
-/// ∂(B v)/∂q of them.
+/// Computes ∂(B v)/∂q of these equations.
 template <int D>
 void keep_together_rate(const Joint& joint, const NodeMotion& a, const NodeMotion& b, Eigen::Matrix<double, 6, 12>& N) {
   constexpr int turns = Space<D>::turns, first = Space<D>::first_turn;
@@ -65,7 +65,7 @@ void keep_together_rate(const Joint& joint, const NodeMotion& a, const NodeMotio
   N.block<D, turns>(0, 6 + first) = Space<D>::turning(b.R, Space<D>::across(Space<D>::spin(b), arm_b));
 }
 
-/// ∂(Bᵀλ)/∂q of them.
+/// Adds ∂(Bᵀλ)/∂q of these equations.
 template <int D>
 void keep_together_stiffness(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda,
                              Square12& K) {

@@ -1,4 +1,4 @@
-// Data: the relations, coordinates and sliding surfaces of each kind of joint.
+// Table of the relations, coordinates and sliding surfaces of each kind of joint.
 #include "mechanism/joints/joint_laws.hpp"
 
 #include "common/error.hpp"
@@ -20,9 +20,9 @@ constexpr Relations operator+(Relations first, const Relations& second) {
   return first;
 }
 
-/// The axis `k` of B stays along that of A.
+/// Relations that keep axis `k` of B along that of A.
 constexpr Relations axis_held(int k) { return {normal((k + 1) % 3, k), normal((k + 2) % 3, k)}; }
-/// No turn: x_A ⟂ y_B, y_A ⟂ z_B, z_A ⟂ x_B.
+/// Relations that allow no rotation: x_A ⟂ y_B, y_A ⟂ z_B, z_A ⟂ x_B.
 constexpr Relations orientation_held{normal(0, 1), normal(1, 2), normal(2, 0)};
 constexpr Relations on_z_axis{along(0), along(1)};
 constexpr Relations in_xy_plane{along(2)};

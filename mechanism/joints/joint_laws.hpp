@@ -1,5 +1,5 @@
-// The kinds of joints as the equations know them: one row per kind with the relations that it holds at zero, the
-// coordinates that it leaves free, and how its surfaces slide. mechanism/MAP.md says where a new kind goes.
+// Kinds of joints in the equations. Each kind has one row: the relations that it keeps at zero, the coordinates that it
+// leaves free, and how its surfaces slide. mechanism/MAP.md explains how to add a kind.
 #pragma once
 
 #include <array>
@@ -25,8 +25,8 @@ struct Relations {
   constexpr const Relation* end() const { return list.data() + count; }
 };
 
-/// Equations of a joint: the origins coincide (three equations), and relations are zero, or equal to the length of the
-/// joint if they are a distance.
+/// Equations of a joint: the origins coincide (three equations), and relations are zero. A distance is equal to the
+/// length of the joint.
 struct Held {
   bool coincident = false;
   Relations relations{};
@@ -34,33 +34,33 @@ struct Held {
   constexpr int size() const { return (coincident ? 3 : 0) + relations.count; }
 };
 
-/// The sliding velocity of the surfaces in contact (mechanism/joints/friction.hpp).
+/// Sliding velocity of the surfaces in contact (mechanism/joints/friction.hpp).
 enum class SlipKind {
-  none,         ///< no surface, no friction
-  coordinates,  ///< the rates of the coordinates, those of angles times the radius of the contact
+  none,         ///< no surface and no friction
+  coordinates,  ///< rates of the coordinates, those of angles times the radius of the contact
   ball          ///< radius times the relative angular velocity
 };
 
-/// Which components of the reaction, axes of A, press the surfaces together: 1 for those that do, 0 for the others.
+/// Components of the reaction, axes of A, that press the surfaces together: 1 for those that do, 0 for the others.
 struct Pressing {
   std::array<double, 3> force{1.0, 1.0, 1.0};
   std::array<double, 3> moment{1.0, 1.0, 1.0};
 };
 
-/// One kind.
+/// Law of one kind of joint.
 struct JointLaw {
   JointKind kind = JointKind::fixed;
   Held holds{};
-  bool chosen = false;      ///< `hold` of the scene says instead what is held: see held_directions()
-  bool threaded = false;    ///< a coupling z = pitch × angle/2π from the start is added, with a multiplier of its own
-  Relations coordinates{};  ///< as many as formats::JointKindRow::coordinates names; if chosen: where that is free
+  bool chosen = false;      ///< the scene's `hold` gives the constrained directions: see held_directions()
+  bool threaded = false;    ///< adds a coupling z = pitch × angle/2π from the start, with its own multiplier
+  Relations coordinates{};  ///< as many as formats::JointKindRow::coordinates has names; if chosen: only the free ones
   SlipKind slip = SlipKind::none;
   Pressing pressing{};
 };
 const JointLaw& joint_law(JointKind kind);
 
-/// Holds the directions [x y z rx ry rz] in axes of A that are true. All turns: B keeps its orientation; two: the third
-/// axis of B stays along that of A; one, about axis k: the two other axes, one of A and one of B, stay normal.
+/// Equations that hold the true directions [x y z rx ry rz] in axes of A. All rotations: B keeps its orientation. Two:
+/// the third axis of B stays along that of A. One, about axis k: the other axes, one of A and one of B, stay normal.
 Held held_directions(const std::array<bool, 6>& directions);
 
 }  // namespace tisserand::mechanism

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// First columns of Θ_A and Θ_B.
+/// First rotation columns of A and B.
 template <int D>
 constexpr int turn_A = Space<D>::first_turn;
 template <int D>
@@ -26,7 +26,7 @@ double product(const Row12& G, const MarkerPair& p) {
          G.segment<3>(9).dot(p.node_b.Omega);
 }
 
-/// row += [0, turn of A, 0, turn of B], from world axes.
+/// Adds [0, rotation of A, 0, rotation of B], given in world axes, to row.
 template <int D>
 void add_turns(Row12& row, const MarkerPair& p, const TurnOf<D>& by_A, const TurnOf<D>& by_B) {
   constexpr int n = Space<D>::turns;
@@ -34,7 +34,7 @@ void add_turns(Row12& row, const MarkerPair& p, const TurnOf<D>& by_A, const Tur
   row.segment<n>(turn_B<D>) += Space<D>::material(p.node_b.R, by_B).transpose();
 }
 
-/// K += `block` from row i and column j on, and its transpose from row j and column i on.
+/// Adds `block` to K from row i and column j on, and its transpose from row j and column i on.
 template <class Block>
 void add_both(Square12& K, int i, int j, const Block& block) {
   constexpr int rows = Block::RowsAtCompileTime, columns = Block::ColsAtCompileTime;
@@ -42,8 +42,8 @@ void add_both(Square12& K, int i, int j, const Block& block) {
   K.block<columns, rows>(j, i) += block.transpose();
 }
 
-/// K += weight times the second derivative of a value a·d by the turns of A and B: a turns with A, and d with A like
-/// `of_A`, with B like `of_B`.
+/// Adds weight times the second derivative of a value a·d by the rotations of A and B to K: a turns with A, and d with
+/// A like `of_A`, with B like `of_B`.
 template <int D>
 void add_turn_stiffness(const VectorOf<D>& a, const VectorOf<D>& of_A, const VectorOf<D>& of_B, const MarkerPair& p,
                         double weight, Square12& K) {
@@ -54,9 +54,9 @@ void add_turn_stiffness(const VectorOf<D>& a, const VectorOf<D>& of_A, const Vec
   K.block<n, n>(B, B) -= weight * Space<D>::turning_product(R_B, of_B, a);
 }
 
-// ---- products of axes and angles, which turns alone change -------------------------------------------------------
+// ---- products of axes and angles, which only rotations change -----------------------------------------------------
 
-/// a·b of axes of A and B, world axes.
+/// Axes of A and B of a product a·b, world axes.
 template <int D>
 struct Axes {
   VectorOf<D> a, b;
@@ -65,7 +65,7 @@ struct Axes {
         b(Space<D>::part(Space<D>::rotated(p.node_b.R, p.b.R.col(term.j)))) {}
 };
 
-/// THEORY (56): δ value = by·(δΘ_A − δΘ_B) in world axes; by = a × b of a product.
+/// THEORY (56): δ value = by·(δΘ_A − δΘ_B) in world axes; a product has by = a × b.
 template <int D>
 struct TurnTerms {
   double value = 0.0;
@@ -84,7 +84,7 @@ TurnTerms<D> terms_of(const NormalSum& sum, const MarkerPair& p) {
   return terms;
 }
 
-/// d(by)/dt.
+/// Rate d(by)/dt.
 template <int D>
 TurnOf<D> rate_of(const NormalSum& sum, const MarkerPair& p) {
   const TurnOf<D> spin_A = Space<D>::spin(p.node_a), spin_B = Space<D>::spin(p.node_b);
@@ -105,7 +105,7 @@ void add_stiffness(const NormalSum& sum, const MarkerPair& p, double weight, Squ
   }
 }
 
-/// The angle of THEORY (56), atan2 and its derivatives to second order.
+/// Angle of THEORY (56): atan2 with its derivatives to second order.
 template <int D>
 struct ArcTangent {
   TurnTerms<D> s, c;
@@ -142,9 +142,9 @@ void add_stiffness(const AngleTerms& terms, const MarkerPair& p, double weight, 
   K.noalias() += weight * c.transpose() * (t.f_sc * s - t.f_ss * c);
 }
 
-// ---- displacements from a place of A to one of B -----------------------------------------------------------------
+// ---- displacements from a point of A to one of B -------------------------------------------------------------------
 
-/// Row of a value that changes by x·δd, THEORY (57), where d leads from a place of A to one of B with these arms from
+/// Row of a value that changes by x·δd, THEORY (57). d leads from a point of A to one of B, which have these arms from
 /// the origins of the carriers (world axes).
 template <int D>
 Row12 pulled_back(const VectorOf<D>& x, const Vector3d& arm_A, const Vector3d& arm_B, const MarkerPair& p) {
@@ -156,7 +156,7 @@ Row12 pulled_back(const VectorOf<D>& x, const Vector3d& arm_A, const Vector3d& a
   return row;
 }
 
-/// a·(X_B − x_A) with X_B the origin of marker B: all of it turns with A. d, seen from the origin of A, is its arm.
+/// a·(X_B − x_A) with X_B the origin of marker B: all of it turns with A. Its arm is d, from the origin of A.
 template <int D>
 struct Along {
   Vector3d d, arm_B;
@@ -193,7 +193,7 @@ void add_stiffness_along(const Relation& r, const MarkerPair& p, double weight, 
   add_turn_stiffness<D>(q.a, Space<D>::part(q.d), Space<D>::part(q.arm_B), p, weight, K);
 }
 
-/// Markers at one place, as in a start that is to be assembled, have no direction: n = 0, and nothing is divided by it.
+/// Markers at one point, as before an assembly, have no direction: then n = 0, and nothing is divided by the length.
 template <int D>
 struct Distance {
   Vector3d arm_A, arm_B;
@@ -225,7 +225,7 @@ Row12 rate_gradient_distance(const MarkerPair& p) {
   return N;
 }
 
-/// d moves by δx_B − δx_A + turned_B δΘ_B − turned_A δΘ_A, across n.
+/// Adds the stiffness of a distance: d changes by δx_B − δx_A + turned_B δΘ_B − turned_A δΘ_A, normal to n.
 template <int D>
 void add_stiffness_distance(const MarkerPair& p, double weight, Square12& K) {
   constexpr int n = Space<D>::turns, A = turn_A<D>, B = turn_B<D>;
@@ -295,7 +295,7 @@ Row12 rate_gradient_in(const Relation& r, const MarkerPair& p) {
       return rate_gradient_distance<D>(p);
     case RelationKind::angle:
       if constexpr (D == 3) return turned_row<D>(rate_of<D>(angle_terms(r), p), p);
-      return Row12::Zero();  // in the plane it is linear in the turns
+      return Row12::Zero();  // in the plane it is linear in the rotations
   }
   TISSERAND_ENSURE(false, "relation of kind {}", static_cast<int>(r.kind));
 }
@@ -338,7 +338,7 @@ void add_stiffness(const Relation& r, const MarkerPair& p, double weight, Square
 double bias(const Relation& r, const MarkerPair& p) { return product(rate_gradient(r, p), p); }
 
 bool has_planar_axes(const Relation& r, const Marker& a, const Marker& b) {
-  constexpr double share = 1e-10;  // smaller couplings count as zero in build/planar.cpp too
+  constexpr double share = 1e-10;  // build/planar.cpp neglects smaller couplings too
   const auto lies = [](const Marker& marker, int axis) { return std::abs(marker.R(2, axis)) <= share; };
   const auto all_lie = [&](const NormalSum& sum) {
     return std::all_of(sum.term.begin(), sum.term.begin() + sum.count,

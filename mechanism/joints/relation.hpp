@@ -1,4 +1,4 @@
-// Scalar relations between two markers: what joints hold at zero, and what joint coordinates measure.
+// Scalar relations between two markers, which joints keep at zero or joint coordinates measure.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,13 @@
 
 namespace tisserand::mechanism {
 
-/// The kinds of THEORY (55). d = x_B − x_A between the origins of the markers; a_i, b_j: axes of A and B (0 x, 1 y, 2
-/// z).
+/// Kinds of THEORY (55). d = x_B − x_A between the origins of the markers; a_i, b_j: axes of A and B (0 x, 1 y, 2 z).
 enum class RelationKind : std::uint8_t {
   along,     ///< a_i · d: displacement of B along axis i of A
-  normal,    ///< a_i · b_j: 0 while the axes are normal to each other
-  twist,     ///< x_A · y_B − y_A · x_B: 0 while B turns as much as A (constant velocity)
+  normal,    ///< a_i · b_j: 0 if the axes are normal to each other
+  twist,     ///< x_A · y_B − y_A · x_B: 0 if B turns as much as A (constant velocity)
   distance,  ///< |d|
-  angle,     ///< turn of B about axis i of A, right-handed, in (−π, π]; see angle_terms() for what "about" means
+  angle,     ///< rotation of B about axis i of A, right-handed, in (−π, π]; angle_terms() defines "about"
 };
 
 struct Relation {
@@ -27,12 +26,12 @@ struct Relation {
   bool planar = false;  ///< in planar models: its axes lie in the plane, and it has the columns of Space<2>
 };
 
-/// Whether its value is a length (or a number of order one: an angle or a product of unit vectors).
+/// Whether its value is a length. Others are of order one: an angle or a product of unit vectors.
 inline bool is_length(const Relation& relation) {
   return relation.kind == RelationKind::along || relation.kind == RelationKind::distance;
 }
 
-/// What a relation depends on: places of the origins, axes of marker A, axes of marker B. A marker away from its node
+/// Dependence of a relation on positions of the origins, axes of marker A, axes of marker B. A marker off its node
 /// moves with the rotation of the node in any case.
 struct Dependence {
   bool places = false;
@@ -72,7 +71,7 @@ struct MarkerPair {
 using Row12 = Eigen::Matrix<double, 1, 12>;
 using Square12 = Eigen::Matrix<double, 12, 12>;
 
-/// Value and gradient G, THEORY (56), (57): δ value = G δq, and rate = G v.
+/// Value and gradient G of a relation, THEORY (56), (57): δ value = G δq, and rate = G v.
 struct RelationTerms {
   double value = 0.0;
   Row12 G = Row12::Zero();
@@ -81,13 +80,13 @@ RelationTerms evaluate(const Relation& relation, const MarkerPair& pair);
 
 /// Whether the axes that the relation uses lie in the plane z = 0 of both carriers.
 bool has_planar_axes(const Relation& relation, const Marker& a, const Marker& b);
-/// Ġ v of THEORY (59): the second derivative of the value is G v̇ + Ġ v.
+/// Bias Ġ v of THEORY (59): the second derivative of the value is G v̇ + Ġ v.
 double bias(const Relation& relation, const MarkerPair& pair);
 
-/// ∂(G v)/∂q at fixed ẋ and Ω.
+/// Derivative ∂(G v)/∂q at fixed ẋ and Ω.
 Row12 rate_gradient(const Relation& relation, const MarkerPair& pair);
 
-/// K += weight ∂(Gᵀ)/∂q; not symmetric with material increments.
+/// Adds weight ∂(Gᵀ)/∂q to K; not symmetric with material increments.
 void add_stiffness(const Relation& relation, const MarkerPair& pair, double weight, Square12& K);
 
 }  // namespace tisserand::mechanism
