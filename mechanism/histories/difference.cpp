@@ -10,7 +10,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Ascending instants, each once (the last of those that are equal: after a switch), with finite values.
+/// Series with ascending instants and finite values; of equal instants, as at a switch, the last counts.
 Series usable(const Series& series) {
   Series result = series;
   result.x.clear();
@@ -31,7 +31,7 @@ Series usable(const Series& series) {
   return result;
 }
 
-/// The values in the units of another series, where both have names. Throws Error for units of other quantities.
+/// Converts the values to the units of another series, if both have units. Throws Error if their dimensions differ.
 void convert(const std::string& from, const std::string& to, const std::string& where, std::vector<double>& values) {
   if (from.empty() || to.empty() || from == to) return;
   const auto own = measured_unit(from), wanted = measured_unit(to);

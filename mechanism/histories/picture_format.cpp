@@ -1,4 +1,4 @@
-// Endings and sizes as terminals of gnuplot.
+// File endings and sizes as terminals of gnuplot.
 #include "mechanism/histories/picture_format.hpp"
 
 #include <algorithm>
@@ -95,11 +95,11 @@ Canvas canvas_of(const std::string& picture, const std::optional<PictureSize>& s
   const PictureKind kind = kind_of(picture);
   const bool is_vector_print = kind == PictureKind::pdf || kind == PictureKind::eps;
   const bool on_paper = size ? size->on_paper : is_vector_print;
-  // Pixels of a screen, of which a paper has 96 per inch.
+  // pixels of a screen; paper has 96 per inch
   const double per_millimetre = pixels_per_inch / millimetres_per_inch;
   double width = on_paper ? 160.0 * per_millimetre : 1400.0;
   if (size) width = size->width * (on_paper ? per_millimetre : 1.0);
-  const double usual = kind == PictureKind::png ? 22.0 : 17.0;  // of a picture that is 1400 pixels wide
+  const double usual = kind == PictureKind::png ? 22.0 : 17.0;  // for a picture of 1400 pixels width
   const double letters = on_paper ? 9.0 * pixels_per_inch / points_per_inch : std::max(11.0, usual * width / 1400.0);
   const double pixels =
       !font.size ? letters : *font.size * (on_paper || is_vector_print ? pixels_per_inch / points_per_inch : 1.0);
@@ -113,7 +113,7 @@ Canvas canvas_of(const std::string& picture, const std::optional<PictureSize>& s
   Canvas canvas;
   canvas.columns = width / (0.6 * pixels);
   canvas.lines = height / (1.3 * pixels);
-  // The cairo terminals take sizes of fonts in points of 72 to the inch and draw them as if it had 96.
+  // The cairo terminals take font sizes in points of 1/72 inch but draw them at 96 per inch.
   constexpr double cairo = points_per_inch / pixels_per_inch;
   if (is_vector_print) {
     const double points = pixels * points_per_inch / pixels_per_inch * cairo;

@@ -1,4 +1,4 @@
-// Checks what is to be drawn, and runs gnuplot on its script.
+// Checks of the series to draw, and a run of gnuplot on the script.
 #include "mechanism/histories/plot.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Time and modes share no axis.
+/// Throws Error if series over time and over modes are mixed.
 void check_abscissae(const std::vector<Series>& series) {
   for (const Series& one : series)
     if (one.kind == SeriesKind::run && is_of_modes(one) != is_of_modes(series.front()))
@@ -25,7 +25,7 @@ void check_abscissae(const std::vector<Series>& series) {
           "plot", "draw them as two pictures");
 }
 
-/// gnuplot cannot draw axes around nothing, as where a node has no rotations or a joint no coordinate.
+/// Throws Error if a series has no finite value, as for a node without rotations; gnuplot cannot draw axes then.
 void check_finite(const std::vector<Series>& series) {
   const auto has_value = [&series](std::size_t index) {
     const Series& one = series[index];
@@ -41,7 +41,7 @@ void check_finite(const std::vector<Series>& series) {
   }
 }
 
-/// gnuplot's own words on an empty picture name lines of our script.
+/// Throws Error for an empty picture, because gnuplot's own message names lines of the script.
 void check_something_is_seen(const std::vector<Series>& series, const PlotOptions& options) {
   const auto range = options.x_range;
   bool is_in_range = false, is_positive = false;
@@ -67,7 +67,7 @@ void check_something_is_seen(const std::vector<Series>& series, const PlotOption
                 "leave --log-x and --log-y away, or choose another channel");
 }
 
-/// Norms of differences, and legends that are left out.
+/// Text on norms of differences and omitted legends.
 std::string told(const std::vector<Series>& series, const PlotOptions& options) {
   std::string text;
   for (const Series& one : series)
@@ -89,10 +89,9 @@ std::string plot(const std::vector<Series>& series, const PlotOptions& options) 
   check_finite(series);
   check_something_is_seen(series, options);
   (void)canvas_of(options.output, options.size, options.font, 1,
-                  0);  // throws for another ending before anything is done
-  write_text_file(
-      options.output,
-      formats::with_producer(gnuplot_picture(gnuplot_script(series, options), options.output), producer("mechanism")));
+                  0);  // throws Error for another ending before anything else happens
+  write_text_file(options.output, with_producer(gnuplot_picture(gnuplot_script(series, options), options.output),
+                                                producer("mechanism")));
   return told(series, options);
 }
 

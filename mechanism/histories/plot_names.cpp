@@ -1,4 +1,4 @@
-// What tells the curves of a picture apart, and what its axes measure.
+// Names that distinguish the curves of a picture, and labels of its axes.
 #include "mechanism/histories/plot_names.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-constexpr std::size_t kLongestName = 60;  // letters of a name in a legend
+constexpr std::size_t kLongestName = 60;  // largest number of letters of a name in a legend
 
 std::vector<std::string> path_parts(const std::string& channel) {
   std::vector<std::string> parts(1);
@@ -24,14 +24,14 @@ std::vector<std::string> path_parts(const std::string& channel) {
   return parts;
 }
 
-/// "nodes/angular_velocity/beam/tip/z" -> "beam/tip/z"; "energy/kinetic" -> "kinetic".
+/// Short name of a channel: "nodes/angular_velocity/beam/tip/z" -> "beam/tip/z"; "energy/kinetic" -> "kinetic".
 std::string short_name(const Series& series) {
   const std::vector<std::string> parts = path_parts(series.channel);
   const std::size_t skipped = parts.size() > 2 ? 2 : parts.size() - 1;
   return join({parts.begin() + static_cast<std::ptrdiff_t>(skipped), parts.end()}, "/");
 }
 
-/// "nodes/angular_velocity/beam/tip/z" -> "angular velocity"; "solver/step" -> "step"; "energy/kinetic" -> "energy".
+/// Quantity: "nodes/angular_velocity/..." -> "angular velocity"; "solver/step" -> "step"; "energy/kinetic" -> "energy".
 std::string quantity(const Series& series) {
   const std::vector<std::string> parts = path_parts(series.channel);
   std::string word = parts.size() > 1 && parts.front() != "energy" ? parts[1] : parts.front();

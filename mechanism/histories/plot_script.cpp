@@ -14,17 +14,17 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Okabe and Ito's colours, told apart by the colour-blind; without colour the marks tell them apart. Seven and six of
-/// them give 42 pairs.
+/// Colours of Okabe and Ito, which colour-blind readers can distinguish. In black and white the marks distinguish the
+/// curves. Seven colours and six marks give 42 pairs.
 constexpr std::array kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
 constexpr std::array kPoints = {6, 4, 8, 12, 10, 14};  // circle, square, triangle, diamond, triangle down, pentagon
 constexpr std::array kReferenceGreys = {"#A8A8A8", "#707070", "#C8C8C8"};
 constexpr std::size_t kMostPanels = 4;
-constexpr std::size_t kMostPoints = 12000;  // beyond this a history is thinned; a picture is 1400 pixels wide
-constexpr std::size_t kMostNames = 24;      // of a legend
-constexpr double kMarks = 9.0;              // on each curve: too few to hide an oscillation, enough to follow it
+constexpr std::size_t kMostPoints = 12000;  // longer histories are thinned; a picture is 1400 pixels wide
+constexpr std::size_t kMostNames = 24;      // in a legend
+constexpr double kMarks = 9.0;              // per curve: too few to hide an oscillation, enough to follow the curve
 
-/// Indices to draw: all, or of every bin the first, the lowest and the highest point.
+/// Indices to draw: all, or the first, the lowest and the highest point of every bin.
 std::vector<std::size_t> thinned(const Series& series) {
   std::vector<std::size_t> kept;
   const std::size_t n = series.x.size();
@@ -60,7 +60,7 @@ void append_data(std::string& script, const Series& series, std::size_t index) {
 
 bool is_drawn_as_line(SeriesKind kind) { return kind == SeriesKind::run || kind == SeriesKind::difference; }
 
-/// Places of the marks of a curve: `rank` of `count` in its panel, so that no two curves have theirs at one abscissa.
+/// Indices of the marks of a curve, number `rank` of `count` in its panel: no two curves have marks at one abscissa.
 std::vector<std::size_t> marked(const Series& series, std::array<double, 2> range, bool logarithmic, std::size_t rank,
                                 std::size_t count) {
   const auto to_axis = [&](double x) { return logarithmic ? std::log(x) : x; };
@@ -86,7 +86,7 @@ void append_range(std::string& script, const char* axis, const std::optional<std
     fmt::format_to(std::back_inserter(script), "set {}range [{:.9g}:{:.9g}]\n", axis, (*range)[0], (*range)[1]);
 }
 
-/// The positive values of an axis with a margin; nothing: there are none.
+/// Range of the positive values of an axis with a margin; absent if there are none.
 std::optional<std::array<double, 2>> positive_range(const std::vector<Series>& series,
                                                     const std::vector<std::size_t>& members,
                                                     std::vector<double> Series::*values) {
@@ -110,7 +110,7 @@ bool is_crowd(const std::vector<Series>& series, const Panel& panel) {
   return has_too_many_names(panel) && !is_of_modes(series.front());
 }
 
-/// One panel as it is written: its curves, then entries of the legend.
+/// Script of one panel while it is written: its curves, then entries of the legend.
 struct PanelScript {
   const std::vector<Series>& series;
   const PlotOptions& options;
@@ -160,7 +160,7 @@ void PanelScript::other(std::size_t index, std::size_t rank, bool named) {
   commands.push_back(fmt::format("$d{} with {} {}", index, pen, title(index, named)));
 }
 
-/// Bars over the numbers of modes, those of several series side by side.
+/// Command for bars over the numbers of modes, side by side for several series.
 std::string bars(std::size_t index, std::size_t rank, std::size_t count, const std::string& title) {
   const double width = 0.8 / static_cast<double>(count);
   return fmt::format("$d{} using ($1{:+.6g}):2:({:.6g}) with boxes lc rgb '{}' {}", index,
@@ -168,10 +168,10 @@ std::string bars(std::size_t index, std::size_t rank, std::size_t count, const s
                      kColours[rank % kColours.size()], title);
 }
 
-/// Curves that no legend names, all of one colour as one block with gaps: gnuplot looks for each block among all of
-/// them.
+/// Appends curves without legend, all of one colour as one block with gaps. Single blocks would be slow, because
+/// gnuplot searches for each block among all of them.
 void append_crowd(std::string& script, const Panel& panel, std::size_t number, PanelScript& own) {
-  std::array<std::string, kColours.size() + 1> blocks;  // the last: references and the like
+  std::array<std::string, kColours.size() + 1> blocks;  // the last one for references and the like
   std::size_t rank = 0;
   for (const std::size_t i : panel.members) {
     const std::size_t colour = is_drawn_as_line(own.series[i].kind) ? rank++ % kColours.size() : kColours.size();
@@ -187,9 +187,9 @@ void append_crowd(std::string& script, const Panel& panel, std::size_t number, P
   }
 }
 
-/// An axis on which the bars of modes stand on zero. Only values that are negative by more than round-off go below it.
+/// Range of an axis for bars of modes, which begins at zero unless values are negative by more than round-off.
 std::string axis_of_bars(const std::vector<Series>& series, const Panel& panel) {
-  constexpr double round_off = 1e-9, nothing = 1e-12;  // of the largest; of numbers without unit, as ratios of damping
+  constexpr double round_off = 1e-9, nothing = 1e-12;  // of the largest; of damping ratios
   double least = 0.0, largest = 0.0;
   for (const std::size_t i : panel.members)
     for (const double value : series[i].y) {
@@ -233,7 +233,7 @@ void append_panel(std::string& script, const Panel& panel, std::size_t number, P
   script += own.data + "plot " + join(own.commands, ", \\\n     ") + "\n";
 }
 
-/// The time of the runs where there are runs, since references often go on after them; else all there is.
+/// Time range of the runs if there are any, because references often continue after them; else of all series.
 std::optional<std::array<double, 2>> range_of_runs(const std::vector<Series>& series) {
   std::optional<std::array<double, 2>> range;
   for (const Series& one : series) {
@@ -244,7 +244,7 @@ std::optional<std::array<double, 2>> range_of_runs(const std::vector<Series>& se
   return range && (*range)[0] < (*range)[1] ? range : std::nullopt;
 }
 
-/// Half a bar more at both ends where modes are drawn.
+/// Range of the abscissa; for modes extended by half a bar at both ends.
 std::optional<std::array<double, 2>> range_of(const std::vector<Series>& series) {
   std::optional<std::array<double, 2>> range = range_of_runs(series);
   if (!is_of_modes(series.front())) return range;
@@ -253,24 +253,24 @@ std::optional<std::array<double, 2>> range_of(const std::vector<Series>& series)
   return std::array{0.5, static_cast<double>(modes) + 0.5};
 }
 
-/// Filled bars over whole numbers.
+/// Commands for filled bars over whole numbers.
 std::string modes_axes(const std::vector<Series>& series) {
   std::size_t modes = 1;
   for (const Series& one : series) modes = std::max(modes, one.x.size());
   return fmt::format("set style fill solid 0.8 noborder\nset xtics {}\n", (modes + 29) / 30);
 }
 
-/// Panels with the columns of their legends, and what they are drawn on.
+/// Panels with the columns of their legends, and the canvas.
 struct PictureLayout {
   std::vector<Panel> panels;
   Canvas canvas;
 };
 
-/// Columns of a legend that fit into a width.
+/// Number of legend columns that fit into a width.
 std::size_t columns_of(const std::vector<Series>& series, const Panel& panel, const CurveNames& names, double letters) {
   std::size_t longest = 1;
   for (const std::size_t i : panel.members) longest = std::max(longest, shortened(names.of(series[i])).size());
-  constexpr double sample = 9.0, margins = 16.0;  // letters that a line and the space around it take, and the axis
+  constexpr double sample = 9.0, margins = 16.0;  // letters that a line sample with its space takes, and the axis
   const double fit = (letters - margins) / (static_cast<double>(longest) + sample);
   return std::clamp<std::size_t>(static_cast<std::size_t>(std::max(fit, 1.0)), 1, panel.members.size());
 }
@@ -279,7 +279,7 @@ std::size_t legend_rows(const Panel& panel) {
   return panel.legend_columns == 0 ? 0 : (panel.members.size() + panel.legend_columns - 1) / panel.legend_columns;
 }
 
-/// A legend lies above its panel. Where the size of the picture is given, it may take a third of the panel's height.
+/// Layout with each legend above its panel. In a picture of given size it takes at most a third of the panel's height.
 PictureLayout layout_of(const std::vector<Series>& series, const PlotOptions& options, const CurveNames& names) {
   PictureLayout layout{panels_of(series), {}};
   const auto canvas = [&](std::size_t rows) {
@@ -347,7 +347,7 @@ std::string gnuplot_script(const std::vector<Series>& series, const PlotOptions&
       "set grid back lc rgb '#DDDDDD' lt 1 lw 0.7\n"
       "set border 3 lc rgb '#444444'\n"
       "set tics nomirror\n"
-      "set format '%h'\n"  // gnuplot's own begins with a blank, which pushes labels to the right of their ticks
+      "set format '%h'\n"  // gnuplot's own begins with a blank, which shifts labels to the right of their ticks
       "set lmargin 12\n"
       "set rmargin 4\n";
   if (options.x_scale == AxisScale::logarithmic) script += "set logscale x\nset format x '10^{%T}'\n";

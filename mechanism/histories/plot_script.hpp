@@ -1,4 +1,4 @@
-// The text that gnuplot reads for a picture of histories.
+// Script for gnuplot that draws a picture of histories.
 #pragma once
 
 #include <string>
@@ -8,28 +8,28 @@
 
 namespace tisserand::mechanism {
 
-/// Series that share a unit, as indices; a reference without unit joins the first panel. Differences have panels of
-/// their own.
+/// Indices of the series that share a unit. A reference without unit belongs to the first panel. Differences have their
+/// own panels.
 struct Panel {
   std::string unit;
   bool of_differences = false;
   std::vector<std::size_t> members;
-  std::size_t legend_columns = 0;  ///< 0: it has no legend
+  std::size_t legend_columns = 0;  ///< 0: no legend
 };
 
-/// Throws Error for more than four units.
+/// Panels of the series. Throws Error for more than four units.
 std::vector<Panel> panels_of(const std::vector<Series>& series);
 
 /// Whether the panel has more curves than a legend can name.
 bool has_too_many_names(const Panel& panel);
 
-/// Which panels have no legend and why, a sentence per line.
+/// Notes on panels without legend and the reason, one sentence per line.
 std::string missing_legends(const std::vector<Series>& series, const PlotOptions& options);
 
-/// Data in blocks, every text quoted by gnuplot_quoted(), no output set.
+/// Script with data in blocks. gnuplot_quoted() quotes every text; no output is set.
 std::string gnuplot_script(const std::vector<Series>& series, const PlotOptions& options);
 
-/// "m s^-2" -> "m s⁻²": exponents of unit labels as superscripts.
+/// Unit label with superscripts: "m s^-2" -> "m s⁻²".
 std::string with_superscripts(const std::string& unit);
 
 bool is_of_modes(const Series& series);

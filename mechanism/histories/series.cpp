@@ -1,4 +1,4 @@
-// Histories from results files and CSV files, chosen by channel names and columns.
+// Histories from results files and CSV files, selected by channel names and columns.
 #include "mechanism/histories/series.hpp"
 
 #include <charconv>
@@ -39,7 +39,7 @@ std::vector<std::string> cells(std::string_view line) {
   }
 }
 
-/// A header cell "name [unit]".
+/// Header cell "name [unit]".
 struct ColumnName {
   std::string name;
   std::string unit;
@@ -51,7 +51,7 @@ ColumnName split_unit(const std::string& cell) {
   return {trimmed(cell.substr(0, bracket)), cell.substr(bracket + 1, cell.size() - bracket - 2)};
 }
 
-/// `next`: the line after the header.
+/// Index of a column; `next` is the line after the header.
 std::size_t find_column(const std::vector<std::string>& header, const std::string& wanted, const std::string& file,
                         const std::string& next) {
   std::vector<std::string> names;
@@ -83,10 +83,10 @@ double number(const std::string& cell, const std::string& file, std::size_t line
   return value;
 }
 
-/// Of every pattern: the error of the last file that lacked it, until some file has it.
+/// For every pattern: the error of the last file without it, until some file has it.
 using Misses = std::map<std::string, std::optional<Error>>;
 
-/// The channels of a file that the patterns mean. Throws Error if there are none.
+/// Channels of a file that match the patterns. Throws Error if there are none.
 std::vector<formats::Channel> chosen_channels(const std::vector<formats::Channel>& channels, const std::string& file,
                                               const std::vector<std::string>& patterns, Misses& misses) {
   std::vector<std::string> present;
@@ -105,7 +105,7 @@ std::vector<formats::Channel> chosen_channels(const std::vector<formats::Channel
   return formats::select_channels(channels, present, file);
 }
 
-/// The series of one file: the chosen channels over time, then those over the numbers of modes.
+/// Appends the series of one file: the chosen channels over time, then those over the numbers of modes.
 void append_run(const std::string& file, const std::string& label, const std::vector<std::string>& patterns,
                 Misses& misses, std::vector<Series>& all) {
   const formats::ResultsReader reader(file);
@@ -144,7 +144,7 @@ void append_run(const std::string& file, const std::string& label, const std::ve
   }
 }
 
-/// The channels of `runs` that the reference run has under the same names. Throws Error for one that it lacks.
+/// Channels of the reference run with the names of those of `runs`. Throws Error if one is missing.
 std::vector<Series> read_reference_run(const ComparedRun& reference, const std::vector<Series>& runs) {
   std::set<std::string> known;
   std::vector<std::string> names;

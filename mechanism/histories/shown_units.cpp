@@ -1,4 +1,4 @@
-// Products of unit symbols with powers, their factors, and series in them.
+// Products of powers of unit symbols, their factors, and conversion of series.
 #include "mechanism/histories/shown_units.hpp"
 
 #include <algorithm>
@@ -96,7 +96,7 @@ constexpr std::array known_quantities{Quantity{"length", of_length},
                                       Quantity{"frequency", of_frequency},
                                       Quantity{"rate", {0, 0, -1, 0}}};
 
-/// "m^-2" -> m, -2.
+/// Factor of a power of a unit: "m^-2" -> m, -2.
 std::optional<MeasuredUnit> factor_of(std::string_view word) {
   int exponent = 1;
   if (const std::size_t hat = word.find('^'); hat != std::string_view::npos) {
@@ -153,7 +153,7 @@ ShownUnit parse_one(const std::string& piece) {
   return {text, *unit};
 }
 
-/// The factor from the unit of a file to one that is asked for; nothing: none is.
+/// Factor from the unit of a file to a requested one; empty if none was requested.
 std::optional<double> conversion(const std::vector<ShownUnit>& units, std::string& unit, std::set<std::string>& used) {
   const std::optional<MeasuredUnit> own = measured_unit(unit);
   if (!own) return {};
@@ -177,7 +177,7 @@ std::optional<MeasuredUnit> measured_unit(const std::string& text) {
     if (text[at] == ' ' || text[at] == '*') {
       ++at;
     } else if (text[at] == '/') {
-      if (!any || sign < 0) return {};  // "a/b/c" can be read in two ways
+      if (!any || sign < 0) return {};  // "a/b/c" is ambiguous
       sign = -1;
       ++at;
     } else {

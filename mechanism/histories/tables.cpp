@@ -1,4 +1,4 @@
-// Lists channels, exports them, and measures runs against reference histories.
+// Lists and exports channels, and compares runs with reference histories.
 #include "mechanism/histories/tables.hpp"
 
 #include <algorithm>
