@@ -82,8 +82,8 @@ double load_of(const Evaluation& evaluation, double length) {
 struct Scaled {
   const Model& model;
   MatrixXd K, B;
-  VectorXd scale;          ///< of coordinates
-  VectorXd row_scale;      ///< of the active constraint rows
+  VectorXd scale;          ///< scale of each coordinate
+  VectorXd row_scale;      ///< scale of each active constraint row
   double stiffness = 1.0;  ///< the divisor of K
   double asymmetry = 0.0;  ///< largest entry of (K − Kᵀ)/2
 
@@ -143,11 +143,11 @@ Stability count(const Scaled& s, const Evaluation& evaluation) {
   return result;
 }
 
-constexpr double farthest_move = 0.1;  ///< of the characteristic length, or radians
+constexpr double farthest_move = 0.1;  ///< relative to the characteristic length, or in radians
 constexpr double first_push = 0.01;    ///< displacement out of an unstable equilibrium
 constexpr double zero_stiffness =
-    32.0 * std::numeric_limits<double>::epsilon();  ///< of the largest: round-off of eigenvalues
-constexpr double least_damping = 1e-13;             ///< of the largest stiffness
+    32.0 * std::numeric_limits<double>::epsilon();  ///< round-off of eigenvalues, relative to the largest
+constexpr double least_damping = 1e-13;             ///< relative to the largest stiffness
 constexpr int most_descents = 500;                  ///< in each of the two ways to search
 
 /// Constraints at a state and the eigenpairs (lambda, V) of ZᵀKZ; [Y Z] is orthogonal, Y spans the rows.

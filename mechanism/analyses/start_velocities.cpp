@@ -51,7 +51,7 @@ Deformations find_deformations(const State& rest, const StartProblem& problem, E
 }
 
 struct StartSolution {
-  Eigen::VectorXd w;     ///< of all parts
+  Eigen::VectorXd w;     ///< rigid motions of all parts
   Eigen::VectorXd d;     ///< deformation, boundary coordinates
   Eigen::VectorXd gaps;  ///< c − J w − B d
   double gap = 0.0;      ///< largest gap, relative to the largest velocity or row of c

@@ -19,7 +19,7 @@ struct BdfCounts {
   long steps = 0;
   long iterations = 0;      ///< iterations of CVODE's Newton solver
   long evaluations = 0;     ///< accelerations, including differences for the Jacobian
-  long factorisations = 0;  ///< of [M Bᵀ; B 0]: one per evaluation, plus those of the projection
+  long factorisations = 0;  ///< number for [M Bᵀ; B 0]: one per evaluation, plus those of the projection
   long error_failures = 0;  ///< steps that were repeated because of their error
   long convergence_failures = 0;
   long row_choices = 0;  ///< number of times that other constraint rows were chosen

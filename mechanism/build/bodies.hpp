@@ -30,12 +30,12 @@ struct Construction {
   const formats::Scene& scene;
   Model model;
   MarkerTable markers;
-  std::vector<Eigen::Quaterniond> frames;                             ///< of the superelements, at the start
-  std::vector<BodyStart> starts;                                      ///< of all bodies
-  std::map<std::string, std::vector<PartResultant>> part_resultants;  ///< of load cases on rigid superelements
+  std::vector<Eigen::Quaterniond> frames;                             ///< frames of the superelements at the start
+  std::vector<BodyStart> starts;                                      ///< start velocities of all bodies
+  std::map<std::string, std::vector<PartResultant>> part_resultants;  ///< resultants of load cases on rigid bodies
   std::set<std::string> vanished;                                     ///< joints of eliminated virtual bodies
   std::vector<RigidArm> arms;
-  std::vector<ReferenceModel> reference_models;  ///< of modal bodies whose files hold a residual
+  std::vector<ReferenceModel> reference_models;  ///< models of modal bodies whose files hold a residual
   std::set<double> breakpoints;
   std::vector<std::string> notes;
   std::vector<BodyNote> body_notes;

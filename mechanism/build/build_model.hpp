@@ -23,7 +23,7 @@ struct BodyFiles {
   BodyFiles() = default;
   BodyFiles(SuperelementFiles files) : superelements(std::move(files)) {}
   SuperelementFiles superelements;
-  std::map<std::string, formats::Companion> companions;  ///< by the path of their superelement
+  std::map<std::string, formats::Companion> companions;  ///< companions by the path of their superelement
   std::map<std::string, formats::LoadedModalBody> modal_bodies;
 };
 
@@ -52,7 +52,7 @@ struct CoordinateStart {
 struct BuiltModel {
   Model model;
   State state;                    ///< positions and velocities of the scene, absent ones zero; not yet projected
-  std::vector<BodyStart> starts;  ///< of every body
+  std::vector<BodyStart> starts;  ///< start velocities of every body
   std::vector<CoordinateStart> initial;
   std::vector<std::string> notes;  ///< conversions, cut modes, warnings: whole sentences
 };

@@ -22,7 +22,7 @@ struct RigidArm {
 struct MarkerTable {
   std::map<std::string, Marker> places;
   std::set<std::string> frames;   ///< places that are the frame of a body, not one of its nodes
-  std::vector<NodeMotion> start;  ///< of each node
+  std::vector<NodeMotion> start;  ///< motion of each node at the start
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< Model::origin; markers do not contain it
 
   /// Marker that a scene names, with its own offset. Throws Error that suggests the nearest name.

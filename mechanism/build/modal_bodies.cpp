@@ -197,7 +197,7 @@ void note_held_modes(Construction& c) {
     if (held.rows() == 0 || model.omega2.size() == 0) continue;
     const HeldFrequencies found = held_frequencies(model, held);
     if (!(found.with_residual > 0.0) || !(found.by_modes > (1.0 + told_excess) * found.with_residual)) continue;
-    // The same check with all joints: the modes may suit a body between moving ones.
+    // Checks again with all joints held: the modes may suit a body between moving ones.
     const HeldFrequencies joined = held_frequencies(model, held_rows(model, c, {}));
     if (joined.by_modes > 0.0 && joined.by_modes < (1.0 + told_excess) * joined.with_residual) continue;
     c.notes.push_back(too_stiff(model, held, found, c.model.units));

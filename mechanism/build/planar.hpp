@@ -18,7 +18,7 @@ void make_planar(const std::vector<CoordinateStart>& initial, Construction& c);
 // Declarations of plane.cpp.
 
 /// Unit normal in world axes, largest component positive. It is the axis of the first joint that turns about one axis
-/// or keeps a plane; else that of the first angular velocity; else normal to gravity and the nodes.
+/// or keeps a plane. Otherwise it is that of the first angular velocity, else normal to gravity and the nodes.
 Eigen::Vector3d find_normal(const Construction& c);
 
 /// Right-handed axes (columns) with the unit vector `z` as third. If `z` is one of the old axes up to round-off, the

@@ -24,9 +24,9 @@ struct TiedBodies {
 /// nodes remain joints between these and the carrier. This is exact and needs no choice of coordinates to drop. Poses
 /// follow from the ties, and `markers.start` of the virtual bodies is set to them.
 ///
-/// Throws Error in three cases: nothing determines the orientation of a group (only nodes without rotations are tied to
-/// it); a pose of the scene is off its tie by more than `tolerance` (relative to model.length, or radians); a loop of
-/// ties stays open.
+/// Throws Error if nothing determines the orientation of a group, because only nodes without rotations are tied to it.
+/// Throws Error also if a pose of the scene is off its tie by more than `tolerance` (relative to model.length, or
+/// radians), and if a loop of ties stays open.
 TiedBodies tie_virtual_bodies(const formats::Scene& scene, const Model& model, int first, MarkerTable& markers);
 
 }  // namespace tisserand::mechanism

@@ -37,11 +37,11 @@ bool alike_across(const Matrix3d& matrix, const Vector3d& axis) {
 }
 
 /// Validity check for beams that bend equally in all directions, as with round and square sections. Then ∫ ρJ Ω₁ ds
-/// changes only by the axial moments at the ends, however the beam is bent: balance of angular momentum of its
-/// sections, as bending moments are parallel to curvatures. Superelements conserve this sum plus the far larger angular
-/// momentum of their bending shapes. So a bent one gains spin about its axis, more the thinner it is. The error is s =
-/// (Σ J Ω₁ − Σ J Ω₁(start) − ∫ Σ e·m dt)/Σ J over pieces welded in a row that can turn freely, with the moments m at
-/// their nodes. The check compares the largest |s| with the largest spin |Ω₀|.
+/// changes only by the axial moments at the ends, however the beam is bent. This follows from the balance of angular
+/// momentum of its sections, as bending moments are parallel to curvatures. Superelements conserve this sum plus the
+/// far larger angular momentum of their bending shapes. So a bent one gains spin about its axis, more the thinner it
+/// is. The check compares the largest |s| with the largest spin |Ω₀|: s = (Σ J Ω₁ − Σ J Ω₁(start) − ∫ Σ e·m dt)/Σ J
+/// over pieces welded in a row that can turn freely, with the moments m at their nodes.
 class AxialSpin : public Doubt {
  public:
   explicit AxialSpin(const Model& model) : seen_(model.superelements.size()) {

@@ -41,7 +41,7 @@ class EnergyBalance {
   double largest_ = 0.0;            ///< signed
   double at_ = 0.0;
   double moved_ = 0.0;
-  std::optional<double> potential_;  ///< of the first row
+  std::optional<double> potential_;  ///< potential of the first row
   double level_ = 0.0;               ///< largest |total| or possible work; its round-off is not an error of the balance
 };
 

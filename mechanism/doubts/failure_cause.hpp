@@ -12,14 +12,14 @@ namespace tisserand::mechanism {
 
 /// Failure of a run of generalised alpha or HHT, after its last step at the accepted `state`.
 struct Failure {
-  StepReport step;    ///< of the last attempt
+  StepReport step;    ///< report of the last attempt
   double size = 0.0;  ///< size of the step that was tried first
 };
 
-/// Text "; <cause>: <remedy>". Causes are checked in this order: multipliers that oscillate; torsion too soft for the
-/// spin; drives that joints cannot follow with the step first tried; a constraint Jacobian that is nearly
-/// rank-deficient; an iteration matrix that is singular with the step first tried, and perhaps with a quarter of it; a
-/// motion that changes much per step. Empty: none of these. Overwrites the evaluation and the matrix.
+/// Text "; <cause>: <remedy>" of the first cause found. Checked are oscillating multipliers, torsion too soft for the
+/// spin, drives that joints cannot follow with the step first tried, and a nearly rank-deficient constraint Jacobian.
+/// Next are an iteration matrix that is singular with the step first tried (perhaps with a quarter of it), and a motion
+/// that changes much per step. Empty: none of these. Overwrites the evaluation and the matrix.
 std::string failure_cause(const Model& model, const formats::IntegratorSpec& options, const Doubts& doubts,
                           const Failure& failure, State& state, Workspace& workspace);
 

@@ -39,9 +39,9 @@ constexpr double most_spin = 0.29;
 /// For a cantilever under an axial force P and a force across it is P/P_cr·π²/12 of the largest moment there, the limit
 /// of most_axial.
 constexpr double most_displaced = 0.1;
-/// Limit for bodies that joints can stress without loads. Their reactions are a stiffness times small differences. In a
-/// misaligned four-bar, bars of one piece have 0.038 and the largest force errs by 25 %; bars of two have 0.015 and 7
-/// %, of four 0.0034 and 2 % (tests/verification/trials/automatic_loops_test.cpp).
+/// Limit for bodies that joints can stress without loads. Their reactions are a stiffness times small differences.
+/// Measured on a misaligned four-bar: bars of one piece have 0.038 and the largest force errs by 25 %. Bars of two have
+/// 0.015 and 7 %, of four 0.0034 and 2 % (tests/verification/trials/automatic_loops_test.cpp).
 constexpr double most_displaced_stressed = 0.005;
 /// A body counts as undeformed if displacements over its span and rotations [rad] are smaller.
 constexpr double least_displacement = 1e-3;
@@ -151,8 +151,8 @@ class LinearRange : public Doubt {
   }
 
  private:
-  /// Constants of a body. If its nodes lie on a line and the end nodes have rotations, they include the axial force N =
-  /// axial · y_B = along · S̄ y_B and Euler's load.
+  /// Constants of a body. If its nodes lie on a line and the ends have rotations, they include Euler's load and the
+  /// axial force N = axial · y_B = along · S̄ y_B.
   struct Limits {
     bool linear = false;
     bool bare = false;      ///< has stiffening by its companion file, two nodes and no internal modes
@@ -332,9 +332,9 @@ class LinearRange : public Doubt {
     raise(seen.axial, seen.force);
   }
 
-  std::vector<Limits> limits_;     ///< per body
-  std::vector<Seen> seen_;         ///< per use
-  std::vector<ModalRange> modal_;  ///< per modal body
+  std::vector<Limits> limits_;     ///< constants of each body
+  std::vector<Seen> seen_;         ///< values of each use
+  std::vector<ModalRange> modal_;  ///< ranges of each modal body
   std::vector<Seen> modal_seen_;
   double time_;
 };

@@ -75,7 +75,7 @@ class MultiplierSwing : public Doubt {
         swing.size, swing.time, settings_, remedy_);
   }
 
-  std::string settings_, remedy_;  ///< of the integrator, as text
+  std::string settings_, remedy_;  ///< settings of the integrator and advice, as text
   Eigen::VectorXd change_;
   double turned_ = 0.0, changed_ = 0.0, size_ = 0.0;
   int steps_ = 0;

@@ -140,7 +140,7 @@ class StepResolution : public Doubt {
     steps_ = 0;
   }
 
-  Eigen::ArrayXd mass_;  ///< masses of velocity coordinates; sized at the first step
+  Eigen::ArrayXd mass_;  ///< masses of velocity coordinates; allocated at the first step
   double change_ = 0.0, motion_ = 0.0;
   double latest_ = 0.0;  ///< Δv|/|v| of the latest step, weighted with the masses
   int steps_ = 0;

@@ -196,8 +196,8 @@ class Torsion : public Doubt {
         .maxCoeff();
   }
 
-  std::vector<Judged> judged_;  ///< per body
-  std::vector<Seen> seen_;      ///< per use
+  std::vector<Judged> judged_;  ///< constants of each body
+  std::vector<Seen> seen_;      ///< values of each use
   std::vector<int> beams_;
   Twist twist_;
   bool active_ = false;

@@ -16,8 +16,8 @@ namespace tisserand::mechanism {
 /// Energies of all bodies at one instant.
 struct Energy {
   double kinetic = 0.0;
-  double strain = 0.0;     ///< of bodies and springs
-  double potential = 0.0;  ///< of gravity
+  double strain = 0.0;     ///< strain energy of bodies and springs
+  double potential = 0.0;  ///< potential of gravity
   double total() const { return kinetic + strain + potential; }
 };
 
@@ -51,8 +51,8 @@ struct Evaluation {
   Eigen::VectorXd displacement;
 
   // Stage motion.
-  std::vector<NodeMotion> motion;  ///< of every node; one more at the end: ground
-  std::vector<Tread> treads;       ///< of every tyre
+  std::vector<NodeMotion> motion;  ///< motion of every node; one more at the end: ground
+  std::vector<Tread> treads;       ///< tread of every tyre
   std::vector<ModalScratch> modal_bodies;
   std::vector<ModalNodeTerms> modal_nodes;  ///< active ones; all of them after update_modal_nodes()
 
@@ -61,7 +61,7 @@ struct Evaluation {
   std::vector<CoordinateTerms> coordinates;  ///< active ones; all of them after evaluate_coordinates()
   std::vector<MotionFunction::Value> motion_values;
   Eigen::VectorXd channels;         ///< values
-  Eigen::VectorXd active;           ///< of the state: 1, or 0 for rows that others imply
+  Eigen::VectorXd active;           ///< copy from the state: 1, or 0 for redundant rows
   Eigen::VectorXd constraint;       ///< Φ
   Eigen::VectorXd constraint_rate;  ///< B v + Φ_t
 
@@ -83,7 +83,7 @@ struct Evaluation {
 
   // On request.
   Eigen::VectorXd bias;                ///< Ḃ v + Φ_tt, after evaluate_bias()
-  std::vector<Vector6d> tie_wrenches;  ///< on each follower [force world; moment about the carrier, its axes]
+  std::vector<Vector6d> tie_wrenches;  ///< wrench on each follower [force world; moment about the carrier, its axes]
 
   // Compiled functions of time, and buffers.
   std::vector<MotionFunction> motions;
@@ -91,7 +91,7 @@ struct Evaluation {
   std::vector<std::array<TimeFunction, 3>> load_functions;
   std::vector<TimeFunction> part_load_functions;
   std::vector<PartLoadDirection> part_load_directions;  ///< allocated if channels enter the factor
-  std::vector<SuperelementWork> superelement_work;      ///< of each body
+  std::vector<SuperelementWork> superelement_work;      ///< work matrices of each body
   CarrierScratch carriers;
 };
 

@@ -20,7 +20,7 @@ struct Load {
   formats::LoadAxes axes = formats::LoadAxes::world;
   Marker at;
   std::array<formats::TimeFunctionSpec, 3> components;
-  std::optional<Eigen::Matrix3d> turn;  ///< from the axes of the world to those of a planar model
+  std::optional<Eigen::Matrix3d> turn;  ///< rotation from world axes to those of a planar model
   std::string where;
 };
 

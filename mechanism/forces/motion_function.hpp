@@ -32,7 +32,7 @@ class MotionFunction {
 
   TimeFunction function_;
   double spacing_;
-  std::vector<double> breakpoints_;  ///< of an expression, ascending
+  std::vector<double> breakpoints_;  ///< breakpoints of an expression, ascending
   double last_time_ = std::numeric_limits<double>::quiet_NaN(), last_side_ = last_time_;
   Value last_;
   std::optional<MotionTable> table_;  ///< absent: function_

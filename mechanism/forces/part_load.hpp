@@ -17,7 +17,7 @@ struct PartLoad {
   int load_case = 0;                                 ///< index in the superelement's body
   int node = -1;                                     ///< node of a rigid body
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< resultant for the factor 1, axes of the part
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< on a rigid body: about its node
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< for a rigid body: moment about its node
   formats::TimeFunctionSpec value = 0.0;
   std::string where;
 };

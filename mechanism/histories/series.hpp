@@ -39,7 +39,7 @@ struct Series {
   std::vector<double> y;
   bool has_own_label = false;  ///< whether the user gave `source`
   bool is_of_run = false;      ///< for a reference: it is a channel of a results file
-  Deviation norms;             ///< for a difference
+  Deviation norms;             ///< norms of a difference
 };
 
 /// Two columns of a CSV file with a header line.

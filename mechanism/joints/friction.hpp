@@ -16,7 +16,7 @@ struct Friction {
   double kinetic = 0.0;      ///< coefficient μ
   double stiction = 0.0;     ///< coefficient μ_s ≥ μ
   double velocity = 0.0;     ///< [length/time]
-  double radius = 0.0;       ///< of the contact surface; unused if the slip has no rotation
+  double radius = 0.0;       ///< radius of the contact surface; unused if the slip has no rotation
   double inverse_arm = 0.0;  ///< 1/distance of the two supports that take reaction moments; 0: moments do not count
   int thread = -1;           ///< for threaded joints: index in Model::couplings of z − lead × angle
   double lead = 0.0;         ///< for threaded joints: advance per radian [length]

@@ -27,7 +27,7 @@ struct Joint {
   int relation_count = 0;
   double constant = 0.0;  ///< length of a joint that keeps a distance; 0 for all others
   int row = 0;            ///< first multiplier
-  int thread = -1;        ///< of screws: index in Model::couplings of z − lead × angle
+  int thread = -1;        ///< for screws: index in Model::couplings of z − lead × angle
 
   int coincident_rows() const { return !coincident ? 0 : planar ? 2 : 3; }
   int size() const { return coincident_rows() + relation_count; }

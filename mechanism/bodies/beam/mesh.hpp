@@ -24,8 +24,8 @@ struct BeamMesh {
 /// Section axes: x along the curve; y is the part of `orientation` that is normal to x. Without `orientation` it is the
 /// global axis most nearly normal to the curve, as in part.yaml: its largest |cosine| with the chords of the elements
 /// is least. Among equals within 1e-9, y precedes z and z precedes x. Throws Error (place: spec.where) for a line of
-/// zero length, points that coincide or lie on a line, an orientation along the beam or one that turns over along the
-/// arc, element numbers out of range, and bad sections.
+/// zero length, coincident points or three on a line, bad sections and element numbers out of range. An orientation
+/// along the beam or one that turns over along the arc is an error too.
 BeamMesh mesh_beam(const formats::BeamBodySpec& spec, int first_node);
 
 }  // namespace tisserand::mechanism

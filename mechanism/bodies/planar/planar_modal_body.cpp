@@ -38,7 +38,7 @@ const std::vector<int> rows_in_plane{0, 1, 3, 4}, rows_across{2, 5, 6, 7};
 
 /// Units in which a mode of mass 1 has entries of at most 1.
 struct ModeUnits {
-  double mass, arm, inertia;  ///< of C1, of P1, of N_mu
+  double mass, arm, inertia;  ///< units of C1, of P1, of N_mu
 
   explicit ModeUnits(const ModalBody& body)
       : mass(std::sqrt(body.mass)), arm(std::sqrt(body.P0.trace())), inertia(std::sqrt(body.J_mu.trace())) {}

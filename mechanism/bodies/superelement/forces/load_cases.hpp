@@ -23,7 +23,7 @@ struct LoadTerms {
   Vector y;                          ///< N, boundary then internal
   Vector g;                          ///< N: Σ s (f + K y)
   Vec3<S> force = Vec3<S>::Zero();   ///< resultant, axes of the frame
-  Vec3<S> moment = Vec3<S>::Zero();  ///< about x₀
+  Vec3<S> moment = Vec3<S>::Zero();  ///< resultant moment about x₀
 };
 
 template <class S>
