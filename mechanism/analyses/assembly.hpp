@@ -34,8 +34,8 @@ struct AssemblyReport {
 /// Moves whole bodies, flexible ones as rigid, until all joints, couplings and drives are closed at the state's time.
 /// Levenberg-Marquardt minimises Σ Φ² (lengths over the characteristic length) in small motions [t/L; θ] of each body,
 /// so that every step is nearly the smallest change that closes the gaps. Bodies whose axes are opposite are turned
-/// over. At a dead point all bodies get a small turn. Then velocities of rigid bodies get the smallest change with B v
-/// = −Φ_t. v̇ and λ become 0. Masses and forces have no influence. Initial values and rates count as drives.
+/// over. At a dead point all bodies get a small turn. Then velocities of rigid bodies get the smallest change with
+/// B v = −Φ_t. v̇ and λ become 0. Masses and forces have no influence. Initial values and rates count as drives.
 [[nodiscard]] AssemblyReport assemble(const Model& model, const AssemblyOptions& options, State& state,
                                       Evaluation& evaluation);
 

@@ -21,9 +21,9 @@ std::string name_of_direction(const Model& model, const State& state, const Eige
 void require_determined(const Model& model, const Mobility& mobility, const std::string& where, const State& state,
                         Workspace& workspace);
 
-/// Moves the state to the end of the step. Newton's iteration solves Φ(q, t) = 0 from q ∘ exp(h v + h²/2 v̇). Then B v =
-/// −Φ_t and B v̇ = −(Ḃ v + Φ_tt). Where the rank of the constraints changes, the active rows are determined again. If
-/// the outcome is not `accepted`, the state does not change.
+/// Moves the state to the end of the step. Newton's iteration solves Φ(q, t) = 0 from q ∘ exp(h v + h²/2 v̇). Then
+/// B v = −Φ_t and B v̇ = −(Ḃ v + Φ_tt). Where the rank of the constraints changes, the active rows are determined again.
+/// If the outcome is not `accepted`, the state does not change.
 [[nodiscard]] StepReport move_along(const Model& model, const formats::IntegratorSpec& options, const StepEnd& end,
                                     State& state, Workspace& workspace);
 

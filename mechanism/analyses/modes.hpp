@@ -44,9 +44,9 @@ Eigen::MatrixXd null_space(const Model& model, const Eigen::MatrixXd& B);
 
 /// Solves (λ² ZᵀMZ + λ ZᵀCZ + ZᵀKZ) η = 0 for the modes ξ = Z η, where Z is the null space of B. Directions without
 /// mass follow the others quasi-statically. Internal coordinates of spinning bodies are in the axes of the modes
-/// (steady_axes.hpp). The matrices are dense and the work is O(n³). The solver finds eigenvalues μ of the inverse (A −
-/// sE)⁻¹E of the first-order form, with λ = s + 1/μ. The shift s > 0 has the size of the lowest frequency, so that low
-/// modes keep all digits in the presence of stiff ones.
+/// (steady_axes.hpp). The matrices are dense and the work is O(n³). The solver finds eigenvalues μ of the inverse
+/// (A − sE)⁻¹E of the first-order form, with λ = s + 1/μ. The shift s > 0 has the size of the lowest frequency, so that
+/// low modes keep all digits in the presence of stiff ones.
 ModesReport solve_modes(const Model& model, const State& state, const formats::ModesSpec& spec, Evaluation& evaluation);
 
 /// Shapes of the modes at the points that results report.

@@ -28,12 +28,12 @@ struct StartVelocities {
 /// Sets the velocities of bodies as the scene gives them, and zero where it gives none, at the present positions.
 void set_written_velocities(BuiltModel& built);
 
-/// Derives the free velocities. Bodies move rigidly, w = [v of a point; ω] each. The result has the least ½ (w − w₀)ᵀ M
-/// (w − w₀) that satisfies B v = −Φ_t and the rates of `initial`. Given components of w stay. w₀ holds the given
-/// velocities and zeros, so a body without any contributes its kinetic energy. If no w satisfies the rows, flexible
-/// bodies without a given velocity deform: v = R w + d. Then dᵀ M d is least, with internal coordinates, and w is the
-/// nearest to w₀ among the solutions. A state that satisfies the rows to round-off does not change. Both cases are the
-/// limit of one proximal iteration on
+/// Derives the free velocities. Bodies move rigidly, w = [v of a point; ω] each. The result has the least
+/// ½ (w − w₀)ᵀ M (w − w₀) that satisfies B v = −Φ_t and the rates of `initial`. Given components of w stay. w₀ holds
+/// the given velocities and zeros, so a body without any contributes its kinetic energy. If no w satisfies the rows,
+/// flexible bodies without a given velocity deform: v = R w + d. Then dᵀ M d is least, with internal coordinates, and w
+/// is the nearest to w₀ among the solutions. A state that satisfies the rows to round-off does not change. Both cases
+/// are the limit of one proximal iteration on
 /// [A 0 Bᵀ; 0 δM Jᵀ; B J −μ], J = B R,
 /// which needs no exceptions for dependent rows and massless bodies.
 /// Throws Error if given velocities, rates and drives contradict each other by more than `tolerance` of the largest

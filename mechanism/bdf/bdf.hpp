@@ -26,10 +26,10 @@ struct BdfCounts {
   int order = 0;         ///< order of the last step, 1 to 5
 };
 
-/// Integrates y = [x, p, internal coordinates, v, work, dissipated] with ẋ, ṗ = ½ L(p)ᵀ Ω and [M Bᵀ; B 0][v̇; λ] = [F −
-/// G; −Ḃ v] ([GA00] (14), (16); internal coordinates condensed). After each step CVODE's projection removes the drift
-/// in the mass norm: positions, then velocities, then |p| = 1. Rotations use p/|p|, so |p| needs no constraint. CVODE
-/// uses dense matrices by differences up to 400 unknowns, and matrix-free GMRES above.
+/// Integrates y = [x, p, internal coordinates, v, work, dissipated] with ẋ, ṗ = ½ L(p)ᵀ Ω and
+/// [M Bᵀ; B 0][v̇; λ] = [F − G; −Ḃ v] ([GA00] (14), (16); internal coordinates condensed). After each step CVODE's
+/// projection removes the drift in the mass norm: positions, then velocities, then |p| = 1. Rotations use p/|p|, so no
+/// constraint on |p| is needed. Up to 400 unknowns CVODE uses dense matrices by differences, above it GMRES.
 class Bdf {
  public:
   /// `state` is a consistent start. Throws Error if this build has no CVODE, or if a direction has no mass.

@@ -47,8 +47,8 @@ struct CompanionUse {
   std::vector<std::string> load_cases;        ///< load cases that loads name for any body of the file, ascending
 };
 
-/// Index in `bodies` of the body that `spec` makes from the file. A missing one is built and appended. units: file ->
-/// scene. Throws Error.
+/// Index in `bodies` of the body that `spec` makes from the file. A missing one is built and appended. units:
+/// file -> scene. Throws Error.
 int find_or_build(const formats::SuperelementBodySpec& spec, const formats::LoadedSuperelement& file,
                   const CompanionUse& companion, const UnitConversion& units, BuiltSuperelements& built,
                   std::vector<SuperelementBody>& bodies);

@@ -40,10 +40,10 @@ bool is_loaded(const Evaluation& evaluation) {
   return std::ranges::any_of(evaluation.load_values, acts) || std::ranges::any_of(evaluation.part_load_values, works);
 }
 
-/// Turns per time of ω around the axis of least or largest inertia, in axes of a free body: p/(4 K(m)) with p² = (I₃ −
-/// I₂)(h² − 2 I₁ T)/(I₁ I₂ I₃), m = (I₂ − I₁)(2 I₃ T − h²)/((I₃ − I₂)(h² − 2 I₁ T)) if h² > 2 I₂ T, else with 1 and 3
-/// exchanged (Landau, Lifshitz, Mechanics, 1976, equations 37.8 to 37.12). Zero on the middle axis, where h² = 2 I₂ T
-/// up to round-off.
+/// Turns per time of ω around the axis of least or largest inertia, in axes of a free body: p/(4 K(m)) with
+/// p² = (I₃ − I₂)(h² − 2 I₁ T)/(I₁ I₂ I₃), m = (I₂ − I₁)(2 I₃ T − h²)/((I₃ − I₂)(h² − 2 I₁ T)) if h² > 2 I₂ T, else
+/// with 1 and 3 exchanged (Landau, Lifshitz, Mechanics, 1976, equations 37.8 to 37.12). Zero on the middle axis, where
+/// h² = 2 I₂ T up to round-off.
 double tumbling_frequency(const Eigen::Vector3d& I, double h2, double T2) {
   constexpr double rounding = 1e-13;
   if (!(std::abs(h2 - I[1] * T2) > rounding * h2)) return 0.0;
@@ -165,9 +165,9 @@ class MomentumBalance : public Doubt {
 };
 
 /// Validity check of the tumbling of free rigid bodies. Its period follows from the energy of rotation T and the
-/// angular momentum h (Landau, Lifshitz, Mechanics, 1976, section 37). Near the middle axis it depends on ln |h² − 2 I₂
-/// T|, so that small losses of both shift it by whole turns. The error is ∫ (ν − ν(start)) dt for the frequency ν of T
-/// and h.
+/// angular momentum h (Landau, Lifshitz, Mechanics, 1976, section 37). Near the middle axis it depends on
+/// ln |h² − 2 I₂ T|, so that small losses of both shift it by whole turns. The error is ∫ (ν − ν(start)) dt for the
+/// frequency ν of T and h.
 class TumblingBalance : public Doubt {
  public:
   TumblingBalance(const formats::Scene& scene, const Model& model)

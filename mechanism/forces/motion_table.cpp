@@ -44,10 +44,10 @@ struct Side {
   double share = 0.5;   ///< share of its rise within which the control points of this end stay
 };
 
-/// Limits the slopes so that the quintic is monotone. It is monotone if its control points are, in steps of h/5: y, y +
-/// h d/5, y + 2 h d/5 + h² s/20, and likewise from the other end. Those of one end stay ascending within a share of the
-/// rise, those of the other within the rest: −4 d/h ≤ s ≤ (20 share Δ − 8 d)/h after the point, with −s before it. A
-/// solution s exists if d is below the limit computed here. `sign` makes rates of the rise positive.
+/// Limits the slopes so that the quintic is monotone. It is monotone if its control points are, in steps of h/5: y,
+/// y + h d/5, y + 2 h d/5 + h² s/20, and likewise from the other end. Those of one end stay ascending within a share of
+/// the rise, those of the other within the rest: −4 d/h ≤ s ≤ (20 share Δ − 8 d)/h after the point, with −s before it.
+/// A solution s exists if d is below the limit computed here. `sign` makes rates of the rise positive.
 Slopes limited(Slopes given, double sign, const Side* behind, const Side* ahead) {
   double most = std::numeric_limits<double>::infinity();
   for (const Side* side : {behind, ahead})

@@ -83,8 +83,8 @@ void residual(const BeamElement2& element, std::span<const NodeMotion> nodes, co
 void residual(const BeamElement3& element, std::span<const NodeMotion> nodes, const Eigen::Vector3d& gravity,
               Eigen::Matrix<double, 18, 1>& r);
 
-/// Computes residual() and the exact tangent A = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q with rotation increments δR = R
-/// skew(δΘ). A is not symmetric away from equilibrium, because increments are not coordinates.
+/// Computes residual() and the exact tangent A = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q with rotation increments
+/// δR = R skew(δΘ). A is not symmetric away from equilibrium, because increments are not coordinates.
 void residual_and_tangent(const BeamElement2& element, std::span<const NodeMotion> nodes,
                           const Eigen::Vector3d& gravity, const TangentCoefficients& coefficients,
                           Eigen::Matrix<double, 12, 1>& r, Eigen::Matrix<double, 12, 12>& A);

@@ -202,9 +202,9 @@ using NodePointers = std::array<const Motion*, static_cast<std::size_t>(N)>;
 ///   b = d − 0.6 (d·c) c/L²,   d = L (t₁ − t₂)/2,   c = x₂ − x₁,
 /// with the unit vectors t_i along the beam. d vanishes in every rigid motion of a straight element. For an arc it is
 /// exact to O(L⁴). d is normal to the mean of the tangents, but b must be nearly normal to the chord: 0.4 of the angle
-/// φ between both turns it. The reason is that the weight q L changes the tension along an element. With the slope κ s
-/// + φ (6 s² − ½), s from −½ to ½ along L, this has the energy −q L² κ φ/30 (κ: difference of the slopes at the ends),
-/// as with b. With d alone it is −q L² κ φ/12, and the free end of a chain turns over if q L³ exceeds 130 EI.
+/// φ between both turns it. The reason is that the weight q L changes the tension along an element. With the slope
+/// κ s + φ (6 s² − ½), s from −½ to ½ along L, this has the energy −q L² κ φ/30 (κ: difference of the slopes at the
+/// ends), as with b. With d alone it is −q L² κ φ/12, and the free end of a chain turns over if q L³ exceeds 130 EI.
 struct Parabola {
   static constexpr double by_node = 1.0 / 12, by_itself = 1.0 / 30, whole = 1.0 / 6, across = 0.6;
   static constexpr std::array<double, 2> sign = {0.5, -0.5};  ///< d = L Σ sign_i R_i a_i

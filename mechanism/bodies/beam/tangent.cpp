@@ -106,8 +106,8 @@ Columns on_d(const beam::Bow<double>& b, const Columns& X) {
 }
 
 /// Adds the contribution of the parabola of two nodes to A. A motion of node i, weighted with the coefficients, changes
-/// d by c_k D_i, D_i = −s_i R_i a~, ḋ by −s_i R_i [c_c a~ + c_k (Ω×a)~], d̈ by −s_i R_i [c_m a~ + c_c ((Ω×a)~ + Ω~ a~) +
-/// c_k (Ω̇×a + Ω×(Ω×a))~], s_i = ±L/2, and c, ċ, c̈ by ∓c_k, ∓c_c, ∓c_m.
+/// d by c_k D_i, D_i = −s_i R_i a~, ḋ by −s_i R_i [c_c a~ + c_k (Ω×a)~], d̈ by −s_i R_i [c_m a~ + c_c
+/// ((Ω×a)~ + Ω~ a~) + c_k (Ω̇×a + Ω×(Ω×a))~], s_i = ±L/2, and c, ċ, c̈ by ∓c_k, ∓c_c, ∓c_m.
 void add_parabola(const BeamElement2& e, const beam::NodePointers<NodeMotion, 2>& node, const Vector3d& gravity,
                   const TangentCoefficients& c, Square<2>& A) {
   using beam::Parabola;
@@ -166,9 +166,9 @@ Matrix3d chord_gradient(const Vector3d& psi, const Vector3d& v) {
   return B;
 }
 
-/// Second derivatives of the strain energy by g and ψ, times c: by_g = c A D A, mixed = c ∂(on_g)/∂ψ, by_psi = c
-/// ∂(on_psi)/∂ψ. D is that of W/L by Γ: E A J Jᵀ + N e'' + C of the shear strains, J = ∂ε/∂Γ. ε also depends on κ₁: E A
-/// (ρ² κ₁) of J and κ₁, N ρ² + E A (ρ² κ₁)² of κ₁ twice.
+/// Second derivatives of the strain energy by g and ψ, times c: by_g = c A D A, mixed = c ∂(on_g)/∂ψ,
+/// by_psi = c ∂(on_psi)/∂ψ. D is that of W/L by Γ: E A J Jᵀ + N e'' + C of the shear strains, J = ∂ε/∂Γ. ε also depends
+/// on κ₁: E A (ρ² κ₁) of J and κ₁, N ρ² + E A (ρ² κ₁)² of κ₁ twice.
 struct Stiffness2 {
   Matrix3d by_g, mixed, by_psi;
 

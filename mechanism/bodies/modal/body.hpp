@@ -15,8 +15,8 @@
 
 namespace tisserand::mechanism {
 
-/// Constants of a modal body: sums over its nodes k with masses m_k, inertias μ_k, positions x_k and rows Xd_k, Xt_k (3
-/// x m) of the modes. Modes are mass-normalised, so w has the unit √mass length.
+/// Constants of a modal body: sums over its nodes k with masses m_k, inertias μ_k, positions x_k and rows Xd_k, Xt_k
+/// (3 x m) of the modes. Modes are mass-normalised, so w has the unit √mass length.
 struct ModalBody {
   std::string name;
   int node = 0;                                  ///< node of the frame (r, A), at the centre of mass

@@ -35,8 +35,8 @@ struct ModalNodeTerms {
 
 ModalNodeTerms make_terms(const ModalNode& node);
 
-/// Computes the motion of the node and the terms of its derivatives; `frame` is the motion of the body's frame. With D
-/// = 2 (planar bodies) components out of the plane stay as make_terms() sets them.
+/// Computes the motion of the node and the terms of its derivatives; `frame` is the motion of the body's frame. With
+/// D = 2 (planar bodies) components out of the plane stay as make_terms() sets them.
 template <int D>
 void update_node(const ModalNode& node, const ModalScratch& body, const NodeMotion& frame, NodeMotion& motion,
                  ModalNodeTerms& terms);

@@ -146,8 +146,8 @@ Eigen::VectorXd coordinate_units(const SuperelementBody& body);
 /// Matrix (nb + m) x 6 of translations, and rotations about x₀. Internal coordinates are zero (canonical form).
 Eigen::MatrixXd rigid_columns(const SuperelementBody& body);
 
-/// Elastic modes of the free reduced body, ascending, and their elastic forces f = S̄ φ with φᵀS̄φ = 1, so that M̄ΦΔΦᵀM̄ =
-/// Σ (2 ζ/ω) f fᵀ. Massless directions are omitted.
+/// Elastic modes of the free reduced body, ascending, and their elastic forces f = S̄ φ with φᵀS̄φ = 1, so that
+/// M̄ΦΔΦᵀM̄ = Σ (2 ζ/ω) f fᵀ. Massless directions are omitted.
 struct FreeModes {
   Eigen::VectorXd omega;  ///< [rad/time]
   Eigen::MatrixXd force;  ///< (nb + m) x modes

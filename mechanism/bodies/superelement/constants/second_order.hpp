@@ -17,8 +17,8 @@ namespace tisserand::mechanism {
 struct SuperelementBody;
 
 /// Terms of the strain energy as a sum of squares, THEORY (43): V = ½ Σ e_a², e_a = l_a·y + ½ yᵀ Γ_a y. L holds the
-/// rows of S̄ = LᵀL. S̄ y is the same as without stiffening; these terms are additional. Rows Λ of the companion have l =
-/// 0. The last rows may be zero, as in QuadraticForms.
+/// rows of S̄ = LᵀL. S̄ y is the same as without stiffening; these terms are additional. Rows Λ of the companion have
+/// l = 0. The last rows may be zero, as in QuadraticForms.
 struct Stiffening {
   Eigen::MatrixXd L;                               ///< rows x N
   BlockColumns L_blocks;                           ///< L in blocks

@@ -1,5 +1,5 @@
-// Elastic forces of stiffening, for any scalar: the terms that the quadratic part of the generalised strains adds to S̄
-// y.
+// Elastic forces of stiffening, for any scalar: the terms that the quadratic part of the generalised strains adds to
+// S̄ y.
 #pragma once
 
 #include "mechanism/bodies/superelement/constants/second_order.hpp"

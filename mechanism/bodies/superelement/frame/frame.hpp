@@ -187,8 +187,8 @@ void karcher(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMot
   karcher_variation(body, motion);
 }
 
-/// Frame of THEORY (15), [Car00] (16), (19): R₀ = R_ref exp(b₀), b₀ = Σ αⱼ bⱼ, bⱼ = log(R_refᵀRⱼ); Uⱼ = T(b₀) αⱼ
-/// T⁻¹(bⱼ). R_ref is the R₀ in `motion`.
+/// Frame of THEORY (15), [Car00] (16), (19): R₀ = R_ref exp(b₀), b₀ = Σ αⱼ bⱼ, bⱼ = log(R_refᵀRⱼ);
+/// Uⱼ = T(b₀) αⱼ T⁻¹(bⱼ). R_ref is the R₀ in `motion`.
 template <class S, class Node>
 void incremental(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   const Mat3<S> R_ref = motion.R0;
@@ -208,9 +208,9 @@ void incremental(const SuperelementBody& body, const NodeView<Node>& nodes, Loca
   local_rotations(body, nodes, motion);
 }
 
-/// Frame of nodes without rotations, THEORY (16). Newton's iteration from the R₀ in `motion` solves Σ wᵢ Xᵢ × R₀ᵀ(xᵢ −
-/// x̄) = 0. The exact variation is δΘ₀ = D⁻¹ Σ wᵢ Xᵢ~ R₀ᵀ δxᵢ, D = Σ wᵢ ((Xᵢ·x̂ᵢ) 1 − x̂ᵢ Xᵢᵀ), with X and x̂ relative to
-/// their means with the weights w.
+/// Frame of nodes without rotations, THEORY (16). Newton's iteration from the R₀ in `motion` solves
+/// Σ wᵢ Xᵢ × R₀ᵀ(xᵢ − x̄) = 0. The exact variation is δΘ₀ = D⁻¹ Σ wᵢ Xᵢ~ R₀ᵀ δxᵢ, D = Σ wᵢ ((Xᵢ·x̂ᵢ) 1 − x̂ᵢ Xᵢᵀ), with X
+/// and x̂ relative to their means with the weights w.
 template <class S, class Node>
 void polar(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   Vec3<S> mean = Vec3<S>::Zero();

@@ -37,8 +37,8 @@ void deformation_rates(const SuperelementBody& body, const NodeView<Node>& nodes
   in_space(body.planar, [&]<int D>() { deformation_rates_in<D>(body, nodes, motion); });
 }
 
-/// Computes ÿ_B of the deformation, Ω̇₀ and the acceleration of x₀ by THEORY (24), after deformation_rates(): ü = R₀ᵀ(ẍ
-/// − ẍ₀) − 2 Ω₀ × u̇ − Ω₀ × (Ω₀ × x̂) − Ω̇₀ × x̂, and the derivative of ψ̇ = T⁻¹(ψ) Ω − T⁻¹(−ψ) Ω₀.
+/// Computes ÿ_B of the deformation, Ω̇₀ and the acceleration of x₀ by THEORY (24), after deformation_rates():
+/// ü = R₀ᵀ(ẍ − ẍ₀) − 2 Ω₀ × u̇ − Ω₀ × (Ω₀ × x̂) − Ω̇₀ × x̂, and the derivative of ψ̇ = T⁻¹(ψ) Ω − T⁻¹(−ψ) Ω₀.
 template <int D, class S, class Node>
 void deformation_accelerations_in(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   const Mat3<S> R0T = motion.R0.transpose();
@@ -73,8 +73,8 @@ void deformation_accelerations(const SuperelementBody& body, const NodeView<Node
   in_space(body.planar, [&]<int D>() { deformation_accelerations_in<D>(body, nodes, motion); });
 }
 
-/// Computes y_B of THEORY (17), and rates and accelerations of the inertia by THEORY (26) and (29): ẏ = P q̇, ÿ = P q̈ +
-/// V Ω₀ ([Car00] (36)-(41), (52)-(58)).
+/// Computes y_B of THEORY (17), and rates and accelerations of the inertia by THEORY (26) and (29): ẏ = P q̇,
+/// ÿ = P q̈ + V Ω₀ ([Car00] (36)-(41), (52)-(58)).
 template <int D, class S, class Node>
 void local_rates(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   constexpr int T = Space<D>::turns;

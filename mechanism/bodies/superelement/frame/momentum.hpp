@@ -57,8 +57,8 @@ void turning_biases(const SuperelementBody& body, const NodeView<Node>& nodes, L
   }
 }
 
-/// Rate Ω̇₀ = U q̈ + U̇ q̇ of THEORY (25), after turning_biases(). The second derivative of Σ αⱼ ψⱼ = 0 gives U̇ q̇ = Σ Uⱼ
-/// T(ψⱼ) (Ṫ⁻¹(ψⱼ) Ωⱼ − Ṫ⁻ᵀ(ψⱼ) Ω₀). For the polar frame it is Σ U_xⱼ R₀ (−2 Ω₀ × x̂ⱼ' − Ω₀ × (Ω₀ × x̂ⱼ)).
+/// Rate Ω̇₀ = U q̈ + U̇ q̇ of THEORY (25), after turning_biases(). The second derivative of Σ αⱼ ψⱼ = 0 gives
+/// U̇ q̇ = Σ Uⱼ T(ψⱼ) (Ṫ⁻¹(ψⱼ) Ωⱼ − Ṫ⁻ᵀ(ψⱼ) Ω₀). For the polar frame it is Σ U_xⱼ R₀ (−2 Ω₀ × x̂ⱼ' − Ω₀ × (Ω₀ × x̂ⱼ)).
 template <int D, class S, class Node>
 auto frame_acceleration(const SuperelementBody& body, const NodeView<Node>& nodes, const LocalMotion<S>& motion) {
   using Rotation = Eigen::Matrix<S, Space<D>::turns, 1>;
@@ -125,8 +125,8 @@ Vec3<S> mean_of(const SuperelementBody& body, const Eigen::Matrix<S, Eigen::Dyna
 }
 
 /// Computes motion.center, center_rate, center_velocity and center_acceleration. By THEORY (32), x_cm = x₀ + R₀ c with
-/// c = X_cm + Φ_TᵀM̄ y/m; THEORY (36) in axes of the frame gives ẋ₀ + Ω₀ × c + ċ and ẍ₀ + Ω̇₀ × c + Ω₀ × (Ω₀ × c) + 2 Ω₀
-/// × ċ + c̈. Needs deformation_accelerations().
+/// c = X_cm + Φ_TᵀM̄ y/m; THEORY (36) in axes of the frame gives ẋ₀ + Ω₀ × c + ċ and
+/// ẍ₀ + Ω̇₀ × c + Ω₀ × (Ω₀ × c) + 2 Ω₀ × ċ + c̈. Needs deformation_accelerations().
 template <class S>
 void center_of_mass_motion(const SuperelementBody& body, LocalMotion<S>& motion) {
   const Vec3<S> w = motion.Omega0, wd = motion.Omega0d;

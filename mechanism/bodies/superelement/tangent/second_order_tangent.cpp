@@ -64,8 +64,8 @@ void freeze_frame(const LocalMotion<double>& motion, const TangentCoefficients& 
   frozen.node = motion.node;
 }
 
-/// Adds c_k K_y + c_c b (L + h)ᵀ(L + h), THEORY (44), (45), to the lower triangle of the y block, with K_y = (L + h)ᵀ(L
-/// + h) + Σ e_a Γ_a.
+/// Adds c_k K_y + c_c b (L + h)ᵀ(L + h), THEORY (44), (45), to the lower triangle of the y block, with
+/// K_y = (L + h)ᵀ(L + h) + Σ e_a Γ_a.
 void add_strain_stiffness(const SuperelementBody& body, const StrainTerms<double>& t, const TangentCoefficients& c,
                           SecondOrderWork& work) {
   const Stiffening& stiffening = *body.second_order.stiffening;

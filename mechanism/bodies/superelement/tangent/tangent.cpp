@@ -157,8 +157,8 @@ void add_times_O(const SuperelementBody& body, const SuperelementTangent& frozen
 }
 
 /// Computes the parts of Υᵀ S' Υ with S' = k S, S = S_BB or work.K, Υ = B + H U. S' has no stiffness against
-/// translation, so the weights of x₀ cancel. G = Bᵀ S' B = (S' B)ᵀ B and J = Bᵀ S' H + ½ Uᵀ (Hᵀ S' H) give Υᵀ S' Υ = G
-/// + J U + (J U)ᵀ. `SB` is work space.
+/// translation, so the weights of x₀ cancel. G = Bᵀ S' B = (S' B)ᵀ B and J = Bᵀ S' H + ½ Uᵀ (Hᵀ S' H) give
+/// Υᵀ S' Υ = G + J U + (J U)ᵀ. `SB` is work space.
 template <int NB>
 void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& frozen, const Eigen::MatrixXd& stiffness,
                      double k, Square<NB>& SB, Square<NB>& G, Thin<NB>& J) {
