@@ -102,7 +102,7 @@ double row_scale(const Model& model, const AskedRow& row) {
   return is_length(model.coordinates[row.entry->coordinate].relation) ? 1.0 / model.length : 1.0;
 }
 
-/// ∂(scaled Φ)/∂[t/L; θ] at the last evaluate().
+/// Jacobian ∂(scaled Φ)/∂[t/L; θ] at the last evaluate().
 Sparse jacobian(const AskedRows& asked, const RigidBodies& bodies, const Evaluation& evaluation) {
   const Model& model = bodies.model;
   std::vector<Eigen::Triplet<double>> entries;

@@ -73,7 +73,7 @@ std::vector<int> active_rows(const State& state) {
   return kept;
 }
 
-/// B from the values of a tangent.
+/// Jacobian B from the values of a tangent.
 MatrixXd jacobian(const Model& model, const State& state, const MatrixValues& matrix) {
   const int boundary = model.sizes.boundary;
   MatrixXd B = MatrixXd::Zero(model.sizes.constraints, model.sizes.velocities());

@@ -39,7 +39,7 @@ Eigen::VectorXd material_increment(const Model& model, const Evaluation& evaluat
 void move_by(const Model& model, const Eigen::VectorXd& xi, const Eigen::VectorXd& multipliers,
              const Evaluation& evaluation, State& state);
 
-/// B of the active constraints for material rotation increments, at `state`, which it evaluates.
+/// Jacobian B of the active constraints for material rotation increments. Evaluates `state`.
 Eigen::MatrixXd active_jacobian(const Model& model, const State& state, Evaluation& evaluation);
 
 /// Entries of the active constraints, in the order of the rows of B.

@@ -41,7 +41,7 @@ struct Problem {
 };
 
 /// Whether the mode cannot be distinguished from a rigid motion. Then inertia and damping forces of the shape Z q with
-/// λ| = `size` are below the round-off of stiffness and of loads that turn with it. `spread` is |Z||q|. Componentwise,
+/// |λ| = `size` are below the round-off of stiffness and of loads that turn with it. `spread` is |Z||q|. Componentwise,
 /// round-off is spreadᵀ|K|spread times 2√n ε for the two products in ZᵀKZ of n terms each ([HM19]: errors grow as √n),
 /// so that a stiff body does not hide motions of parts that are not tied to it.
 bool drowns(const Model& model, const Evaluation& evaluation, const Problem& problem, double size, const VectorXcd& q) {
@@ -194,7 +194,7 @@ void collect(const Model& model, const Evaluation& evaluation, const Problem& pr
   }
 }
 
-/// [δx; δθ] of a node in a mode, world axes: from its own coordinates, or from T of the modal body that it follows.
+/// Motion [δx; δθ] of a node in a mode, world axes: from its own coordinates, or from T of its modal body.
 Eigen::Vector<Complex, 6> motion_of_node(const Model& model, const Evaluation& evaluation, int node,
                                          const VectorXcd& shape) {
   std::vector<int> coordinates;

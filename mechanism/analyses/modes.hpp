@@ -20,7 +20,7 @@ struct Mode {
   std::complex<double> eigenvalue;  ///< λ [1/time], Im λ ≥ 0; 0 for a rigid motion
   Eigen::VectorXcd shape;           ///< n: per node [δx; δθ] in world axes, then internal coordinates
   bool unstable = false;            ///< Re λ > 0 by more than round-off: the motion grows
-  /// λ|/2π in the other axes of the report. NaN if the motion has two frequencies there, or 0 in both axes.
+  /// |λ|/2π in the other axes of the report. NaN if the motion has two frequencies there, or 0 in both axes.
   double seen_from_other_axes = std::numeric_limits<double>::quiet_NaN();
   double frequency() const { return std::abs(eigenvalue) / (2.0 * std::numbers::pi); }
   double damping_ratio() const { return std::abs(eigenvalue) > 0.0 ? -eigenvalue.real() / std::abs(eigenvalue) : 0.0; }
@@ -30,7 +30,7 @@ struct ModesReport {
   std::vector<Mode> modes;            ///< ascending |λ|: the lowest `count` and all unstable ones
   int degrees_of_freedom = 0;         ///< coordinates − rank of the constraints
   int rigid = 0;                      ///< modes with λ = 0
-  double largest_acceleration = 0.0;  ///< v̇| relative to the axes; 0 if its inertia forces are negligible
+  double largest_acceleration = 0.0;  ///< |v̇| relative to the axes; 0 if its inertia forces are negligible
   Eigen::Vector3d axes = Eigen::Vector3d::Zero();  ///< angular velocity of the axes of the modes
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();  ///< spin of node `spins`; if the axes rest, of the other axes
   std::string spins;                               ///< node that spins fastest in the axes; empty if none does

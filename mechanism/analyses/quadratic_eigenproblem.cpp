@@ -57,7 +57,7 @@ Spectrum eigen(MatrixXd A, Vectors kind) {
   return spectrum;
 }
 
-/// G = (A − sE)⁻¹E of A = [0 1; −K −C], E = [1 0; 0 M]: G [p; r] = [a; p + s a], P(s) a = −(M r + (C + sM) p).
+/// Matrix G = (A − sE)⁻¹E of A = [0 1; −K −C], E = [1 0; 0 M]: G [p; r] = [a; p + s a], P(s) a = −(M r + (C + sM) p).
 MatrixXd shifted_inverse(const QuadraticProblem& m, double s) {
   const Eigen::Index k = m.M.rows();
   const MatrixXd P = s * s * m.M + s * m.C + m.K;

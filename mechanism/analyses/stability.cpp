@@ -32,7 +32,7 @@ constexpr double most_asymmetry = 1e-6;
 /// Number of coordinates up to which all eigenvectors are computed to find a direction.
 constexpr int most_resolved = 1000;
 
-/// LDLᵀ with its inertia.
+/// Factors LDLᵀ of a symmetric matrix, with its inertia.
 class SymmetricFactors {
  public:
   explicit SymmetricFactors(MatrixXd A) : A_(std::move(A)), pivots_(static_cast<std::size_t>(A_.rows())) {

@@ -21,7 +21,7 @@ constexpr double velocities_agree = 1e-12;
 constexpr double motion_found = 1e-9;
 /// Smallest motion of a drive between the points of its differences; less is round-off of its formula.
 constexpr double drive_round_off = 1e-13;
-/// δ of rigid motions combined with deformations, and μ of the rows, in the scaled unknowns. They are small, so that
+/// Values of δ (rigid motions combined with deformations) and μ (rows), in the scaled unknowns. They are small, so that
 /// few iterations are needed, and far above round-off, so that the factors are accurate.
 constexpr double rigid_share = 1e-6;
 constexpr double row_share = 1e-8;

@@ -34,7 +34,7 @@ void set_written_velocities(BuiltModel& built);
 /// flexible bodies without a given velocity deform: v = R w + d. Then dᵀ M d is least, with internal coordinates, and w
 /// is the nearest to w₀ among the solutions. A state that satisfies the rows to round-off does not change. Both cases
 /// are the limit of one proximal iteration on
-/// [A 0 Bᵀ; 0 δM Jᵀ; B J −μ], J = B R,
+///   [A 0 Bᵀ; 0 δM Jᵀ; B J −μ], J = B R,
 /// which needs no exceptions for dependent rows and massless bodies.
 /// Throws Error if given velocities, rates and drives contradict each other by more than `tolerance` of the largest
 /// velocity. The message names the gap, and the bodies and entries that conflict.

@@ -14,7 +14,7 @@ namespace tisserand::mechanism {
 
 /// Linearisation with internal coordinates in its own axes. By default they are in the axes of their body. If a round
 /// body (a rotor) spins with ν in the axes ω of the linearisation, its internal coordinates are transformed:
-/// q = exp(−Γt) η, so that δq = η, δq̇ = η' − Γη, δq̈ = η'' − 2Γη' + Γ²η.
+///   q = exp(−Γt) η, so that δq = η, δq̇ = η' − Γη, δq̈ = η'' − 2Γη' + Γ²η.
 /// Γ couples coordinates of one frequency (the two bending planes of a shaft). It follows from M between internal
 /// coordinates and nodes, which is constant in these axes: M_NI(t) exp(−Γt) = M_NI(0), solved for orthogonal matrices
 /// (Procrustes) a moment later. For modal bodies the motion of nodes on the axis serves too. If `later` differs from

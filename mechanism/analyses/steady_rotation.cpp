@@ -57,7 +57,7 @@ bool is_balanced(const Linearisation& l, EquilibriumSearch& search) {
          report.constraint <= options.tolerance * model.length;
 }
 
-/// [K Bᵀ; B 0] in scaled equations and unknowns.
+/// Matrix [K Bᵀ; B 0] in scaled equations and unknowns.
 struct Saddle {
   MatrixXd A;
   VectorXd scale;

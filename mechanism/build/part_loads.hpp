@@ -33,7 +33,7 @@ std::map<std::string, std::vector<std::string>> load_cases_by_file(const formats
 void require_load_cases(const formats::Scene& scene, const formats::SuperelementBodySpec& spec,
                         const formats::Companion* companion);
 
-/// Rᵀ Φᵀ f of all load cases for the rigid motions R about `center` (units of the file). units: file -> scene.
+/// Vectors Rᵀ Φᵀ f of all load cases for the rigid motions R about `center` (file units). units: file -> scene.
 std::vector<PartResultant> part_resultants(const formats::Companion& companion, const formats::Superelement& element,
                                            const Eigen::Vector3d& center, const UnitConversion& units);
 

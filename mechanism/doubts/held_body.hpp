@@ -16,7 +16,7 @@ std::vector<std::vector<bool>> held_coordinates(const Model& model);
 /// Index of the beam that each superelement belongs to: fixed joints and common nodes weld superelements together.
 std::vector<int> welded_beams(const Model& model);
 
-/// S and M of the n free coordinates, in coordinate_units().
+/// Matrices S and M of the n free coordinates, in coordinate_units().
 struct FreePart {
   std::vector<int> free;  ///< n: index among boundary, then internal coordinates
   Eigen::VectorXd unit;   ///< n

@@ -142,7 +142,7 @@ class StepResolution : public Doubt {
 
   Eigen::ArrayXd mass_;  ///< masses of velocity coordinates; allocated at the first step
   double change_ = 0.0, motion_ = 0.0;
-  double latest_ = 0.0;  ///< Δv|/|v| of the latest step, weighted with the masses
+  double latest_ = 0.0;  ///< |Δv|/|v| of the latest step, weighted with the masses
   int steps_ = 0;
   Turn fastest_;
   std::map<int, Stretch> coarsest_;  ///< by the binary exponent of the energy of the stretch

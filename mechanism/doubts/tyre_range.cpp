@@ -86,7 +86,7 @@ class TyreRange : public Doubt {
 
  private:
   struct Excess {
-    double ratio = 0.0;  ///< value| over the limit of the range
+    double ratio = 0.0;  ///< |value| over the limit of the range
     double value = 0.0, limit = 0.0, time = 0.0;
   };
   std::vector<std::array<Excess, quantities>> worst_;

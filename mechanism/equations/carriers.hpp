@@ -79,7 +79,7 @@ void add_carrier_force(const Model& model, const ElementMap& map, int first, con
 Eigen::MatrixXd model_rows(const Model& model, const ElementMap& map, const LocalMatrix& B,
                            const Evaluation& evaluation);
 
-/// T(dΘ) for the rotation over the step of the node or of the body that it follows; 1 without rotations.
+/// Matrix T(dΘ) for the rotation over the step of the node or of the body that it follows; 1 without rotations.
 Eigen::Matrix3d step_tangent(const Model& model, const Evaluation& evaluation, int node);
 
 }  // namespace tisserand::mechanism

@@ -57,8 +57,7 @@ Row6 rigid_row(const Model& model, const Parts& parts, const Evaluation& evaluat
   return rigid;
 }
 
-/// scaled_jacobian() for rigid motions of the parts; in planar models followed by columns that hold motions out of the
-/// plane.
+/// Scaled Jacobian for rigid motions of the parts. In planar models further columns hold the motions out of the plane.
 Eigen::SparseMatrix<double> rigid_jacobian(const Model& model, const Parts& parts, const Evaluation& evaluation) {
   Triplets entries;
   const auto add = [&](int row, const Marker& marker, const Row6& values) {

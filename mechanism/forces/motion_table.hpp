@@ -17,10 +17,10 @@ struct MotionValue {
 
 /// Curve of polynomials between the points of a table with ascending times; outside it is straight with the last rate.
 /// smooth: Hermite quintics, twice continuously differentiable, monotone between any two points. Rates and
-/// accelerations at the points are those of the quartic through the five nearest points, reduced where a quintic would
-/// not be monotone. Equal values stay constant, and the rate is 0 at an extremum of the data. Data of a polynomial of
-/// degree 4 are reproduced exactly without limits. Then values err by O(h⁵) of the spacing h, rates and accelerations
-/// by O(h⁴) and O(h³). Next to an extremum between two points the errors are O(h²), O(h), O(1).
+///   accelerations at the points are those of the quartic through the five nearest points, reduced where a quintic
+///   would not be monotone. Equal values stay constant, and the rate is 0 at an extremum of the data. Without a limit
+///   polynomials of degree 4 are exact; values err by O(h⁵) of the spacing h, rates and accelerations by O(h⁴) and
+///   O(h³). Next to an extremum between two points the errors are O(h²), O(h), O(1).
 /// natural: the natural cubic spline, which overshoots.
 /// linear: straight, with jumps of the rate.
 class MotionTable {

@@ -117,7 +117,7 @@ Row12 pulled_back(const LoadedJoint& loaded, const Row12& thread) {
   return sum;
 }
 
-/// ∂N/∂q at fixed multipliers from that of g = Bᵀλ: f = R_MᵀR_Aᵀ(−g_x), m likewise of R_B(−g_Θ − p_B × R_Bᵀ(−g_x)).
+/// Row ∂N/∂q at fixed multipliers from that of g = Bᵀλ: f = R_MᵀR_Aᵀ(−g_x), m likewise of R_B(−g_Θ − p_B × R_Bᵀ(−g_x)).
 Row12 normal_gradient(const Friction& friction, const LoadedJoint& loaded, const Row12& g, const ContactForce& normal) {
   const MarkerPair& p = loaded.pair;
   Square12 K;

@@ -4,23 +4,23 @@
 // [Car00] section 8 (the nonlinear beam with which superelements are compared).
 //
 // Kinematics. Section triad Λ_i = R_i D_i of node i (columns: beam axis, y, z of the section), D_i constant.
-// Γ = Λᵀ x' − Γ₀ axial and shear strains, κ = axial(Λᵀ Λ') − κ₀ torsion and bending, both in section axes;
-// ' is the derivative by arc length of the reference curve. Γ₀, κ₀ are the values of the same interpolation there,
-// so that a reference configuration of any curvature is free of stress.
+//   Γ = Λᵀ x' − Γ₀   axial and shear strains,   κ = axial(Λᵀ Λ') − κ₀   torsion and bending, both in section axes;
+//   ' is the derivative by arc length of the reference curve. Γ₀, κ₀ are the values of the same interpolation there,
+//   so that a reference configuration of any curvature is free of stress.
 // Axial strain: ε = Γ₁ + e(Γ) + ½ ρ² κ₁², ρ² = (E I_y + E I_z)/E A. The last term is the mean elongation of fibres that
-// twist about the axis (Wagner). It is a torsional stiffness N ρ² by the normal force N. e is zero for three nodes.
+//   twist about the axis (Wagner). It is a torsional stiffness N ρ² by the normal force N. e is zero for three nodes.
 // Two nodes: ψ = log(Λ₁ᵀΛ₂), Λ(s) = Λ₁ exp(s ψ), κ = ψ/L. Strains are evaluated in the middle only, which prevents
-// shear and membrane locking. With four corrections straight beams are exact at the nodes for loads at nodes and
-// weight, and the element has order 4 if bending stays in one plane:
-// - shear stiffness 1/(1/GA + L²/(12 EI)): residual bending flexibility [Mac78] of the linear part of the moment;
+//   shear and membrane locking. With four corrections straight beams are exact at the nodes for loads at nodes and
+//   weight, and the element has order 4 if bending stays in one plane:
+//   - shear stiffness 1/(1/GA + L²/(12 EI)): residual bending flexibility [Mac78] of the linear part of the moment;
 //   - e = Σ (2β_k − β_k²) Γ_k²/(|v| + v₁) + β_k² Γ_k²/10, v = Γ + Γ₀, with the share β = (L²/12EI)/(1/GA + L²/12EI) of
 //     bending in the shear strain. That share bends the axis by a cubic: the elongation of the axis is |v| − 1 then,
 //     not v₁ − 1, and its curve is longer than its chord by a tenth of Γ_k². N gives it the stiffness N/5, where shear
 //     of the section has −N. Without e the element becomes unstable at a tension of 12 EI/L²;
 //   - Γ = A(ψ) Λᵀ Δx/L − Γ₀ with A = 1 − ψ~²/24: the element is the arc of its curvature, not the chord Δx;
 //   - mass and weight along a parabola through the nodes that follows their sections (kernels.hpp, Parabola).
-// The remaining errors of order 2: the change of curvature κ × C_m κ along elements of bent and twisted beams (zero in
-// a plane), axial and torsional waves, shear and rotary inertia of thick beams.
+//   The remaining errors of order 2: the change of curvature κ × C_m κ along elements of bent and twisted beams (zero
+//   in a plane), axial and torsional waves, shear and rotary inertia of thick beams.
 // Three nodes: Φ_i = log(Λ₂ᵀΛ_i), Λ(s) = Λ₂ exp(N₁(s)Φ₁ + N₃(s)Φ₃) [CJ99]; two Gauss points.
 // Both depend on relative rotations of the nodes alone. So strains do not change under a rigid motion and do not depend
 // on the path. Relative rotations inside an element must stay below π.

@@ -27,8 +27,8 @@ inline constexpr std::array<std::array<double, 3>, 2> shape = {
 inline constexpr std::array<std::array<double, 3>, 2> slope = {
     {{-2 * gauss - 1, 4 * gauss, 1 - 2 * gauss}, {2 * gauss - 1, -4 * gauss, 1 + 2 * gauss}}};
 
-/// A(ψ) v = v − ψ×(ψ×v)/24. Across ψ an arc of the angle ψ is longer than its chord by (a/2)/sin(a/2) = 1 + a²/24 +
-/// O(a⁴); along ψ both are equal. ∂(A v)/∂ψ: chord_gradient; its transpose times n: chord_gradient_transposed.
+/// Product A(ψ) v = v − ψ×(ψ×v)/24. Arc over chord is (a/2)/sin(a/2) = 1 + a²/24 + O(a⁴) across ψ,
+/// and 1 along ψ. ∂(A v)/∂ψ: chord_gradient; its transpose times n: chord_gradient_transposed.
 template <class S>
 inline Vec3<S> chord_to_arc(const Vec3<S>& psi, const S& u, const Vec3<S>& v) {
   return v + (v * u - psi * dot3(psi, v)) * S(1.0 / 24);
@@ -128,7 +128,7 @@ S strain_energy(const BeamElement3& e, const Configuration<S, 3>& q) {
   return 0.5 * e.length * (state.point[0].energy + state.point[1].energy);
 }
 
-/// G_int of two nodes: ∂W/∂x_i and ∂W/∂Θ_i. With σ = δθ₁ + δθ₂, δ = δθ₂ − δθ₁ (section axes) the variations are
+/// Forces G_int of two nodes: ∂W/∂x_i and ∂W/∂Θ_i. With σ = δθ₁ + δθ₂, δ = δθ₂ − δθ₁ (section axes) the variations are
 ///   δψ = (1 + e ψ~²) δ + ψ×σ/2,   δθ_m = (σ + w×δ)/2,   δg = Λᵀ δx' + g×δθ_m.
 template <class S>
 void internal_force(const BeamElement2& e, const State2<S>& state, Eigen::Matrix<S, 12, 1>& r) {
@@ -150,7 +150,7 @@ struct Moments3 {
   Vec3<S> on1, on3, direct;
 };
 
-/// G_int of three nodes: δΦ_i = T⁻¹(Φ_i) δθ_i − T⁻ᵀ(Φ_i) δθ₂, δθ = exp(−φ) δθ₂ + T(φ) δφ, δκ = δ(T(φ) φ').
+/// Forces G_int of three nodes: δΦ_i = T⁻¹(Φ_i) δθ_i − T⁻ᵀ(Φ_i) δθ₂, δθ = exp(−φ) δθ₂ + T(φ) δφ, δκ = δ(T(φ) φ').
 template <class S>
 Moments3<S> internal_force(const BeamElement3& e, const State3<S>& state, Eigen::Matrix<S, 18, 1>& r) {
   const double weight = 0.5 * e.length;
@@ -213,7 +213,7 @@ struct Parabola {
 /// Unit vector a_i along the beam in the axes of node i.
 inline Eigen::Vector3d along(const BeamElement2& e, int i) { return e.section[i].col(0); }
 
-/// d and c with their rates, and b. B = ∂b/∂d = 1 − k c cᵀ, H = ∂b/∂c = −k (c dᵀ + (d·c) 1), k = 0.6/L².
+/// Vectors d, c with rates, and b. B = ∂b/∂d = 1 − k c cᵀ, H = ∂b/∂c = −k (c dᵀ + (d·c) 1), k = 0.6/L².
 template <class S>
 struct Bow {
   Vec3<S> d, d_rate, d_acceleration, c, c_rate, c_acceleration;
@@ -240,14 +240,14 @@ struct Bow {
 
   Vec3<S> value() const { return on_d(d); }
   Vec3<S> rate() const { return on_d(d_rate) + by_chord(c_rate); }
-  /// b̈ = B d̈ + H c̈ − 2k [(c·ḋ + d·ċ) ċ + (ḋ·ċ) c].
+  /// Acceleration b̈ = B d̈ + H c̈ − 2k [(c·ḋ + d·ċ) ċ + (ḋ·ċ) c].
   Vec3<S> acceleration() const {
     const Vec3<S> rates = c_rate * (dot3(c, d_rate) + dot3(d, c_rate)) + c * dot3(d_rate, c_rate);
     return on_d(d_acceleration) + by_chord(c_acceleration) - rates * (k + k);
   }
-  /// B f = Bᵀ f: the force on d that a force f on b causes.
+  /// Product B f = Bᵀ f: the force on d that a force f on b causes.
   Vec3<S> on_d(const Vec3<S>& f) const { return f - c * (k * dot3(c, f)); }
-  /// Hᵀ f: the force on c that a force f on b causes.
+  /// Product Hᵀ f: the force on c that a force f on b causes.
   Vec3<S> on_chord(const Vec3<S>& f) const { return (d * dot3(c, f) + f * dot3(d, c)) * (-k); }
   /// Product H u.
   Vec3<S> by_chord(const Vec3<S>& u) const { return (c * dot3(d, u) + u * dot3(d, c)) * (-k); }

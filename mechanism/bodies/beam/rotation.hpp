@@ -61,7 +61,7 @@ struct Logarithm {
   }
 };
 
-/// T⁻¹(ψ) a = a + ψ×a/2 + e ψ×(ψ×a). The argument −ψ gives the transpose.
+/// Product T⁻¹(ψ) a = a + ψ×a/2 + e ψ×(ψ×a). The argument −ψ gives the transpose.
 template <class S>
 inline Vec3<S> inverse_tangent_times(const Vec3<S>& psi, const S& e, const Vec3<S>& a) {
   const Vec3<S> b = cross(psi, a);
@@ -84,7 +84,7 @@ inline constexpr std::array<double, 10> c_series = curvature_series(2, 0), c1_se
                                         c2_series = curvature_series(2, 2), d_series = curvature_series(3, 0),
                                         d1_series = curvature_series(3, 1), d2_series = curvature_series(3, 2);
 
-/// c = (1 − cos a)/a² and d = (a − sin a)/a³ of u = a² and their derivatives c1 = 2 dc/du, c2 = 2 dc1/du, likewise d:
+/// Functions c = (1 − cos a)/a², d = (a − sin a)/a³ of u = a², and derivatives c1 = 2 dc/du, c2 = 2 dc1/du, likewise d:
 /// ∇c = c1 φ for u = φ·φ. Series below u = 1, closed forms above.
 template <class S>
 struct CurvatureFunctions {
@@ -114,7 +114,7 @@ struct CurvatureFunctions {
   S d2(const S& u) const { return real_part(u) < 1.0 ? polynomial(d2_series, u) : (c1 - 5.0 * d1) / u; }
 };
 
-/// T(φ) a = a − c φ×a + d φ×(φ×a). The argument −φ gives the transpose.
+/// Product T(φ) a = a − c φ×a + d φ×(φ×a). The argument −φ gives the transpose.
 template <class S>
 inline Vec3<S> tangent_times(const Vec3<S>& phi, const CurvatureFunctions<S>& f, const Vec3<S>& a) {
   const Vec3<S> b = cross(phi, a);

@@ -31,7 +31,7 @@ struct LogarithmDerivatives {
   }
 
  private:
-  /// tan(a/4)/a = ¼ Σ τ_k (u/16)^k with tan x = Σ τ_k x^(2k+1).
+  /// Series tan(a/4)/a = ¼ Σ τ_k (u/16)^k with tan x = Σ τ_k x^(2k+1).
   static constexpr std::array<double, 9> t_series = [] {
     constexpr std::array<double, 9> tau = {1.0,
                                            1.0 / 3,
@@ -55,13 +55,13 @@ struct LogarithmDerivatives {
   }
 };
 
-/// T⁻¹(ψ) = 1 + ψ~/2 + e ψ~².
+/// Matrix T⁻¹(ψ) = 1 + ψ~/2 + e ψ~².
 Matrix3d inverse_tangent(const Logarithm<double>& log) {
   const Matrix3d P = skew(log.psi);
   return Matrix3d::Identity() + 0.5 * P + log.e * (P * P);
 }
 
-/// ∂(T⁻¹(ψ) m)/∂ψ = −m~/2 − e [(ψ×m)~ + ψ~ m~] + e1 (ψ×(ψ×m)) ψᵀ.
+/// Derivative ∂(T⁻¹(ψ) m)/∂ψ = −m~/2 − e [(ψ×m)~ + ψ~ m~] + e1 (ψ×(ψ×m)) ψᵀ.
 Matrix3d inverse_tangent_derivative(const Vector3d& psi, double e, double e1, const Vector3d& m) {
   const Vector3d b = psi.cross(m);
   Matrix3d Z = skew(Vector3d(-0.5 * m - e * b));
@@ -245,7 +245,7 @@ void add_stiffness(const BeamElement2& e, const beam::State2<double>& state, dou
 using Matrix39 = Eigen::Matrix<double, 3, 9>;
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
-/// ∂(T(φ) a)/∂φ = c a~ − c1 (φ×a) φᵀ − d [(φ×a)~ + φ~ a~] + d1 (φ×(φ×a)) φᵀ.
+/// Derivative ∂(T(φ) a)/∂φ = c a~ − c1 (φ×a) φᵀ − d [(φ×a)~ + φ~ a~] + d1 (φ×(φ×a)) φᵀ.
 Matrix3d tangent_derivative(const Vector3d& phi, const beam::CurvatureFunctions<double>& f, const Vector3d& a) {
   const Vector3d b = phi.cross(a);
   Matrix3d X = skew(Vector3d(f.c * a - f.d * b));

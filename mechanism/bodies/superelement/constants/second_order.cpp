@@ -30,7 +30,7 @@ MatrixXd whole_mass(const SuperelementBody& body) {
   return M;
 }
 
-/// J₀⁻¹ with rotations scaled by `length`; zero for the axis of a line of masses without rotary inertia.
+/// Inverse J₀⁻¹ with rotations scaled by `length`; zero for the axis of a line of masses without rotary inertia.
 Eigen::Matrix<double, 6, 6> invert_inertia(const Eigen::Matrix<double, 6, 6>& J0, double length) {
   constexpr double no_inertia = 1e-12;
   Eigen::Matrix<double, 6, 1> unit;
@@ -56,7 +56,7 @@ MatrixXd file_congruence(const formats::CanonicalMatrices& matrices, const Super
   return A;
 }
 
-/// M̄ and the rigid motions about `point` (part frame), with all modes.
+/// Matrices: M̄ and the rigid motions about `point` (part frame), with all modes.
 struct WholeMotions {
   MatrixXd M, R;
 };

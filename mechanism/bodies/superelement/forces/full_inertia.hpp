@@ -207,7 +207,7 @@ void set_momenta(const FullInertia& inertia, const LocalMotion<S>& motion, const
   add_turned<S>(Om, t.Cyd, t.pd);
 }
 
-/// r = J₀⁻¹Rᵀp of THEORY (49), the rigid part of the true velocity, and its rate.
+/// Rigid part r = J₀⁻¹Rᵀp of the true velocity, THEORY (49), and its rate.
 template <class S>
 struct RigidVelocity {
   Vec3<S> v, O, vd, Od;

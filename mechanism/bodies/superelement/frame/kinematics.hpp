@@ -11,7 +11,7 @@
 
 namespace tisserand::mechanism {
 
-/// ẏ_B = Υ q̇ and the velocity of x₀, THEORY (23): u̇ᵢ = R₀ᵀ(ẋᵢ − ẋ₀) + x̂ᵢ × Ω₀, ψ̇ᵢ = T⁻¹(ψᵢ) Ωᵢ − T⁻¹(−ψᵢ) Ω₀.
+/// Sets ẏ_B = Υ q̇ and the velocity of x₀, THEORY (23): u̇ᵢ = R₀ᵀ(ẋᵢ − ẋ₀) + x̂ᵢ × Ω₀, ψ̇ᵢ = T⁻¹(ψᵢ) Ωᵢ − T⁻¹(−ψᵢ) Ω₀.
 template <int D, class S, class Node>
 void deformation_rates_in(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   motion.origin_velocity.setZero();

@@ -31,7 +31,7 @@ Mat3<S> inverse_tangent_rate(const Vec3<S>& psi, const Vec3<S>& psid) {
   return 0.5 * Pd + f.e * (Pd * P + P * Pd) + (2.0 * slope * dot3<S>(psi, psid)) * (P * P);
 }
 
-/// b = Ṫ⁻¹ Ω − Ṫ⁻ᵀ Ω₀ of THEORY (24), the part of ψ̈ without angular accelerations. Only the first term of Ṫ⁻¹ is skew.
+/// Term b = Ṫ⁻¹ Ω − Ṫ⁻ᵀ Ω₀ of THEORY (24), ψ̈ without angular accelerations. Only the first term of Ṫ⁻¹ is skew.
 template <class S>
 Vec3<S> turning_bias(const Vec3<S>& psi, const Vec3<S>& psid, const Vec3<S>& Omega, const Vec3<S>& Omega0) {
   const S s = dot3<S>(psi, psi);

@@ -60,7 +60,7 @@ void frame_of_places(const SuperelementBody& body, const NodeView<Node>& nodes, 
   }
 }
 
-/// floating_frame() in the plane, with U and U_x.
+/// Planar counterpart of the spatial floating_frame(), with U and U_x.
 template <class S, class Node>
 void floating_frame(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   motion.frame_iterations = 0;

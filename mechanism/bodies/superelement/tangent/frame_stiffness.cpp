@@ -18,7 +18,7 @@ Matrix3d inverse_tangent_derivative(const Vector3d& psi, const Vector3d& b) {
   return Z;
 }
 
-/// inverse_tangent_derivative() for rotations of nodes in space; zero in the plane, where T is 1.
+/// Derivative inverse_tangent_derivative() for rotations of nodes in space; zero in the plane, where T is 1.
 template <int D>
 Eigen::Matrix<double, Space<D>::turns, Space<D>::turns> derivative_of(const Vector3d& psi, const TurnOf<D>& b) {
   if constexpr (D == 3)

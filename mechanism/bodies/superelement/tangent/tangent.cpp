@@ -231,9 +231,9 @@ void add_momenta(const SuperelementBody& body, const Eigen::VectorXd& p, double 
   }
 }
 
-/// Boundary tangent of THEORY (38) in axes of the frame, with N = M_BB − c_m Q, Z₁ = c_c (O₀ᵀ + V U), W₁ = c_c (O₀ ∓
-/// O_B − UᵀVᵀ):
-/// Â = c_m N + W₁ (N − Q Z₁) + N Z₁ + c_c (V₁ U − UᵀV₁ᵀ ∓ p~) + Υᵀ S' Υ
+/// Boundary tangent of THEORY (38) in axes of the frame, with N = M_BB − c_m Q, Z₁ = c_c (O₀ᵀ + V U),
+/// W₁ = c_c (O₀ ∓ O_B − UᵀVᵀ):
+///   Â = c_m N + W₁ (N − Q Z₁) + N Z₁ + c_c (V₁ U − UᵀV₁ᵀ ∓ p~) + Υᵀ S' Υ
 /// Âᵀ = G₁ + G₂ᵀ is accumulated by operations on columns only; N' = N − (Q Z₁)ᵀ.
 template <int NB>
 void condensed_tangent(const SuperelementBody& body, const SuperelementScratch& scratch, bool eliminate,

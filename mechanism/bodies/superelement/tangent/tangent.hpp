@@ -9,7 +9,7 @@
 namespace tisserand::mechanism {
 
 /// Step tangent after residual(), THEORY (31), (20), (38): work.A_BB = A_BB − W Q Z with the boundary part of
-///   c_m Pᵀ M̄ P + c_c (C₁ + C₂ + C₃ + Υᵀ D Υ) + c_k Υᵀ S̄ Υ ([Car00] (31), (49)-(51), (61)-(63), corrected),
+///   c_m Pᵀ M̄ P + c_c (C₁ + C₂ + C₃ + Υᵀ D Υ) + c_k Υᵀ S̄ Υ          ([Car00] (31), (49)-(51), (61)-(63), corrected),
 /// and the data of condense() and expand(). Derivatives of Υ, U and the weight are omitted. The elimination of y_I is
 /// exact: C has no I-I block, so D = A_II is a constant diagonal; Q = M_BI D⁻¹ M_IB is kept for constant coefficients.
 /// With a full damping matrix D is the full matrix A_II, and A_BI = W M_BI + c_c Υᵀ D_BI, A_IB = M_IB Z + c_c D_IB Υ
