@@ -29,7 +29,7 @@ constexpr double most_gyration = 100.0;  // of the extents of body and scene: a 
 constexpr double most_section = 5.0;     // radius of gyration of a section, over the length of the beam
 constexpr double most_free_length = 100.0;  // of a spring, over its length at the start
 /// A uniform rod has its ends at 1.73 radii of gyration. A ball on a thin rod has them further away, the lighter the
-/// rod: at 5 radii the rod weighs an eighth. A compact body may be a weight on an arm without mass.
+/// rod: at 5 radii the rod weighs an eighth. Compact bodies are not checked: they may be on massless arms.
 constexpr double most_reach = 5.0;
 constexpr double most_slender = 0.1;  // least over largest principal moment of inertia
 

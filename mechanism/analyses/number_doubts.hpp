@@ -14,8 +14,8 @@ namespace tisserand::mechanism {
 /// units are not checked.
 std::vector<std::string> number_doubts(const formats::Scene& scene, const Model& model, const Evaluation& now);
 
-/// Note on rigid bodies whose centre of mass is far from all that holds them, relative to the radius of gyration. Empty
-/// if there is none. A weight on a light arm looks like this, and so does a centre of mass in wrong units.
+/// Note on slender rigid bodies whose centre of mass is far from all that holds them, against the radius of gyration.
+/// Empty if there is none. A weight on a light arm looks like this, and so does a centre of mass in wrong units.
 std::string far_centres(const Model& model);
 
 }  // namespace tisserand::mechanism

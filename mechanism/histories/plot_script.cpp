@@ -189,7 +189,7 @@ void append_crowd(std::string& script, const Panel& panel, std::size_t number, P
 
 /// Range of an axis for bars of modes, which begins at zero unless values are negative by more than round-off.
 std::string axis_of_bars(const std::vector<Series>& series, const Panel& panel) {
-  constexpr double round_off = 1e-9, nothing = 1e-12;  // of the largest; of damping ratios
+  constexpr double round_off = 1e-9, nothing = 1e-12;  // of the largest; of numbers without unit
   double least = 0.0, largest = 0.0;
   for (const std::size_t i : panel.members)
     for (const double value : series[i].y) {
