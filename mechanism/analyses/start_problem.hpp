@@ -53,7 +53,7 @@ double start_row_scale(const StartProblem& problem, int row);
 /// Name of a row: "joint 'pin, translation x'", "the initial rate of 'arm'".
 std::string start_row_name(const StartProblem& problem, int row);
 
-/// The state with zero velocities, multipliers and inactive rows, evaluated.
+/// The state with zero velocities and multipliers and with all rows active, evaluated.
 State resting(const Model& model, const State& state, Evaluation& evaluation);
 
 /// Parts, w₀ and c at a state of resting().
