@@ -1,4 +1,4 @@
-// Residuals at stored states.
+// Activities from residuals at stored states.
 #include "mechanism/ledger/activity.hpp"
 
 #include <cmath>

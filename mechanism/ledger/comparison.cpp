@@ -1,4 +1,4 @@
-// Rows of equal time, thing by thing.
+// Comparison of rows at equal instants, measure by measure.
 #include "mechanism/ledger/comparison.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Of the size of the scene: what moves by less is still but for tolerances.
+/// Fraction of the size of the scene. Smaller motions are within tolerances and count as rest.
 constexpr double least_size = 1e-9;
 
 }  // namespace
@@ -32,7 +32,7 @@ void Comparison::add(const WindowHistory& own, const WindowHistory& other) {
 void Comparison::note(const Measured& measured, double size, double difference) {
   const bool is_length = measured.kind == MeasureKind::position || measured.kind == MeasureKind::deflection;
   if (is_length && size < least_size * length_) size = length_;
-  if (!(size > 0.0) || !(difference >= 0.0)) return;  // not a number: not there
+  if (!(size > 0.0) || !(difference >= 0.0)) return;  // not a number: no value in this row
   LedgerChange& change = largest_[measured.kind];
   const double part = difference / size;
   if (part > change.part || change.of.empty()) change = {measured.name, std::max(part, 0.0)};

@@ -1,4 +1,4 @@
-// What two motions over the same windows differ by.
+// Differences of two motions over the same windows.
 #pragma once
 
 #include <map>
@@ -10,19 +10,19 @@
 namespace tisserand::mechanism {
 
 struct LedgerChange {
-  std::string of;     ///< name of what changes most
-  double part = 0.0;  ///< of the size of its group
+  std::string of;     ///< name of the measure that changes most
+  double part = 0.0;  ///< change, as a fraction of the size of its group
 };
 
-/// Adds up windows: the largest difference at the same instants of each kind of measure, over the size of its group.
-/// Where a group does not move, lengths are compared with the size of the scene.
+/// Largest difference of each kind of measure at equal instants of all windows, over the size of its group. If a group
+/// does not move, lengths are compared with the size of the scene.
 class Comparison {
  public:
-  /// `sizes` of what `own` measures, which lives as long as this; `length` of the scene.
+  /// `sizes`: sizes of the measures of `own`. They must outlive this object. `length`: size of the scene.
   Comparison(const MeasureSizes& sizes, double length) : sizes_(sizes), length_(length) {}
 
   void add(const WindowHistory& own, const WindowHistory& other);
-  /// One of each kind, the largest first.
+  /// Largest change of each kind of measure, in descending order.
   std::vector<LedgerChange> changes() const;
 
  private:

@@ -1,4 +1,4 @@
-// Options against the one that neglects least, or against one another.
+// Comparison of inertia options with F, or with one another.
 #include "mechanism/ledger/inertia_verdict.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// An option is told to be right where it changes what F gives by less.
+/// Largest relative difference from F at which an option is called right.
 constexpr double right_option = 0.01;
 
 double difference(const InertiaRun& a, const InertiaRun& b, const MeasureSizes& sizes, double length) {

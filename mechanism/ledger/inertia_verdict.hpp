@@ -1,4 +1,4 @@
-// Which inertia option of a superelement is right for a motion.
+// Recommendation of an inertia option for each superelement, from replayed motions.
 #pragma once
 
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace tisserand::mechanism {
 
-/// The windows with one option, and what they cost over the scene as it is.
+/// The windows computed with one inertia option, and their cost relative to the scene as given.
 struct InertiaRun {
   std::string option;
   const std::vector<WindowHistory>* windows = nullptr;
   double cost = 0.0;
-  double* differs = nullptr;  ///< gets what the option differs by from F; may be null
+  double* differs = nullptr;  ///< receives the difference between the option and F; may be null
 };
 
-/// Against F, which has all of the mass: the cheapest option that changes nothing by more than 1 %. Without a companion
-/// file, and so without F, none is known to be right, unless they agree.
+/// Sentence that recommends the cheapest option that differs from F, which has all of the mass, by at most 1 %. Without
+/// a companion file there is no F. Then no option is known to be right, unless all agree within 1 %.
 std::string inertia_verdict(const std::string& body, const std::vector<InertiaRun>& runs, const MeasureSizes& sizes,
                             double length);
 

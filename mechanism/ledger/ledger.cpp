@@ -1,4 +1,4 @@
-// Windows, activities, replays, lines: the story of a ledger.
+// Makes a ledger: windows, activities, replays, lines.
 #include "mechanism/ledger/ledger.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Processor time and steps of one scene over all windows: of each window the least time.
+/// Processor time and steps of one scene, summed over windows. The time of a window is the least of its repetitions.
 struct Cost {
   double least = 0.0;
   long steps = 0;
@@ -81,7 +81,7 @@ class LedgerMaker {
                   "a scene that runs to its end can have a ledger: shorten integrator.end");
   }
 
-  /// Of a run of its own all of it was seen; of stored results the windows, or the run where a line is over all of it.
+  /// Sizes from the reference run; with stored results from the windows, or from the whole run if a line needs it.
   void measure_sizes(const std::vector<Toggle>& toggles) {
     sizes_ = reference_.sizes;
     if (sizes_) return;
@@ -93,7 +93,7 @@ class LedgerMaker {
       for (const MeasuredRow& row : window.rows) sizes_->observe(row);
   }
 
-  /// Activities, and their shares of the sum.
+  /// Computes activities and their fractions of the sum.
   void weigh_activities() {
     const SampledPowers powers(own_.model, own_windows_);
     double sum = 0.0;
@@ -124,7 +124,7 @@ class LedgerMaker {
     }
   }
 
-  /// The scene as it is and as it could be by turns, so that both have the same machine.
+  /// Replays the given and the changed scene by turns, so that both see the same load of the machine.
   void replay_toggled(LedgerLine& line) {
     const formats::Scene scene = toggled(request_.scene, stage_.files, line.toggle);
     const BuiltModel other = build_model(scene, stage_.files);
@@ -143,7 +143,7 @@ class LedgerMaker {
       comparison.add(own_windows[w], histories.back());
       add_times(windows[w], own_begin, begin, scene, own, changed);
     }
-    if (interrupted()) return;  // figures of a part of the windows would mislead
+    if (interrupted()) return;  // values of only some windows would mislead
     line.failure = failure;
     line.changes = comparison.changes();
     line.whole_run = whole_run;
@@ -157,7 +157,7 @@ class LedgerMaker {
     return toggle.effect == inertia_word || toggle.effect == formats::effect_word(formats::Effect::stiffening) ||
            toggle.effect == formats::effect_word(formats::Effect::flexibility);
   }
-  /// A body of another stiffness would begin a window with a deformation that is none of its own, and vibrate: it runs
+  /// A body of another stiffness would begin a window with a deformation that does not fit it, and vibrate. So it runs
   /// from the start.
   bool begins_anew(const Toggle& toggle, const Model& other) const {
     return changes_deformation(toggle) || !share_states(own_.model, other);
@@ -171,7 +171,7 @@ class LedgerMaker {
     if (!interrupted()) require_whole(own_run_.front());
     return own_run_;
   }
-  /// Absent: the poses of the scene.
+  /// State at the start of the run; absent: the poses of the scene.
   std::optional<State> start_of_run(const Model& other) const {
     if (!request_.begin || share_states(own_.model, other)) return request_.begin;
     return transfer(own_.model, *request_.begin, other);
@@ -228,9 +228,9 @@ class LedgerMaker {
   BuiltModel own_;
   ReferenceRun reference_;
   std::vector<WindowHistory> own_windows_;
-  std::vector<WindowHistory> own_run_;  ///< all of it, once a line needs it
+  std::vector<WindowHistory> own_run_;  ///< the whole run, computed once a line needs it
   std::optional<MeasureSizes> sizes_;
-  std::vector<double> own_per_step_;  ///< processor time of the scene as it is, beside each line
+  std::vector<double> own_per_step_;  ///< processor time of the scene as given, measured with each line
   std::map<const LedgerLine*, std::vector<WindowHistory>> histories_;
   Ledger ledger_;
 };

@@ -1,4 +1,4 @@
-// `mechanism ledger`: what each optional effect of a scene changes in its motion, and what it costs.
+// `mechanism ledger`: how much each optional effect of a scene changes its motion, and what it costs.
 #pragma once
 
 #include <functional>
@@ -14,51 +14,51 @@ namespace tisserand::mechanism {
 
 /// Choices of the user.
 struct LedgerSettings {
-  std::string results = {};  ///< of the same scene, whose stored instants begin windows; empty: a run of its own
+  std::string results = {};  ///< results of the same scene whose stored instants begin windows; empty: run it
   WindowChoice windows = {};
-  int repeats = 3;                         ///< of each window, for times
-  std::vector<std::string> channels = {};  ///< that are compared; empty: places, deflections, reactions
+  int repeats = 3;                         ///< repetitions of each window for the times
+  std::vector<std::string> channels = {};  ///< channels to compare; empty: positions, deflections, reactions
   ToggleChoice choice = {};
 };
 
-/// Hears the part that is done, and what comes next.
+/// Progress callback: the completed fraction, and the name of what comes next.
 using LedgerProgress = std::function<void(double done, const std::string& next)>;
 
-/// What is asked of a ledger. The scene is one of dynamics, with the settings of its analysis.
+/// Request for a ledger. The scene is a dynamics scene with the settings of its analysis.
 struct LedgerRequest {
   const formats::Scene& scene;
-  std::optional<State> begin = {};  ///< end of the analysis that this one goes on from
+  std::optional<State> begin = {};  ///< end state of the analysis that this one continues
   LedgerSettings settings = {};
   LedgerProgress progress = {};
 };
 
-/// One effect of one body.
+/// Line of a ledger: one effect of one body, joint or spring.
 struct LedgerLine {
   Toggle toggle;
-  std::optional<double> activity;     ///< ∫|P| dt [energy]; absent: does no work, or not known
-  double share = 0.0;                 ///< of the activities of all lines
-  std::vector<LedgerChange> changes;  ///< the largest of each kind of measure, the largest first
-  double cost = 0.0;                  ///< of processor time per step, over that of the scene as it is, less one
+  std::optional<double> activity;     ///< ∫|P| dt [energy]; absent: does no work, or unknown
+  double share = 0.0;                 ///< fraction of the sum of all activities
+  std::vector<LedgerChange> changes;  ///< largest change of each kind of measure, in descending order
+  double cost = 0.0;                  ///< relative increase of processor time per step against the scene as given
   bool replayed = false;
-  bool whole_run = false;  ///< replayed from the start of the run, not over its windows
-  std::string failure;     ///< why there are no figures, or why a window ended early
-  double from_best = 0.0;  ///< inertia options: change against inertia F with stiffening, if it is there
+  bool whole_run = false;  ///< replayed from the start of the run instead of over its windows
+  std::string failure;     ///< reason why there are no values, or why a window ended early
+  double from_best = 0.0;  ///< inertia options: change against inertia F, if available
 };
 
 struct Ledger {
   std::string scene;
   int windows = 0;
-  double window = 0.0;                ///< length of one [time]
-  double seconds_per_step = 0.0;      ///< of processor time, of the scene as it is
-  double scatter = 0.0;               ///< of that: (largest − least)/least of repetitions
-  std::vector<LedgerLine> lines;      ///< the largest change first
+  double window = 0.0;                ///< length of one window [time]
+  double seconds_per_step = 0.0;      ///< processor time of the scene as given [s]
+  double scatter = 0.0;               ///< scatter of seconds_per_step: (largest − least)/least of the repetitions
+  std::vector<LedgerLine> lines;      ///< in descending order of the largest change
   bool interrupted = false;           ///< lines are missing
-  std::vector<std::string> verdicts;  ///< on the inertia of superelements, whole sentences
-  std::string doubt;                  ///< of the results whose instants begin windows; empty: none
+  std::vector<std::string> verdicts;  ///< whole sentences on the inertia of superelements
+  std::string doubt;                  ///< warning that the stored results may belong to another scene; empty: none
 };
 
-/// Takes the windows of a run, and for each effect that the scene has or could have the same windows again with this
-/// one the other way round, from the same states. control.clock counts processor time. Throws Error.
+/// Repeats the windows of a run, from the same states, once for each effect that the scene has or could have. Each time
+/// one effect is switched. control.clock counts processor time. Throws Error.
 Ledger make_ledger(const LedgerRequest& request, const BodyFiles& files, const RunControl& control);
 
 }  // namespace tisserand::mechanism

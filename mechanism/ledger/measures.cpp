@@ -1,4 +1,4 @@
-// Names, columns and sizes of what is compared.
+// Names, columns and sizes of the measures of a ledger.
 #include "mechanism/ledger/measures.hpp"
 
 #include <map>
@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// "rod/mid" -> "rod" among the bodies of the scene; empty: none that deforms.
+/// Name of the deformable body of a place: "rod/mid" -> "rod". Empty if the body does not deform.
 std::string flexible_body_of(const std::string& place, const std::map<std::string, bool>& flexible) {
   for (std::string name = place; !name.empty();) {
     if (const auto found = flexible.find(name); found != flexible.end()) return found->second ? name : "";
@@ -28,8 +28,8 @@ std::string flexible_body_of(const std::string& place, const std::map<std::strin
   return "";
 }
 
-/// Whether each body deforms in the model that the layout belongs to; of a model that is only compared with another,
-/// whether it deforms in either.
+/// Whether each body deforms in the model of the layout. With is_left_out, whether it may deform in either of two
+/// models.
 std::map<std::string, bool> flexible_bodies(const formats::Scene& scene, const formats::ResultsLayout& layout,
                                             Measures::Missing missing) {
   const bool in_either = missing == Measures::Missing::is_left_out;
@@ -49,7 +49,7 @@ Eigen::Quaterniond rotation_of(const formats::ResultsRow& row, int node) {
   return quaternion(row.node_rotation.col(node));
 }
 
-/// R₁ᵀ (x − x₁): of a rigid body it is constant.
+/// Position R₁ᵀ (x − x₁) in axes of the base node. It is constant in a rigid body.
 Vector3d seen_from(const formats::ResultsRow& row, int base, int node) {
   return rotation_of(row, base).conjugate() * Vector3d(row.node_position.col(node) - row.node_position.col(base));
 }
@@ -74,7 +74,7 @@ void Measures::add_defaults(const formats::Scene& scene, const formats::ResultsL
     const int index = i;
     add(MeasureKind::position, "nodes/position/" + name, "position", {index, -1, nullptr});
     const std::string body = flexible_body_of(name, flexible);
-    if (flexible.contains(name))  // the body itself: two axes tell how it turns
+    if (flexible.contains(name))  // the body itself: two axes define its orientation
       for (const int axis : {0, 1})
         add(MeasureKind::direction, fmt::format("axis {} of {}", "xy"[axis], name), "axis", {index, axis, nullptr});
     if (body.empty() || body == name) continue;
@@ -158,7 +158,7 @@ void MeasureSizes::observe(const MeasuredRow& row) {
     const auto column = static_cast<Eigen::Index>(i);
     const double size = from_first_[i] ? (row.col(column) - first_.col(column)).norm() : row.col(column).norm();
     double& largest = group_size_[static_cast<std::size_t>(group_of_[i])];
-    if (size > largest) largest = size;  // not a number: not there
+    if (size > largest) largest = size;  // not a number: no value in this row
   }
 }
 

@@ -1,4 +1,4 @@
-// What the ledger compares of two motions: places, deflections and reactions, or channels of the user.
+// Quantities that the ledger compares: positions, deflections and reactions, or channels that the user names.
 #pragma once
 
 #include <cstddef>
@@ -12,38 +12,38 @@
 
 namespace tisserand::mechanism {
 
-/// What is compared by name: a vector of a place, the deflection of a node against the first node of its body (in axes
-/// of that node), the direction of an axis of a body, the reaction of a joint, or one number of a channel.
+/// Kinds of measures: position of a place, deflection of a node against the first node of its body (in axes of that
+/// node), direction of an axis of a body, reaction force of a joint, and value of a channel.
 enum class MeasureKind { position, deflection, direction, force, channel };
 struct Measured {
   MeasureKind kind = MeasureKind::position;
   std::string name;   ///< "nodes/position/rod/mid", "deflection of rod/mid"
-  std::string group;  ///< the largest of a group is what changes are compared with
+  std::string group;  ///< changes are compared with the largest size in the group
 };
 
-/// The values of one row: each measured thing has three (a channel one, and zeros).
+/// Values of one row: three per measure. A channel has one value and two zeros.
 using MeasuredRow = Eigen::Matrix3Xd;
 
-/// Finds what is measured in the rows of a layout; another layout of the same scene may have less.
+/// Reads the measures from the rows of a layout. Another layout of the same scene may lack some of them.
 class Measures {
  public:
   enum class Missing { is_error, is_left_out };
-  /// Without `channels`: positions of all places, axes of all bodies with a node of their name, deflections of all
-  /// bodies that deform, forces of all joints. Throws Error for a channel that is missing where that is one.
+  /// Default without `channels`: positions of all places, axes of all bodies with a node of their name, deflections of
+  /// all deformable bodies, forces of all joints. Throws Error for a missing channel if `missing` is is_error.
   Measures(const formats::Scene& scene, const formats::ResultsLayout& layout, const std::vector<std::string>& channels,
            Missing missing);
 
   const std::vector<Measured>& list() const { return list_; }
-  /// Not-a-number where the row has none.
+  /// Values of all measures in a row; not-a-number where the row has no value.
   MeasuredRow values(const formats::ResultsRow& row) const;
-  /// Where each of them stands in the list of another layout; −1: not there.
+  /// Index of each measure in the list of `other`; −1 if it is missing there.
   std::vector<int> places_in(const Measures& other) const;
 
  private:
-  /// Columns of a place in rows: of `node`, or of a joint, or of a channel.
+  /// Source of a measure in a row: column of a node, of a joint or of a channel.
   struct Source {
     int index = 0;
-    int base = -1;  ///< of deflections: place of the first node of the body; of directions: the axis
+    int base = -1;  ///< deflections: first node of the body; directions: number of the axis
     const double* (*values)(const formats::ResultsRow&) = nullptr;
   };
 
@@ -55,12 +55,12 @@ class Measures {
   std::vector<Source> sources_;
 };
 
-/// Largest distance from the first row (positions, deflections) or value (forces, channels) of each group.
+/// Size of each group: largest value (forces, channels) or largest distance from the first row (others).
 class MeasureSizes {
  public:
   explicit MeasureSizes(const std::vector<Measured>& list);
   void observe(const MeasuredRow& row);
-  /// Of thing i: that of the largest of its group.
+  /// Size of the group of measure i.
   double of(std::size_t i) const { return group_size_[static_cast<std::size_t>(group_of_[i])]; }
 
  private:

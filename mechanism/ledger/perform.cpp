@@ -1,4 +1,4 @@
-// Plan, states, ledger, words.
+// Analyses before a ledger, and the choice of its analysis.
 #include "mechanism/ledger/perform.hpp"
 
 #include <map>
@@ -13,7 +13,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Where the last of the planned analyses begins: at the end of another, which is run for it; absent: at the poses.
+/// Start of the last planned analysis: the end state of the analysis before it, which runs here. Absent: the poses.
 std::optional<State> beginning_of_last(const std::vector<PlannedAnalysis>& planned, const BodyFiles& files,
                                        const RunControl& control) {
   std::map<std::string, State> ends;
@@ -32,7 +32,7 @@ std::optional<State> beginning_of_last(const std::vector<PlannedAnalysis>& plann
   return std::nullopt;
 }
 
-/// The analysis that is meant, by default the last of dynamics, and those that it starts from.
+/// The chosen analysis (default: the last dynamics analysis) and those from which it starts.
 std::vector<PlannedAnalysis> planned_for(const formats::Scene& scene, std::string analysis) {
   if (analysis.empty())
     for (const formats::Analysis& one : scene.analyses)

@@ -1,4 +1,4 @@
-// The command `mechanism ledger`: analyses before the one that is meant, files, and its ledger.
+// The command `mechanism ledger`: runs the preceding analyses, reads the files and makes the ledger.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace tisserand::mechanism {
 
-/// Of the named analysis of the scene (empty: the last of dynamics), after those that it starts from. control.clock
-/// counts processor time. Throws Error.
+/// Ledger of the named analysis (empty: the last dynamics analysis), after the analyses from which it starts.
+/// control.clock counts processor time. Throws Error.
 Ledger perform_ledger(const formats::Scene& scene, const std::string& analysis, const LedgerSettings& settings,
                       const RunControl& control, const LedgerProgress& progress);
 

@@ -1,4 +1,4 @@
-// Runs without files, heard by listeners.
+// Runs without files, whose rows and states go to listeners.
 #include "mechanism/ledger/replay.hpp"
 
 #include <algorithm>
@@ -18,19 +18,19 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Rows of a window that are compared, at most: fewer where steps are cut for them.
+/// Largest number of compared rows of a window and of a whole run. With error control, rows shorten the steps.
 constexpr int most_rows = 40, most_rows_of_a_run = 200;
 
 double run_time(const formats::Scene& scene) { return scene.integrator.end - scene.integrator.start; }
 
-/// Beginning and end of window i: windows of equal length, their beginnings evenly over the run.
+/// Beginning and end of window i. Windows have equal lengths, and their beginnings are evenly spaced over the run.
 std::pair<double, double> window_times(const formats::IntegratorSpec& integrator, const WindowChoice& choice, int i) {
   const double whole = integrator.end - integrator.start;
   const double start = integrator.start + whole * i / choice.windows;
   return {start, start + choice.share * whole / choice.windows};
 }
 
-/// Its end on the grid of steps that begins at `start`, one step at least, not beyond the run.
+/// End of a window on the grid of steps from `start`, after one step at least and not beyond the run.
 double end_on_grid(const formats::IntegratorSpec& integrator, double start, double end) {
   if (!integrator.error_control.active && integrator.step > 0.0)
     end = start + integrator.step * std::max(1.0, std::round((end - start) / integrator.step));
@@ -86,7 +86,7 @@ class ReplayListener : public RunListener {
   WindowHistory& history_;
 };
 
-/// The scene as a window of itself.
+/// Scene that computes one window of the run.
 formats::Scene windowed(const formats::Scene& scene, const LedgerWindow& window, double whole) {
   formats::Scene part = scene;
   const double length = window.end - window.start;
@@ -102,7 +102,7 @@ formats::Scene windowed(const formats::Scene& scene, const LedgerWindow& window,
     part.output.every = std::max(1, static_cast<int>(steps / rows));
     return part;
   }
-  // What belongs to the length of the run stays as it was.
+  // Defaults that depend on the length of the run keep the values of the whole run.
   formats::ErrorControl& control = integrator.error_control;
   if (control.max_step == 0.0) control.max_step = 0.1 * whole;
   if (control.min_step == 0.0) control.min_step = 1e-12 * whole;
@@ -122,11 +122,11 @@ void require_windows(const formats::Scene& scene, const ReferenceRun& run) {
     throw Error("the run holds no instant at which a window could begin", scene.file, "give it more steps");
 }
 
-/// The first line in which the scene of the results is another one.
+/// Message with the first line in which the scene of the results differs; empty: no difference, or unknown.
 std::string other_scene(const formats::Scene& scene, const BodyFiles& files, const formats::ResultsReader& results) {
   const std::string& stored = results.layout().simulated.text;
   if (!scene.tree || stored.empty()) return {};
-  const bool has_contents = stored.find("\n# ") != std::string::npos;  // not those of former versions
+  const bool has_contents = stored.find("\n# ") != std::string::npos;  // results of former versions have no contents
   std::istringstream there(stored), here(has_contents ? scene_text(scene, files) : formats::block_text(*scene.tree));
   std::string a, b;
   while (true) {
@@ -171,7 +171,7 @@ ReferenceRun windows_of_results(const formats::Scene& scene, const std::string& 
     const auto [start, end] = window_times(scene.integrator, stage.choice, i);
     const auto found = std::ranges::lower_bound(time, start - 1e-9 * run_time(scene));
     if (found == time.end() || *found >= scene.integrator.end) break;
-    if (!run.windows.empty() && *found <= run.windows.back().start) continue;  // stored too rarely
+    if (!run.windows.empty() && *found <= run.windows.back().start) continue;  // two windows share a stored instant
     State state = built.state;
     read_stored_state(built.model, file, *found, state, workspace);
     run.windows.push_back({*found, end_on_grid(scene.integrator, *found, *found + (end - start)), state});

@@ -1,4 +1,4 @@
-// Windows of a run, and the same windows again with a scene that may differ in one effect.
+// Windows of a run, and their repetition with a scene that may differ in one effect.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace tisserand::mechanism {
 
-/// A stretch of a run and the state at its beginning.
+/// Time interval of a run and the state at its beginning.
 struct LedgerWindow {
   double start = 0.0, end = 0.0;
   State begin;
@@ -18,47 +18,45 @@ struct LedgerWindow {
 
 struct WindowChoice {
   int windows = 5;
-  double share = 0.25;  ///< of the time of the run, all windows together
+  double share = 0.25;  ///< fraction of the time of the run that all windows together take
 };
 
-/// What was seen of one window: rows that are measured, how long its steps took, and why it ended early (empty: it did
-/// not).
+/// Record of one window: measured rows, processor time of its steps, and the reason of an early end (empty: none).
 struct WindowHistory {
-  std::optional<Measures> measures;  ///< of the layout of its rows
+  std::optional<Measures> measures;  ///< measures of the layout of its rows
   std::vector<double> time;
   std::vector<MeasuredRow> rows;
-  std::vector<State> states;  ///< of each row, where they are asked for
-  double seconds = 0.0;       ///< of processor time in the steps
+  std::vector<State> states;  ///< state of each row, if requested
+  double seconds = 0.0;       ///< processor time of the steps
   long steps = 0;
   std::string failure;
 };
 
-/// What a replay needs of its surroundings.
+/// Files, control and choices that all replays of a ledger share.
 struct LedgerStage {
   const BodyFiles& files;
-  const RunControl& control;  ///< its clock: of the processor
+  const RunControl& control;  ///< its clock counts processor time
   const WindowChoice& choice;
   const std::vector<std::string>& channels;
 };
 
-/// Runs the scene from `begin` (absent: its poses) without results; keeps the states at which windows begin, and the
-/// largest sizes of what is measured. Throws Error where it does not come to its end; one that is interrupted returns
-/// what there is.
+/// Run of the scene from `begin` (absent: its poses) that writes no results. It keeps the states at which windows begin
+/// and the sizes of the measures. Throws Error if the run ends early. An interrupted run returns what it has.
 struct ReferenceRun {
   std::vector<LedgerWindow> windows;
   std::optional<Measures> measures;
   std::optional<MeasureSizes> sizes;
-  std::string doubt;  ///< of stored results: that they are not of this scene; empty: they are, or do not tell
+  std::string doubt;  ///< warning that stored results belong to another scene; empty: none
 };
 ReferenceRun run_reference(const formats::Scene& scene, const std::optional<State>& begin, const LedgerStage& stage);
 
-/// The windows of `file`, results of the same scene: each begins at the first instant stored after its time.
+/// Windows from `file`, results of the same scene. Each begins at the first stored instant at or after its time.
 ReferenceRun windows_of_results(const formats::Scene& scene, const std::string& file, const LedgerStage& stage);
 
 enum class KeepStates { no, yes };
 
-/// One window of a run of length `whole` with `scene`, whose model `begin` is a state of; absent: from its poses.
-/// Throws Error where the scene cannot begin there.
+/// Replays one window of a run of length `whole` with `scene`. `begin` is a state of its model (absent: its poses).
+/// Throws Error if the scene cannot begin there.
 WindowHistory replay_window(const formats::Scene& scene, const LedgerWindow& window, const std::optional<State>& begin,
                             double whole, KeepStates keep, const LedgerStage& stage);
 

@@ -1,4 +1,4 @@
-// Words and numbers of a ledger.
+// Text and JSON of a ledger.
 #include "mechanism/ledger/table.hpp"
 
 #include <cmath>
@@ -18,7 +18,7 @@ std::string cost_text(double cost) {
   return fmt::format("{} {:.0f} % per step", cost < 0.0 ? "save" : "cost", 100.0 * std::abs(cost));
 }
 
-/// Up to what stands in brackets: the whole is in the JSON.
+/// Reason without its part in brackets. The JSON has the whole.
 std::string without_details(const std::string& reason) { return reason.substr(0, reason.find(" (")); }
 
 std::string line_text(const LedgerLine& line) {

@@ -1,4 +1,4 @@
-// A ledger as lines and as JSON.
+// A ledger as lines of text and as JSON.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace tisserand::mechanism {
 
-/// "7.1 %"; "less than 1e-6 %" of what round-off makes; "1200 %"; "more than 10000 %" of what runs away.
+/// Percentage as text: "7.1 %", "1200 %"; "less than 1e-6 %" at round-off; "more than 10000 %" if a motion diverges.
 std::string percent_text(double part);
 
-/// One line of words per effect and body, the largest change first, then the verdicts on inertia.
+/// One line of text per effect and body in the order of the ledger, then the sentences on inertia.
 std::string ledger_text(const Ledger& ledger, const Units& units);
 std::string ledger_json(const Ledger& ledger);
 

@@ -1,4 +1,4 @@
-// Switches the other way round, and specifications of superelements with what they do without.
+// Inverted switches, and superelement specifications with other options of the second order.
 #include "mechanism/ledger/toggles.hpp"
 
 #include <algorithm>
@@ -109,7 +109,7 @@ class ToggleList {
     return option != InertiaOption::M || spec.frame != formats::FrameKind::paper;
   }
 
-  /// With A and B stiffening is wrong (build/superelements.cpp): it comes with inertia F.
+  /// Stiffening is wrong with inertia A and B (build/superelements.cpp), so it comes with inertia F.
   void add_stiffening(const SuperelementBodySpec& spec, const SecondOrderChoice& own) {
     const bool alone = own.inertia == InertiaOption::M || own.inertia == InertiaOption::F;
     const InertiaOption inertia = alone ? own.inertia : InertiaOption::F;
@@ -191,7 +191,7 @@ formats::Scene toggled(const formats::Scene& scene, const BodyFiles& files, cons
   formats::Scene other = scene;
   if (toggle.change) other.effects.push_back(*toggle.change);
   if (!toggle.replaced) return other;
-  // Without switches, which may mean what the body is now to have.
+  // Switches are applied first, since they could contradict the new specification of the body.
   if (auto switched = with_effects_switched(scene, files)) other = std::move(*switched);
   for (formats::BodySpec& body : other.bodies)
     if (auto* spec = std::get_if<SuperelementBodySpec>(&body); spec != nullptr && spec->name == toggle.owner) {

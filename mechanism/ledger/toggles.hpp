@@ -1,5 +1,5 @@
-// What a ledger tries: the scene with one effect of one body, joint or spring the other way round, or with another
-// inertia option.
+// Variants that a ledger runs: the scene with one effect of one body, joint or spring switched, or with another inertia
+// option.
 #pragma once
 
 #include <optional>
@@ -11,17 +11,17 @@
 
 namespace tisserand::mechanism {
 
-/// In the place of an effect: the choice of the inertia of a superelement.
+/// Word that replaces the name of an effect for the inertia option of a superelement.
 inline constexpr const char* inertia_word = "inertia";
 
-/// What is switched, and how: by a switch, or by the specification of the body where the scene does not have it at all.
+/// One change of the scene: by an effect switch, or by a new body specification if the scene lacks the effect.
 struct Toggle {
-  std::string effect;   ///< word of an effect, or "inertia"
+  std::string effect;   ///< name of an effect, or "inertia"
   std::string owner;    ///< body, joint or spring
-  std::string is;       ///< "on", "off", or the inertia option
-  std::string becomes;  ///< the same
-  std::string with;     ///< what changes along with it, in words, or empty
-  bool works = true;    ///< whether it does work: gyroscopic terms and the choice of the inertia do none
+  std::string is;       ///< present value: "on", "off", or the inertia option
+  std::string becomes;  ///< new value
+  std::string with;     ///< what else changes, as text; may be empty
+  bool works = true;    ///< whether the effect does work: false for gyroscopic terms and the inertia option
   std::optional<formats::EffectSwitch> change;
   std::optional<formats::SuperelementBodySpec> replaced;
 
@@ -29,17 +29,17 @@ struct Toggle {
   std::string subject() const;
 };
 
-/// Which of them are tried; empty: all.
+/// Selection of effects and owners. An empty list selects all.
 struct ToggleChoice {
   std::vector<std::string> effects;
   std::vector<std::string> owners;  ///< bodies, joints, springs
 };
 
-/// The files that all of them may take: companions also of bodies that do without theirs. Throws Error.
+/// Files that all variants may need, with companion files also of bodies that do not use them. Throws Error.
 BodyFiles read_ledger_files(const formats::Scene& scene);
 
-/// Of the effects that the scene has, of those that bodies could have by their files, and of the other inertia options
-/// of superelements. Throws Error for a choice that means nothing.
+/// List of variants: effects of the scene, effects that the files of bodies allow, and other inertia options of
+/// superelements. Throws Error for an unknown or empty choice.
 std::vector<Toggle> toggles_of(const formats::Scene& scene, const BodyFiles& files, const ToggleChoice& choice);
 
 formats::Scene toggled(const formats::Scene& scene, const BodyFiles& files, const Toggle& toggle);
