@@ -1,4 +1,4 @@
-// Hooks of the types of bodies that a model consists of.
+// Hooks of the body types.
 #include "mechanism/model/bodies.hpp"
 
 #include "mechanism/model/element_map.hpp"
@@ -7,7 +7,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// "rod/3" -> "rod".
+/// Name of the beam of a node: "rod/3" -> "rod".
 std::string beam_name(const Model& model, int node) {
   const std::string& name = model.nodes[node].name;
   return name.substr(0, name.rfind('/'));

@@ -1,5 +1,5 @@
-// The types of bodies, listed once, with what each of them must be able to say of itself. A new type of body is a pool
-// of Model, its line in for_each_body_pool(), the hooks below, and those of equations/bodies.hpp.
+// The list of body types and the functions that each type provides. A new body type needs a pool of Model, its line in
+// for_each_body_pool(), the hooks below, and those of equations/bodies.hpp.
 #pragma once
 
 #include <concepts>
@@ -10,22 +10,22 @@
 
 namespace tisserand::mechanism {
 
-// Hooks of a type of body T. Those that are not written for a type do not compile.
+// Hooks of a body type T. A call for a type without its own hook does not compile.
 
-/// Nodes that move with the body, the one that its name and mass belong to first.
+/// Nodes that move with the body. Its name and mass belong to the first one.
 template <class T>
 std::vector<int> attached_nodes(const Model& model, const T& body) = delete;
 template <class T>
 double mass_of(const Model& model, const T& body) = delete;
-/// "rod", also for the elements of a beam.
+/// Name of the body: "rod", also for the elements of a beam.
 template <class T>
 std::string name_of(const Model& model, const T& body) = delete;
-/// Whether it deforms.
+/// Whether the body deforms.
 template <class T>
 bool is_flexible(const T& body) = delete;
 template <class T>
 bool is_damped(const Model& model, const T& body) = delete;
-/// The coordinates of its own rows, in the order of its residual.
+/// Coordinates of the rows of the body, in the order of its residual.
 template <class T>
 ElementMap body_map(const Model& model, const T& body) = delete;
 
@@ -76,8 +76,8 @@ ElementMap body_map(const Model& model, const BeamElement3& beam);
 ElementMap body_map(const Model& model, const RigidBody& body);
 ElementMap body_map(const Model& model, const ModalBody& body);
 
-/// visit(pool) for the pool of every type of body, in the order in which their forces are summed: the one list of
-/// types.
+/// Calls visit(pool) for the pool of each body type, in the order in which their forces are summed. This is the only
+/// list of types.
 template <class AnyModel, class Visit>
 void for_each_body_pool(AnyModel& model, Visit visit) {
   const auto checked = [&visit](auto& pool) {
@@ -91,7 +91,7 @@ void for_each_body_pool(AnyModel& model, Visit visit) {
   checked(model.modal_bodies);
 }
 
-/// visit(body) for every body of every type.
+/// Calls visit(body) for every body of every type.
 template <class Visit>
 void for_each_body(const Model& model, Visit visit) {
   for_each_body_pool(model, [&visit](const auto& pool) {

@@ -70,7 +70,7 @@ double channel_value(const Channel& channel, const MarkerPair& pair, const Coord
 
 ChannelGradient channel_gradient(const Channel& channel, const Relation* relation, const MarkerPair& pair) {
   ChannelGradient gradient;
-  const auto point = [&] {  // of e·(x + R p): [e, p × Rᵀe]
+  const auto point = [&] {  // gradient of e·(x + R p): [e, p × Rᵀe]
     Row12 row = Row12::Zero();
     const Vector3d& e = channel.axis;
     row.segment<3>(0) = e.transpose();

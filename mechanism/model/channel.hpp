@@ -1,4 +1,4 @@
-// Channels: quantities of the mechanism by name, which expressions of loads and springs may use.
+// Channels: named quantities of the mechanism that expressions of loads and springs may use.
 #pragma once
 
 #include <string>
@@ -9,35 +9,34 @@
 
 namespace tisserand::mechanism {
 
-/// A joint coordinate, its rate, the component of the position or velocity of a marker along an axis of the world, or a
-/// quantity of a tyre. The markers are those of the coordinate, or `a` alone (b: ground), that of the wheel.
+/// A joint coordinate, its rate, a position or velocity of a marker along a world axis, or a quantity of a tyre. Its
+/// markers are those of the coordinate; else `a` alone (b: ground), for a tyre on the wheel.
 struct Channel {
   std::string name;
   formats::ChannelKind kind = formats::ChannelKind::coordinate;
   Marker a;
   Marker b;
   int coordinate = -1;                               ///< row of Model::coordinates
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();   ///< of position or velocity: e, world axes
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of position: the value is e·(x − origin)
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();   ///< position, velocity: direction e in world axes
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< position: the value is e·(x − origin)
   int tyre = -1;                                     ///< row of Model::tyres
   formats::TyreQuantity quantity = formats::TyreQuantity::load;
 };
 
-/// Unit of its values; `is_angle`: of its coordinate, if it has one.
+/// Unit of the values of a channel. `is_angle`: whether its coordinate, if any, is an angle.
 std::string channel_unit(const Channel& channel, bool is_angle, const Units& units);
 
-/// Where a channel enters a force: the value of a component of a load, the force of a spring, or the factor of a part
-/// load.
+/// Use of a channel in a force: in a component of a load, the force of a spring, or the factor of a part load.
 struct ChannelUse {
   enum class Owner { load, spring, part_load };
   Owner owner = Owner::load;
-  int index = 0;      ///< in the pool of its owner
-  int component = 0;  ///< of a load
-  int argument = 0;   ///< number among the channels that the expression uses
+  int index = 0;      ///< index in the pool of the owner
+  int component = 0;  ///< component of a load
+  int argument = 0;   ///< index among the channels of the expression
   int channel = 0;    ///< row of Model::channels
 };
 
-/// Value at one instant; `terms`: of its coordinate, if it has one. Those of tyres: tyre_quantity().
+/// Value at one instant. `terms`: those of its coordinate, if any. tyre_quantity() gives the values of tyres.
 double channel_value(const Channel& channel, const MarkerPair& pair, const CoordinateTerms* terms);
 
 /// Derivatives by positions (at fixed ẋ, Ω) and by velocities, columns [x_A Θ_A x_B Θ_B].

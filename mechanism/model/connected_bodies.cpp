@@ -1,4 +1,4 @@
-// Union of nodes by elements, and of parts by joints.
+// Parts as unions of nodes by elements, and groups as unions of parts by joints.
 #include "mechanism/model/connected_bodies.hpp"
 
 #include <map>
@@ -27,8 +27,8 @@ class Sets {
 
 struct NodeFacts {
   Sets sets;
-  std::vector<std::string> name;  ///< of the body
-  std::vector<double> mass;       ///< attributed to a node
+  std::vector<std::string> name;  ///< name of the body
+  std::vector<double> mass;       ///< mass of the bodies whose first node it is
 };
 
 template <class Nodes>

@@ -1,4 +1,4 @@
-// Rigid parts of a model: which nodes would move together if every flexible body were rigid.
+// Parts of a model: sets of nodes that would move together if every flexible body were rigid.
 #pragma once
 
 #include <string>
@@ -11,18 +11,18 @@ namespace tisserand::mechanism {
 
 struct Parts {
   std::vector<int> of_node;       ///< part of each node
-  std::vector<std::string> name;  ///< of the body
-  std::vector<int> first_node;    ///< one node of each, whose place is the part's origin
-  std::vector<double> mass;       ///< 0: a body without mass
+  std::vector<std::string> name;  ///< name of the body
+  std::vector<int> first_node;    ///< one node of each part; its place is the origin of the part
+  std::vector<double> mass;       ///< 0: massless
   int count() const { return count_of(name); }
   bool is_massless(int node) const { return mass[of_node[node]] == 0.0; }
 };
 
-/// One part per superelement, rigid body, nonlinear beam (elements that share nodes) and massless node.
+/// Parts of the model: one per superelement, rigid body, nonlinear beam (elements that share nodes) and massless node.
 Parts find_parts(const Model& model);
 
-/// Parts that joints, springs and couplings connect with each other, directly or through others, by name; the ground is
-/// one of them.
+/// Groups of names of parts that joints, springs and couplings connect, directly or through others. One group contains
+/// the ground.
 std::vector<std::vector<std::string>> connected_groups(const Model& model, const Parts& parts);
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// Coordinates of nodes, one after the other.
+// Maps of elements from the coordinates of their nodes.
 #include "mechanism/model/element_map.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The coordinates that an element, joint or load on given nodes has: where its rows and columns go.
+// Coordinates of an element, joint or load on given nodes: the positions of its rows and columns.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace tisserand::mechanism {
 
-/// Index of the modal node that carries, −1 for ground and nodes that own their coordinates.
+/// Index of the modal node through which a node follows its body. −1: ground, or a node that owns its coordinates.
 inline int modal_node(const Model& model, int node) { return node < 0 ? -1 : model.nodes[node].modal; }
 
-/// The modal body that a modal node belongs to.
+/// Modal body of a modal node.
 inline const ModalBody& modal_body_of(const Model& model, int modal) {
   return model.modal_bodies[model.modal_nodes[modal].body];
 }
@@ -18,7 +18,7 @@ inline const ModalBody& modal_body_of(const Model& model, int modal) {
 /// Appends the coordinates of a node: six (−1 where it owns none; ground: all −1), or 6 + m of the body it follows.
 void append_carrier(const Model& model, int node, std::vector<int>& coordinates);
 
-/// The entries of `global` at the columns of a carrier that owns its coordinates; zero for ground.
+/// Entries of `global` at the columns of a carrier that owns its coordinates; zero for ground.
 template <int D>
 CarrierVector<D> gather_carrier(const int* coordinates, const Eigen::VectorXd& global) {
   CarrierVector<D> local;
@@ -28,14 +28,14 @@ CarrierVector<D> gather_carrier(const int* coordinates, const Eigen::VectorXd& g
   }
   return local;
 }
-/// Adds to them.
+/// Adds `local` to these entries of `global`.
 template <int D>
 void scatter_carrier(const int* coordinates, const CarrierVector<D>& local, Eigen::VectorXd& global) {
   for (int c = 0; c < local.size(); ++c)
     if (const int at = coordinates[Space<D>::columns[c]]; at >= 0) global[at] += local[c];
 }
 
-/// The map of an element on `nodes`: their coordinates one after the other, and the nodes if one follows a modal body.
+/// Map of an element on `nodes`: their coordinates one after the other, and the nodes if one follows a modal body.
 ElementMap carrier_map(const Model& model, const std::vector<int>& nodes);
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// Rows of forces that are not those of their nodes alone.
+// Maps of forces that have more rows than those of their nodes.
 #include "mechanism/model/forces.hpp"
 
 namespace tisserand::mechanism {

@@ -1,6 +1,6 @@
-// The types of forces that act on nodes, listed once, with what each of them must say of itself. A new type of force is
-// a pool of Model, its line in for_each_force_pool(), its traits, and its overloads in equations/forces.hpp. Springs
-// act along joint coordinates and friction acts in joints: they are parts of those.
+// The list of force types that act on nodes, and what each type provides. A new force type needs a pool of Model, its
+// line in for_each_force_pool(), its traits, and its overloads in equations/forces.hpp. Springs belong to joint
+// coordinates, and friction belongs to joints.
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@
 
 namespace tisserand::mechanism {
 
-/// kind: the word for messages. markers: the members at which it acts, none if it acts on a body as a whole. connects:
-/// whether it holds the nodes of its markers to one another, or the only one to the ground, as a load does not. A type
-/// without them does not compile.
+/// Traits of a force type. kind: the word in messages. markers: the members at which it acts; none if it acts on a
+/// whole body. connects: whether it connects its nodes with each other, or its only node with the ground. A load does
+/// not.
 template <class T>
 struct ForceTraits;
 template <>
@@ -40,7 +40,7 @@ struct ForceTraits<PartLoad> {
   static constexpr bool connects = false;
 };
 
-/// The coordinates of its own rows, in the order of its residual: those of its nodes, and what else a type has.
+/// Coordinates of the rows of the force, in the order of its residual: those of its nodes, then its own.
 template <class T>
 ElementMap force_map(const Model& model, const T& force) {
   std::vector<int> nodes;
@@ -50,7 +50,7 @@ ElementMap force_map(const Model& model, const T& force) {
 ElementMap force_map(const Model& model, const Tyre& tyre);
 ElementMap force_map(const Model& model, const PartLoad& load);
 
-/// visit(pool) for the pool of every type of force, in the order in which they are summed: the one list of types.
+/// Calls visit(pool) for the pool of each force type, in the order of summation. This is the only list of types.
 template <class AnyModel, class Visit>
 void for_each_force_pool(AnyModel& model, Visit visit) {
   visit(model.bushings);
@@ -59,7 +59,7 @@ void for_each_force_pool(AnyModel& model, Visit visit) {
   visit(model.part_loads);
 }
 
-/// visit(traits, force) for every force of every type.
+/// Calls visit(traits, force) for every force of every type.
 template <class AnyModel, class Visit>
 void for_each_force(AnyModel& model, Visit visit) {
   for_each_force_pool(model, [&visit]<class AnyPool>(AnyPool& pool) {

@@ -41,7 +41,7 @@ void fill_slots(const SparsePattern& pattern, const EntryFlags& entries, Element
                  [&](int row, int column) { map.slots.push_back(row < 0 ? -1 : pattern.slot(row, column)); });
 }
 
-/// The coordinates of all elements; every list of maps gets one entry per element of its pool.
+/// Sets the coordinates of all elements. Every list of maps gets one entry per element of its pool.
 void number_elements(Model& model) {
   for_each_body_pool(model, [&model](auto& pool) {
     for (const auto& body : pool) pool.maps.push_back(body_map(model, body));
@@ -92,8 +92,8 @@ struct ConstraintBlock {
   EntryFlags entries;
 };
 
-/// Friction loads every coordinate of the markers, by a force that depends on every multiplier; nodes of modal bodies
-/// pass everything on to all coordinates of their body.
+/// Whether a joint needs a full block. Friction loads every coordinate of the markers and depends on every multiplier.
+/// Nodes of modal bodies act on all coordinates of their body.
 bool fills_all(const Model& model, std::size_t joint) {
   return !model.joints.maps[joint].carriers.empty() || std::ranges::any_of(model.frictions, [&](const Friction& f) {
     return static_cast<std::size_t>(f.joint) == joint;
@@ -151,7 +151,7 @@ void number_constraints(Model& model) {
     coordinate.turn = coordinate.relation.kind == RelationKind::angle ? model.sizes.hinges++ : -1;
 }
 
-/// Visits every map that the pattern holds a block of, with the entries that may be nonzero.
+/// Visits every map that has a block in the pattern, with the entries that may be nonzero.
 template <class Visit>
 void for_each_map(Model& model, Visit visit) {
   const EntryFlags all, rigid = rigid_entries();

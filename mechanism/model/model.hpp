@@ -1,4 +1,4 @@
-// Model: all that is constant while a mechanism moves; one pool per type of body, joint and load.
+// Model: all that stays constant while a mechanism moves, with one pool per type of body, joint and force.
 #pragma once
 
 #include <memory>
@@ -29,7 +29,7 @@
 
 namespace tisserand::mechanism {
 
-/// The unit of state: translations and/or rotations at one place; or a node that follows a modal body and owns neither.
+/// Node: translations and/or rotations at one place; or a node that follows a modal body and owns neither.
 struct Node {
   std::string name;
   int translation = -1;  ///< first velocity coordinate of ẋ, −1 if the node owns no translations
@@ -37,28 +37,28 @@ struct Node {
   int modal = -1;        ///< index into Model::modal_nodes, −1 if the node follows no modal body
 };
 
-/// A named place whose motion is reported; a marker, so that rigid bodies can have many.
+/// Named place whose motion is reported. It is a marker, so a rigid body can have many.
 struct Place {
   std::string name;
   Marker marker;
 };
 
-/// Another name of a place: the ends of beams.
+/// Second name of a place: the ends of beams.
 struct PlaceAlias {
   std::string name;
   int place = 0;  ///< index into Model::places
 };
 
-/// A fixed joint between virtual bodies, or of one with its carrier, which vanished when the model was built: both
-/// markers are on the carrier. The first ties hold one follower each, after those that they hang on.
+/// Fixed joint between virtual bodies, or between one and its carrier, that the elimination removed. Both markers are
+/// on the carrier. Tie i holds follower i, after its parent. Ties that close loops come last.
 struct Tie {
   enum class Side { a, b };
   std::string name;
   Marker a;
   Marker b;
-  int parent = -1;       ///< the follower that this one hangs on, −1: the carrier itself
+  int parent = -1;       ///< index of the follower to which this one is attached; −1: the carrier
   Side child = Side::b;  ///< the side of the joint that follows
-  bool is_loop = false;  ///< closes a loop of ties and holds no follower: left without force
+  bool is_loop = false;  ///< closes a loop of ties, holds no follower and carries no force
 };
 
 /// Slots of the rows of a joint or a coupling: B at (row k, column j) and Bᵀ at (j, k), index k + size·j.
@@ -70,11 +70,11 @@ struct ConstraintMap {
 struct Model {
   std::string name;
   Units units;
-  /// Whether all motion stays in the x-y plane of `axes`: nodes then have two translations and one rotation
-  /// (node_coordinates.hpp), about an own axis that is z in them too.
+  /// Whether all motion stays in the x-y plane of `axes`. Nodes then have two translations and one rotation
+  /// (node_coordinates.hpp), whose axis is z in their own axes too.
   bool planar = false;
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< in which the model is computed, world; unit unless planar
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();   ///< of the scene; bodies carry their own
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< axes of the computation in the world; unit unless planar
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();   ///< gravity of the scene; bodies have their own
   double length = 1.0;           ///< characteristic length: extent of the nodes (1 if they coincide)
   double stiffness_scale = 1.0;  ///< largest diagonal entry of ∂r/∂q at the start
   double mass_scale = 1.0;       ///< largest diagonal entry of ∂r/∂v̇ at the start
@@ -86,9 +86,9 @@ struct Model {
   int virtual_nodes = 0;  ///< nodes of virtual bodies
   std::vector<Tie> ties;  ///< of eliminated virtual bodies: row i holds follower i, rows that close loops at the end
 
-  std::vector<SuperelementBody> superelement_bodies;  ///< each with one or many uses
+  std::vector<SuperelementBody> superelement_bodies;  ///< each has one or more uses
   Pool<SuperelementUse> superelements;
-  std::vector<int> internal_offset;  ///< superelements + 1; into the internal coordinates
+  std::vector<int> internal_offset;  ///< size: superelements + 1; offsets of the internal coordinates
   std::vector<std::string> superelement_content_ids;
   Pool<RigidBody> rigid_bodies;
   Pool<ModalBody> modal_bodies;
@@ -101,33 +101,33 @@ struct Model {
   Pool<Coordinate> coordinates;
   Pool<Coupling> couplings;  ///< maps: coordinates of all terms one after the other; no slots
   std::vector<ConstraintMap> coupling_constraint_maps;
-  ExpressionScope scope;  ///< what expressions may use; its channels are those below
+  ExpressionScope scope;  ///< names that expressions may use; its channels are those below
   std::vector<Channel> channels;
   Pool<ChannelUse> channel_uses;                   ///< maps: rows of the owner, then [x_A Θ_A x_B Θ_B] of the channel
   std::vector<formats::TimeFunctionSpec> motions;  ///< f(t) of driven coordinates
-  double motion_spacing = 1e-4;                    ///< of the differences that give their rates
+  double motion_spacing = 1e-4;                    ///< time difference of the quotients for their rates
   std::vector<Spring> springs;
   Pool<Bushing> bushings;
   std::vector<Road> roads;
   Pool<Tyre> tyres;
   Pool<Load> loads;
-  Pool<PartLoad> part_loads;        ///< maps: of their node where the body is rigid, else those of the superelement
-  std::vector<double> breakpoints;  ///< ascending, of all loads
-  /// Where positions of nodes and ground count from, in the world: zero but for scenes that stand far away, whose
-  /// positions would lose digits. Added where positions leave the stage.
+  Pool<PartLoad> part_loads;        ///< maps: of their node if the body is rigid, else of the superelement
+  std::vector<double> breakpoints;  ///< of all loads, ascending
+  /// World position from which positions of nodes and ground count. It is zero unless the scene lies so far away that
+  /// positions would lose digits. Added to positions in the output.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
 
-  /// Factor of each equation and unknown of the iteration matrix: 1/length for rotations, √mass for modes and length
-  /// for constraints of angles, so that pivots do not depend on the unit of length; and the product for each stored
-  /// value.
-  std::vector<bool> length_row;  ///< per constraint: a length, or a number of order one
+  /// `equation_scale`: factor of each equation and unknown of the iteration matrix. It is 1/length for rotations, √mass
+  /// for modes, length for constraints of angles. So pivots do not depend on the unit of length. `value_scale`: product
+  /// of both factors per value.
+  std::vector<bool> length_row;  ///< per constraint: true for a length, false for a number of order one
   Eigen::ArrayXd equation_scale;
   Eigen::ArrayXd value_scale;
   std::unique_ptr<SparsePattern> pattern;  ///< of [A Bᵀ; B 0], boundary coordinates then multipliers
   SolverChoice solver;
 };
 
-/// From the axes of a planar model to the world, and back.
+/// Components in the world from those in the axes of a planar model, and back.
 inline Eigen::Vector3d to_world(const Model& model, const Eigen::Vector3d& v) {
   return model.planar ? Eigen::Vector3d(model.axes * v) : v;
 }
@@ -138,20 +138,20 @@ inline Eigen::Matrix3d to_world(const Model& model, const Eigen::Matrix3d& R) {
   return model.planar ? Eigen::Matrix3d(model.axes * R) : R;
 }
 
-/// The body of a superelement.
+/// Constants of a superelement.
 inline const SuperelementBody& body_of(const Model& model, std::size_t superelement) {
   return model.superelement_bodies[model.superelements[superelement].body];
 }
 
-/// Whether a joint or load can act on the position or the orientation of a node; ground (−1) has both.
+/// Whether a joint or load can act on the position or the orientation of a node. Ground (−1) has both.
 bool has_translation(const Model& model, int node);
 bool has_rotation(const Model& model, int node);
 
-/// "beam/tip, rotation y": velocity coordinate (boundary) or constraint row by name, for messages.
+/// Name of a velocity coordinate or a constraint row for messages: "beam/tip, translation y".
 std::string coordinate_name(const Model& model, int coordinate);
 std::string constraint_name(const Model& model, int row);
 
-/// Numbers the constraints, builds pattern and slots once all pools and nodes are there.
+/// Numbers the constraints and builds pattern and slots, after all pools and nodes are filled.
 void finish_model(Model& model, formats::LinearSolver solver);
 
 }  // namespace tisserand::mechanism

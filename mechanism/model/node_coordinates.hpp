@@ -1,5 +1,5 @@
-// The coordinates of a node in vectors of velocity coordinates: three translations and three rotations, of planar
-// models two and one. What a planar model has not is zero.
+// Coordinates of a node in velocity vectors: three translations and three rotations; in planar models two and one.
+// Missing components are zero.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,13 +11,13 @@ namespace tisserand::mechanism {
 inline int translations_of(const Model& model) { return model.planar ? 2 : 3; }
 inline int rotations_of(const Model& model) { return model.planar ? 1 : 3; }
 
-/// Of the translation, world axes, whose first coordinate is `first`.
+/// Translation (world axes) whose first coordinate is `first`.
 template <class Vector>
 Eigen::Vector3d translation_at(const Model& model, const Vector& v, int first) {
   return {v[first], v[first + 1], model.planar ? 0.0 : v[first + 2]};
 }
 
-/// Of the rotation, material axes.
+/// Rotation (material axes) whose first coordinate is `first`.
 template <class Vector>
 Eigen::Vector3d rotation_at(const Model& model, const Vector& v, int first) {
   if (model.planar) return {0.0, 0.0, v[first]};
@@ -37,7 +37,7 @@ void set_rotation(const Model& model, const Eigen::Vector3d& value, int first, V
     for (int k = 0; k < 3; ++k) v[first + k] = value[k];
 }
 
-/// The coordinate of component `k` of [ẋ Ω] of a node, −1 if the node does not own it.
+/// Coordinate of component `k` of [ẋ Ω] of a node, −1 if the node does not own it.
 inline int coordinate_of(const Model& model, const Node& node, int k) {
   const int first = k < 3 ? node.translation : node.rotation;
   if (first < 0) return -1;

@@ -1,4 +1,4 @@
-// A pool: all items of one type, and where the rows and columns of each go.
+// Pool: all items of one type, and the positions of their rows and columns.
 #pragma once
 
 #include <cstddef>
@@ -7,12 +7,12 @@
 
 namespace tisserand::mechanism {
 
-/// Where the local rows and columns of an element go: coordinate −1 is absent (ground, or not owned by the node).
+/// Global coordinates of the local rows and columns of an element; −1: absent (ground, or not owned by the node).
 /// slots[i + j n]: index of entry (i, j) in the values of the iteration matrix, −1 if absent.
 struct ElementMap {
   std::vector<int> coordinates;
   std::vector<int> slots;
-  std::vector<int> carriers;  ///< the nodes, if one of them follows a modal body (equations/carriers.hpp); else empty
+  std::vector<int> carriers;  ///< nodes, if one of them follows a modal body (equations/carriers.hpp); else empty
 };
 
 /// Items in the order of the scene; maps[i] belongs to item i once the model is finished.

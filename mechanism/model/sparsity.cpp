@@ -1,4 +1,4 @@
-// Structure by kinds of relations; markers at the origin of their node (p = 0) do not feel its rotation.
+// Zero entries by kinds of relations. Markers at the origin of their node (p = 0) do not feel its rotation.
 #include "mechanism/model/sparsity.hpp"
 
 #include <cstddef>
@@ -24,10 +24,10 @@ class Flags {
   EntryFlags flags_;
 };
 
-/// Values that depend on the orientations alone.
+/// Whether the value of a relation depends on orientations alone.
 bool turns_only(RelationKind kind) { return kind == RelationKind::normal || kind == RelationKind::twist; }
 
-constexpr int first_turn[] = {3, 9};  ///< of Θ_A and Θ_B
+constexpr int first_turn[] = {3, 9};  ///< first columns of Θ_A and Θ_B
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// State: all that changes during a run and influences later steps, as one contiguous block with a table of its fields.
+// State: all that changes during a run and influences later steps, in one contiguous block with a table of its fields.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace tisserand::mechanism {
 
-/// Sizes of a model: nodes, velocities (node coordinates, then modal ones, then internal ones), constraints, bodies.
+/// Sizes of a model. Velocity coordinates are those of nodes, then modal ones, then internal ones.
 struct Sizes {
   int nodes = 0;
   int boundary = 0;       ///< velocity coordinates of nodes, then of modes: the global system
-  int modal = 0;          ///< modal coordinates w of modal bodies, the last of `boundary`
+  int modal = 0;          ///< coordinates w of modal bodies and tyres with relaxation, the last of `boundary`
   int internal = 0;       ///< internal coordinates of superelements, eliminated inside the element
   int constraints = 0;    ///< multipliers λ
   int superelements = 0;  ///< floating frames
@@ -22,16 +22,16 @@ struct Sizes {
   int first_modal() const { return boundary - modal; }  ///< velocity coordinate of the first ẇ
 };
 
-/// One named stretch of the state block.
+/// One named range of the state block.
 struct StateField {
   std::string name;
   int offset = 0;
   int size = 0;
 };
 
-/// Positions are x (world) and a unit quaternion Q_WN [w x y z] per node, the modal coordinates w and the internal
-/// coordinates y; velocities, their rates and the algorithmic accelerations are [ẋ world; Ω material] per node, then ẇ,
-/// then ẏ. x and Q of nodes that follow a modal body are those of the start.
+/// State of a mechanism. Positions are x (world) and a unit quaternion Q_WN [w x y z] per node, modal coordinates w and
+/// internal coordinates y. Velocities, their rates and algorithmic accelerations are [ẋ world; Ω material] per node,
+/// then ẇ, then ẏ. x and Q of nodes that follow a modal body keep their initial values.
 class State {
  public:
   static constexpr int version = 6;
@@ -45,10 +45,10 @@ class State {
 
   double& time() { return block_[scalars_ + 0]; }
   double time() const { return block_[scalars_ + 0]; }
-  /// The instant at which loads are evaluated: differs from time() only on one side of a jump.
+  /// Instant at which loads are evaluated. It differs from time() only on one side of a jump.
   double& load_time() { return block_[scalars_ + 1]; }
   double load_time() const { return block_[scalars_ + 1]; }
-  /// The step for which `algorithmic` was built.
+  /// Step size for which `algorithmic` was built.
   double& step() { return block_[scalars_ + 2]; }
   double step() const { return block_[scalars_ + 2]; }
   double& work() { return block_[scalars_ + 3]; }
@@ -57,7 +57,7 @@ class State {
   double dissipated() const { return block_[scalars_ + 4]; }
   double& initial_energy() { return block_[scalars_ + 5]; }
   double initial_energy() const { return block_[scalars_ + 5]; }
-  /// Running maxima of forces, moments and internal forces, which the tests of Newton's iteration refer to.
+  /// Running maxima of forces, moments and internal forces, to which the tests of Newton's iteration are relative.
   double& force_scale(int kind) { return block_[scalars_ + 6 + kind]; }
   double force_scale(int kind) const { return block_[scalars_ + 6 + kind]; }
   /// Powers of loads and of damping at the last accepted step, for the trapezoidal rule.
@@ -65,10 +65,10 @@ class State {
   double load_power() const { return block_[scalars_ + 9]; }
   double& damping_power() { return block_[scalars_ + 10]; }
   double damping_power() const { return block_[scalars_ + 10]; }
-  /// Running maximum of accelerations, of translations relative to the characteristic length [1/time²].
+  /// Running maximum of accelerations; translations relative to the characteristic length [1/time²].
   double& acceleration_scale() { return block_[scalars_ + 11]; }
   double acceleration_scale() const { return block_[scalars_ + 11]; }
-  /// Radians by which bodies in loops have turned since the constraint rows were examined (step/redundancy.hpp).
+  /// Angle [rad] by which bodies in loops have turned since the constraint rows were examined (step/redundancy.hpp).
   double& turned() { return block_[scalars_ + 12]; }
   double turned() const { return block_[scalars_ + 12]; }
 
@@ -95,10 +95,10 @@ class State {
   ConstMap algorithmic() const { return {block_.data() + a_, sizes_.velocities()}; }
   Map lambda() { return {block_.data() + lambda_, sizes_.constraints}; }
   ConstMap lambda() const { return {block_.data() + lambda_, sizes_.constraints}; }
-  /// Rotation of each floating frame at the last accepted step [w x y z] (reference of the incremental mean, eq. (15)).
+  /// Rotation [w x y z] of each floating frame at the last accepted step: R_ref of the mean of THEORY (15).
   Map4 frames() { return {block_.data() + frames_, 4, sizes_.superelements}; }
   ConstMap4 frames() const { return {block_.data() + frames_, 4, sizes_.superelements}; }
-  /// 1: the constraint row is solved for; 0: it repeats what the others demand, and its multiplier is 0.
+  /// Flag per constraint row. 1: it is solved for; 0: it is redundant, and its multiplier is 0.
   Map active() { return {block_.data() + active_, sizes_.constraints}; }
   ConstMap active() const { return {block_.data() + active_, sizes_.constraints}; }
   /// Unwrapped angle of each coordinate that is an angle, at the last accepted step.
@@ -115,7 +115,7 @@ class State {
       active_ = 0;
 };
 
-/// [w x y z] of Q, and back.
+/// Components [w x y z] of a quaternion, and back.
 inline Eigen::Vector4d wxyz(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 inline Eigen::Quaterniond quaternion(const Eigen::Vector4d& Q) { return {Q[0], Q[1], Q[2], Q[3]}; }
 
