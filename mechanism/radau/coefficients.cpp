@@ -1,4 +1,4 @@
-// Numbers of the method.
+// Values of the coefficients.
 #include "mechanism/radau/coefficients.hpp"
 
 #include <cmath>

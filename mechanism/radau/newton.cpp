@@ -1,4 +1,4 @@
-// Stages to residuals, residuals to increments, and when to stop.
+// Newton's iteration: residuals of the stages, increments, tests that end it.
 #include "mechanism/radau/newton.hpp"
 
 #include <algorithm>
@@ -20,13 +20,13 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Largest rotation of a node to a stage [rad]: beyond it rotation vectors are no good unknowns.
+/// Largest rotation of a node to a stage [rad]. Beyond it rotation vectors are poor unknowns.
 constexpr double farthest_turn = 3.0;
 /// With fresh parts the multipliers of a body that turns by θ contract by 2 sin(θ/2). Below half a radian multipliers
 /// that stall have reached round-off; beyond it the step turns too far.
 constexpr double safe_turn = 0.5;
 
-/// R_WN of a node at the state, relative to the axes of the parts.
+/// Rotation of a node from its axes in the parts to its axes in the state.
 Matrix3d turn_since(const State& state, std::size_t node, const Matrix3d& orientation) {
   return quaternion(state.Q().col(static_cast<Eigen::Index>(node))).toRotationMatrix() * orientation.transpose();
 }
@@ -38,7 +38,7 @@ bool regular(const FactorReport& factors, StepReport& report) {
   return false;
 }
 
-/// Turns the translations of a node from `row` on; of planar models about the normal.
+/// Rotates the translations of a node, which begin at `row`. In planar models it rotates about the normal.
 template <class Vector>
 void turn_translations(const Model& model, const Matrix3d& R, int row, Vector&& v) {
   if (model.planar)
@@ -243,7 +243,7 @@ bool Newton::iterate(const Accuracy& accuracy, Stages& stages, State& state, Wor
     const double rows = measure_multipliers(begin, workspace.now, accuracy.multipliers, stages.lambda);
     if (placed && rows <= 1.0) break;
     const bool stalled = last_rows > 0.0 && rows > 0.9 * last_rows;
-    // Multipliers that no iteration settles are taken as they stand only where nothing turns far.
+    // Multipliers that do not converge are accepted only if no node turns far.
     if (placed && stalled && accuracy.fresh_parts && turn < safe_turn) break;
     if (placed && (stalled || count >= accuracy.most_iterations)) return fails(StepOutcome::too_many_iterations);
     last_rows = rows;
@@ -266,7 +266,7 @@ void Newton::project(const Eigen::VectorXd& violation, const Evaluation& evaluat
 void Newton::estimate(const Stages& stages, const State& begin) {
   const Coefficients& method = coefficients();
   const double omega = method.gamma / stages.step;
-  // e_q in correction, e_v in first_; then what meets M and C.
+  // e_q in correction, e_v in first_; then the vectors that M and C multiply.
   correction = stages.d.lazyProduct(method.e) + stages.v_begin / omega;
   first_ = stages.v.lazyProduct(method.e) - method.e.sum() * stages.v_begin + stages.a_begin / omega;
   for_turning_nodes([&](std::size_t node, int row) {

@@ -16,10 +16,10 @@
 
 namespace tisserand::mechanism::radau {
 
-/// Units and limits for increments, which are ratios of measure_error().
+/// Units and limits of increments. The size of an increment is the ratio of measure_error().
 struct Accuracy {
   formats::ErrorControl units;
-  double newton = 1.0;  ///< largest ratio of the increments that are still to come
+  double newton = 1.0;  ///< limit of the predicted ratio of all remaining increments
   int most_iterations = 7;
   double multipliers = 1.0;  ///< largest increment of multipliers relative to the forces
   bool fresh_parts = false;  ///< the tangents were made at the start of this step
@@ -34,21 +34,21 @@ class Newton {
  public:
   explicit Newton(const Model& model);
 
-  /// New parts at the state of the last evaluate().
+  /// Takes new parts at the state of the last evaluate().
   void renew(const State& state, Evaluation& evaluation);
   bool has_parts() const { return parts_.valid; }
-  /// Makes the factors for a step of this size if they are missing; ready_real(): of the real matrix alone. False:
-  /// singular, with the outcome.
+  /// Makes the factors for a step of this size if they are missing. ready_real() makes those of the real matrix alone.
+  /// Returns false with the outcome if a matrix is singular.
   [[nodiscard]] bool ready(double step, StepReport& report);
   [[nodiscard]] bool ready_real(double step, StepReport& report);
-  /// Iterates the predicted stages of the step from the workspace's previous state until they converge. False with an
-  /// outcome; then shorter() is the part of the step to try.
+  /// Iterates the predicted stages of the step from the workspace's previous state until they converge. Returns false
+  /// with an outcome otherwise. Then shorter() is the factor for the next trial step.
   [[nodiscard]] bool iterate(const Accuracy& accuracy, Stages& stages, State& state, Workspace& workspace,
                              StepReport& report);
   /// Sets `correction` to the smallest change, weighted with the real matrix, that removes `violation` from the
   /// constraints: THEORY (75), at the state of the last evaluate().
   void project(const Eigen::VectorXd& violation, const Evaluation& evaluation);
-  /// Into `correction`: the error of positions, THEORY (76), in axes of the state of the parts.
+  /// Sets `correction` to the error of positions, THEORY (76), in axes of the state of the parts.
   void estimate(const Stages& stages, const State& begin);
   void forget();
 
@@ -74,19 +74,19 @@ class Newton {
   TangentParts parts_;
   StageMatrix<double> real_;
   StageMatrix<std::complex<double>> complex_;
-  double real_step_ = 0.0, complex_step_ = 0.0;  ///< of the factors; 0: none
+  double real_step_ = 0.0, complex_step_ = 0.0;  ///< steps of the factors; 0: none
   std::vector<int> turning_, turning_rows_;      ///< nodes of flexible bodies, and their translations
-  Turns axes_;                                   ///< of the nodes, to which the factors belong
+  Turns axes_;                                   ///< axes of the nodes to which the factors belong
   Stages::Columns f_, g_;                        ///< −r and −(B v + Φ_t) of the stages, then the increments
   Eigen::VectorXd real_upper_, real_rows_, first_, second_;
   Eigen::VectorXcd complex_upper_, complex_rows_;
-  std::array<Turns, 3> turns_;  ///< of each stage and node: from the axes of the parts to its own
+  std::array<Turns, 3> turns_;  ///< per stage and node: rotation from the axes of the parts to its own
   double contraction_ = 0.0;
-  double confidence_ = 1.0;  ///< θ/(1 − θ) of the step before
+  double confidence_ = 1.0;  ///< θ/(1 − θ) of the previous step, with its contraction θ
   double shorter_ = 0.5;
 };
 
-/// State of a stage: positions, rates, multipliers, times.
+/// Sets `state` to a stage: positions, rates, multipliers, times.
 void set_stage(const Model& model, const State& begin, int stage, const Stages& stages, State& state);
 
 }  // namespace tisserand::mechanism::radau

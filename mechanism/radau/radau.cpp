@@ -1,4 +1,4 @@
-// The step on a page: predict, iterate, estimate, close, accept. Numbers: docs/THEORY.md.
+// One step: predict, iterate, estimate, close, accept. Formula numbers are those of docs/THEORY.md.
 #include "mechanism/radau/radau.hpp"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ radau::Accuracy Radau::accuracy() const {
     accuracy.most_iterations = std::min(tuning_.most_iterations, options_.max_iterations);
     return accuracy;
   }
-  // Relative to what the step moves, down to round-off.
+  // The tolerance is relative to the motion of the step, but not below round-off.
   formats::ErrorControl whole;
   whole.tolerance = 1.0;
   double motion = 0.0;
@@ -95,7 +95,7 @@ bool Radau::accurate(const State& begin, StepReport& report) {
 bool Radau::ready_to_close(const State& state, Evaluation& now, StepReport& report) {
   if (newton_.contraction() <= tuning_.renew_rate) return true;
   newton_.renew(state, now);
-  parts_age_ = -1;  // those of the next step
+  parts_age_ = -1;  // these are the parts of the next step
   return newton_.ready_real(report.proposed > 0.0 ? report.proposed : stages_.step, report);
 }
 
@@ -170,7 +170,7 @@ StepReport Radau::take_step(const StepEnd& end, State& state, Workspace& workspa
     }
     report.proposed = options_.error_control.active ? 0.5 * stages_.step : 0.0;
   }
-  if (parts_age_ < 0) parts_age_ = 1;  // renewed at an end that was not accepted
+  if (parts_age_ < 0) parts_age_ = 1;  // renewed at the end of a rejected step
   state.block() = begin.block();
   return report;
 }

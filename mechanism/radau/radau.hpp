@@ -4,12 +4,12 @@
 // start of the step, rotations as rotation vectors θ_i.
 //   (73) r(q_i, v_i, v̇_i, λ_i, t_i) = 0,  B v_i + Φ_t = 0,  q_i = q_0 ∘ exp(d_i)                [HW96] VII.1 (1.20)
 //
-//   (74) v_i = T(θ_i) Σ_j w_ij d_j/h; T = 1 but for rotations: the rates of d at the stages are the velocities
+//   (74) v_i = T(θ_i) Σ_j w_ij d_j/h; T = 1 except for rotations: velocities are the rates of d at the stages
 //
 //        v̇_i = Σ_j w_ij (v_j − v_0)/h
 //
-//   (75) q_1 = q_3 ∘ exp(δ), A δ + Bᵀμ = 0, Φ(q_1) = 0; then B v + Φ_t = 0 likewise: δ is of order h⁶, and μ stands
-//        between the steps instead of in the stages                                            [GGL85], [HW96] VII.2
+//   (75) q_1 = q_3 ∘ exp(δ), A δ + Bᵀμ = 0, Φ(q_1) = 0; then B v + Φ_t = 0 likewise: δ is of order h⁶, and μ acts
+//        between the steps, not in the stages                                                 [GGL85], [HW96] VII.2
 //
 //   (76) error of q, with A and B_ω of (77), ω = γ/h: A e + Bᵀμ = ω² M e_q + ω (M e_v + C e_q), B_ω e = B e_q,
 //        e_q = v_0/ω + Σ e_i d_i, e_v = v̇_0/ω + Σ e_i (v_i − v_0)                               [HW96] IV.8 (8.19)
@@ -17,7 +17,7 @@
 //   (77) Newton: unknowns d and λ. With A⁻¹ = T Λ T⁻¹ one real and one complex system
 //        [A Bᵀ; B_ω 0], A = ω² M + ω C + K, B_ω = B + ∂(B v)/∂q/ω, ω = γ/h and (α + iβ)/h          [HW96] IV.8 (8.5)
 //
-// Multipliers are in no error test; they are of order 3, positions and velocities of order 5 where nothing is stiff.
+// The error test omits multipliers. They have order 3, positions and velocities order 5 where nothing is stiff.
 #pragma once
 
 #include "formats/scene/scene.hpp"
@@ -32,14 +32,14 @@ class Radau {
  public:
   Radau(const Model& model, const formats::IntegratorSpec& options);
 
-  /// One step from `state` (accepted, consistent) to `end`, as advance() of step/step.hpp; with error control
-  /// `report.proposed` is the next step, or the one to take instead. Allocates memory only if rows are chosen again.
+  /// Computes one step from `state` (accepted, consistent) to `end`, as advance() of step/step.hpp. With error control
+  /// `report.proposed` is the next step, or the one to try instead. Allocates memory only if rows are chosen again.
   [[nodiscard]] StepReport advance(const StepEnd& end, State& state, Workspace& workspace);
-  /// The state at an instant within the step that was just accepted: of order 4, put onto the constraints.
+  /// Sets `state` to an instant within the last accepted step: of order 4, projected on the constraints.
   void interpolate(double time, State& state, Workspace& workspace);
-  /// Resets: the next step factors and learns from the start.
+  /// Discards factors and history: the next step works like the first.
   void forget();
-  /// The next step does not follow smoothly on the last one.
+  /// Declares a jump: the next step does not predict from the last one.
   void pass_jump() { last_.step = 0.0; }
 
   const SolverHealth& health() const { return newton_.health(); }
@@ -60,8 +60,8 @@ class Radau {
   radau::Tuning tuning_;
   radau::Newton newton_;
   radau::StepSize size_;
-  radau::Stages stages_, last_;  ///< of this step, and of the one accepted before
-  long parts_age_ = 0;           ///< steps since the tangents were renewed; −1: at the end of this one
+  radau::Stages stages_, last_;  ///< of this step, and of the last accepted one
+  long parts_age_ = 0;           ///< steps since the tangents were renewed; −1: renewed at the end of this step
 };
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// One of the two matrices of the simplified Newton iteration: real for γ/h, complex for (α + iβ)/h.
+// Matrix of the simplified Newton iteration: real for γ/h, complex for (α + iβ)/h.
 #pragma once
 
 #include <complex>
@@ -13,8 +13,8 @@
 
 namespace tisserand::mechanism::radau {
 
-/// The matrix of THEORY (77), [ω² M + ω C + K  Bᵀ; B + ∂(B v)/∂q/ω  0], internal coordinates of superelements condensed
-/// (exactly, also where ω is complex), scaled as the saddle systems are.
+/// Matrix of THEORY (77), [ω² M + ω C + K  Bᵀ; B + ∂(B v)/∂q/ω  0], scaled like the saddle systems. Internal
+/// coordinates of superelements are condensed, which is exact also for complex ω.
 template <class Scalar>
 class StageMatrix {
  public:
@@ -24,18 +24,18 @@ class StageMatrix {
   explicit StageMatrix(const Model& model);  ///< symbolic factorisation
 
   [[nodiscard]] FactorReport factor(const Model& model, const TangentParts& parts, Scalar omega);
-  /// upper (boundary and internal coordinates) <- d, rows <- μ with A d + Bᵀ μ = upper, (B + ∂(B v)/∂q/ω) d = rows.
-  /// Rows that are not `active` have μ = 0.
+  /// Solves A d + Bᵀ μ = upper, (B + ∂(B v)/∂q/ω) d = rows in place: `upper` (boundary and internal coordinates)
+  /// becomes d, `rows` becomes μ. Rows that are not `active` have μ = 0.
   void solve(const Model& model, const Eigen::VectorXd& active, Vector& upper, Vector& rows);
   void forget() { solver_.forget(); }
   auto& solver() const { return solver_; }
 
  private:
-  /// A_BI and A_II⁻¹ A_IB of one superelement, and what solves with A_II.
+  /// Condensation of one superelement: A_BI, A_II⁻¹ A_IB and the factors of A_II.
   struct Element {
     Matrix BI, eliminated, condensed;
     Vector inverse_II;
-    Matrix full_II, IB;  ///< only where the damping has a full matrix
+    Matrix full_II, IB;  ///< only if the damping has a full matrix
     Eigen::PartialPivLU<Matrix> lu;
   };
   using Solver = std::conditional_t<std::is_same_v<Scalar, double>, LinearSolver, ComplexSolver>;

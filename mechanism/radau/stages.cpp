@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector4d;
 
-/// Lagrange's polynomials of the stages at τ.
+/// Values at τ of Lagrange's polynomials of the stages.
 Vector3d through_stages(double tau) {
   const Vector3d& c = coefficients().c;
   Vector3d l;
@@ -24,7 +24,7 @@ Vector3d through_stages(double tau) {
   return l;
 }
 
-/// Values and derivatives by τ of Lagrange's polynomials of 0 and the stages, of the start first.
+/// Values and derivatives by τ of Lagrange's polynomials of 0 and the stages. The first belongs to the start.
 struct Basis {
   Vector4d value, slope;
 };
@@ -47,7 +47,7 @@ Basis through_start(double tau) {
   return basis;
 }
 
-/// The polynomial that vanishes at 0 and at the stages, with the slope 1 at 0: value and slope at τ.
+/// Value and slope at τ of the polynomial that vanishes at 0 and at the stages and has slope 1 at 0.
 struct Bubble {
   double value, slope;
 };
@@ -59,7 +59,7 @@ Bubble bubble(double tau) {
   return {tau * p / p0, (p + tau * slope) / p0};
 }
 
-/// T(θ) x or T⁻¹(θ) x for the rotations of all nodes in a column.
+/// Applies T(θ) or T⁻¹(θ) to the rotations of all nodes in a column.
 template <class Map, class Column>
 void map_rotations(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& turns, Map map, Column&& column) {
   for (const Node& node : model.nodes) {

@@ -7,14 +7,14 @@
 namespace tisserand::mechanism::radau {
 namespace {
 
-/// Errors below this part of the tolerance count as it: a lucky step foretells nothing.
+/// Smaller errors, relative to the tolerance, count as this value. A very small error of one step predicts nothing.
 constexpr double least_error = 1e-2;
 
 double quotient(const Tuning& tuning, double quotient) {
   return std::clamp(quotient, 1.0 / tuning.most_growth, 1.0 / tuning.most_reduction);
 }
 
-/// Quotient of this step and the next by the error of this one alone; fewer iterations allow a longer next step.
+/// Quotient of this step and the next, from the error of this step alone. Fewer iterations allow a longer next step.
 double by_error(const Tuning& tuning, double error, int iterations) {
   const int n = 2 * tuning.most_iterations;
   const double factor = std::min(tuning.safety, tuning.safety * (1 + n) / (iterations + n));

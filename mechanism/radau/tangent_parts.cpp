@@ -1,4 +1,4 @@
-// One tangent per coefficient.
+// M, C and K from three tangents with one unit coefficient each.
 #include "mechanism/radau/tangent_parts.hpp"
 
 namespace tisserand::mechanism::radau {

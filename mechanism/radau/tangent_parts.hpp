@@ -1,4 +1,4 @@
-// M, C, K and the constraint rows at one state, separate from each other: they serve all steps until they are renewed.
+// M, C, K and the constraint rows at one state, stored separately. They serve all steps until they are renewed.
 #pragma once
 
 #include <array>
@@ -24,16 +24,16 @@ struct TangentParts {
 
   /// Takes the parts at the state of the last evaluate(); superelements contribute their step tangent.
   void take(const State& state, Evaluation& evaluation);
-  /// upper += (M x_m + C x_c) of all coordinates, rows += B x_b.
+  /// Adds M x_m + C x_c of all coordinates to `upper` and B x_b to `rows`.
   void multiply(const Eigen::VectorXd& x_m, const Eigen::VectorXd& x_c, const Eigen::VectorXd& x_b,
                 Eigen::VectorXd& upper, Eigen::VectorXd& rows) const;
 
   const Model& model;
   bool valid = false;
-  std::array<std::vector<double>, 3> values;  ///< by c_m, c_c, c_k; rows: B, B, B + ∂(B v)/∂q
+  std::array<std::vector<double>, 3> values;  ///< for unit c_m, c_c, c_k; rows: B, B, B + ∂(B v)/∂q
   std::vector<Element> elements;
-  std::vector<Place> place;                  ///< of each stored value
-  std::vector<Eigen::Matrix3d> orientation;  ///< of each node
+  std::vector<Place> place;                  ///< kind of each stored value
+  std::vector<Eigen::Matrix3d> orientation;  ///< axes of each node
   MatrixValues buffer;
 };
 
