@@ -1,4 +1,4 @@
-// Start, analysis and end of a run; what begins again.
+// Start, analysis and end of a run, and its repetition with more effects.
 #include "mechanism/run/attempt.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ void carry_out(Run& run, RowWriter& out) {
   }
 }
 
-/// The first samples of a run, without output: most of what matters does so there, and results cost more.
+/// First samples of a run without output: most effects that matter are found there, and results cost more.
 formats::Scene first_window(formats::Scene scene, double window) {
   scene.integrator.end = std::min(scene.integrator.end, scene.integrator.start + window);
   scene.checkpoint = {};
@@ -93,7 +93,7 @@ RunEnd run_with_fewest(const RunRequest& request, const RunControl& control, Aut
   const bool from_file = !request.restart.empty();
   const auto begin_of = [&](Attempt& attempt) { return automatic.begin_of(attempt.run().built.model); };
   const RunControl silent{control.interrupted, {}, control.clock, {}};
-  RunControl again = control;  // what should be known before the steps is told once
+  RunControl again = control;  // messages before the steps are announced once
   while (automatic.any_off()) {
     const formats::Scene scene = automatic.scene();
     if (!from_file) {

@@ -1,4 +1,4 @@
-// A run of a scene from its start to its report, and runs of a scene that chooses its effects.
+// A run of a scene from its start to its report, and repeated runs of a scene with automatic effects.
 #pragma once
 
 #include <optional>
@@ -14,16 +14,16 @@
 
 namespace tisserand::mechanism {
 
-/// One analysis of a scene: what it reads and starts from, and where its rows go.
+/// Request to run one analysis: its input, its start, and the destination of its rows.
 struct RunRequest {
   const formats::Scene& scene;  ///< with the kind and the settings of this analysis (formats::scene_of)
   const BodyFiles& files;
-  std::optional<State> begin = {};   ///< end of another analysis of the same scene, in place of the poses of the bodies
-  std::string path = {};             ///< of the results; empty: none are stored
-  std::string restart = {};          ///< checkpoint or results file to go on from; empty: none
+  std::optional<State> begin = {};   ///< end of another analysis of the same scene, instead of the poses of the bodies
+  std::string path = {};             ///< path of the results; empty: none are stored
+  std::string restart = {};          ///< checkpoint or results file from which to continue; empty: none
   std::optional<double> at = {};     ///< instant in a results file; absent: the last one
-  Joining joining = Joining::apart;  ///< with `restart`: whether the rows until then are taken over
-  ChangedValues changed = ChangedValues::refused;  ///< with `restart`
+  Joining joining = Joining::apart;  ///< with `restart`: whether the rows until then are copied
+  ChangedValues changed = ChangedValues::refused;  ///< with `restart`: whether changed values are accepted
   RunListener* listener = nullptr;
 };
 
@@ -34,14 +34,14 @@ struct RunEnd {
 
 class Attempt {
  public:
-  /// `scene`: that of the request, or the same with fewer effects.
+  /// `scene`: that of the request, or a copy with fewer effects.
   Attempt(const RunRequest& request, const formats::Scene& scene, const RunControl& control);
   Run& run() { return run_; }
 
-  /// From there, from the poses of the scene (absent), or from the file of the request.
+  /// Starts from `begin`, from the poses of the scene (absent), or from the restart file of the request.
   void start_from(const std::optional<State>& begin);
-  /// Runs the analysis, writes its rows and finishes the results. `automatic`: what has chosen the effects, and watches;
-  /// null: nothing is automatic. Absent: the run must begin again with other effects, and nothing of it stays.
+  /// Runs the analysis, writes its rows and finishes the results. `automatic` has chosen the effects and monitors them
+  /// (null: none is automatic). Absent: the run must begin again with other effects, and its results are discarded.
   std::optional<RunEnd> finish(AutomaticEffects* automatic);
 
  private:
@@ -50,7 +50,7 @@ class Attempt {
   Run run_;
 };
 
-/// Runs with as few effects as can be, until one has all that matter; `whole`: the run with all of them on.
+/// Runs with as few effects as possible, again until all that matter are on. `whole`: the run with all on.
 RunEnd run_with_fewest(const RunRequest& request, const RunControl& control, AutomaticEffects& automatic,
                        Attempt& whole);
 

@@ -1,4 +1,4 @@
-// The choice, what is watched beside a run, and what is told of both.
+// Choice of automatic effects, its monitoring during a run, and its report.
 #include "mechanism/run/automatic_effects.hpp"
 
 #include <algorithm>
@@ -17,15 +17,15 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Steps between two samples, and their part of the run where steps have no fixed size.
+/// Steps between two samples, and their interval as a fraction of the run if steps have no fixed size.
 constexpr double sample_steps = 4.0, sample_part = 0.002;
-/// A run that begins again turns on what matters, and also what is above this part of the tolerance. The second time it
-/// is half of this part, and so on: so a run begins again a few times at most.
+/// A run that begins again turns on what matters, and also what exceeds this fraction of the tolerance. The second time
+/// it is half of this fraction, and so on. So a run begins again only a few times.
 constexpr double nearly = 0.5;
 
 bool is_flexibility(const EffectUse& use) { return use.effect == formats::Effect::flexibility; }
 
-/// The largest displacements of the deformation of a body and of its rate.
+/// Largest displacements of the deformation of a body and of its rate.
 struct Bend {
   double place = 0.0;
   double rate = 0.0;  ///< [length/time]
@@ -99,7 +99,7 @@ void AutomaticEffects::stand_beside(Run& whole) {
 }
 
 void AutomaticEffects::begin(Run& whole, const std::optional<State>& begin) {
-  constexpr double round_off = 1e-10, left = 1e-8;  // of the characteristic length, of the largest speed
+  constexpr double round_off = 1e-10, left = 1e-8;  // relative to the characteristic length, to the largest speed
   stand_beside(whole);
   begin_ = begin;
   const Model& model = whole.built.model;
@@ -128,7 +128,7 @@ void AutomaticEffects::go_on(Run& whole, const std::vector<std::string>& off) {
   for (Use& use : uses_) use.effect.on = std::ranges::find(off, effect_name(use.effect)) == off.end();
 }
 
-/// With the stiffening of what deforms, and with what is welded to it: a rigid piece would hold its neighbour.
+/// Turns on effects, with stiffening, and flexibility of welded bodies: a rigid piece would hold its neighbour.
 void AutomaticEffects::turn_on(std::vector<bool> more) {
   const Model& model = whole_->built.model;
   const std::vector<int> part = welded_parts(model);
@@ -177,7 +177,7 @@ void AutomaticEffects::sample(const Run& run) {
   watch.force = std::max(watch.force, watch.demand.modal_force());
 }
 
-/// So far. Beside modal bodies, whose modes count among what an iteration must resolve, that of the samples.
+/// Largest force so far. With modal bodies that of the samples: the force scale includes forces of their modes.
 double AutomaticEffects::largest_force(const Run& run) const {
   return whole_->built.model.modal_bodies.empty() ? run.built.state.force_scale(0) : watch_->force;
 }
@@ -218,7 +218,7 @@ const State& AutomaticEffects::whole_state(const Run& run) {
   return *whole_state_;
 }
 
-/// Once.
+/// Adds the warning once.
 void AutomaticEffects::doubt(const std::vector<bool>& missed, Run& run) {
   if (std::exchange(watch_->doubted, true)) return;
   std::vector<std::string> names;
@@ -245,7 +245,7 @@ void AutomaticEffects::tell_stressed(RunReport& report) const {
       listed(names), names.size() == 1 ? "this body" : "these bodies"));
 }
 
-/// Elastic forces where the run starts: with flexibility on, an undeformed body bears nothing yet.
+/// Adds a note on elastic forces at the start: with flexibility on, an undeformed body bears no load yet.
 void AutomaticEffects::tell_start_forces(const Run& run, RunReport& report) const {
   const double tolerance = scene_.automatic.tolerance, largest = largest_force(run);
   std::vector<std::string> names;

@@ -1,4 +1,4 @@
-// CVODE's own steps; rows between them; a new start after every breakpoint.
+// Steps by CVODE, rows between them, and a restart after every breakpoint.
 #include "mechanism/run/bdf_run.hpp"
 
 #include <algorithm>
@@ -14,16 +14,16 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Relative to the whole time: instants closer than this are the same.
+/// Instants closer than this fraction of the whole time are equal.
 constexpr double same_instant = 1e-11;
 
-/// Where rows are due and where loads may jump.
+/// Instants of rows and breakpoints of loads.
 struct Instants {
   const formats::Scene& scene;
   const std::vector<double>& breakpoints;
   double round_off;
-  std::size_t breakpoint = 0;  ///< the next one
-  long row = 1;                ///< the next row of `interval`
+  std::size_t breakpoint = 0;  ///< index of the next one
+  long row = 1;                ///< number of the next row of `interval`
   long steps = 0;
 
   StepEnd stop() const {
@@ -44,7 +44,7 @@ void store(Run& run, const Bdf& bdf, StepReport& step, double size, RowWriter& o
   run.doubts.at_state(run.instant());
 }
 
-/// Rows of a step from `before` to the present state.
+/// Stores the rows of a step from `before` to the present state.
 void store_rows(Run& run, Bdf& bdf, Instants& instants, double before, RowWriter& out) {
   const State& state = run.built.state;
   const double now = state.time();
@@ -65,7 +65,7 @@ void store_rows(Run& run, Bdf& bdf, Instants& instants, double before, RowWriter
   if (finished && !at_end) store(run, bdf, step, now - before, out);
 }
 
-/// Why the run must end at the accepted state, or nothing. CVODE's last evaluation is of another state.
+/// Reason to end the run at the accepted state; empty: none. CVODE's last evaluation belongs to another state.
 std::string observe(Run& run) {
   const Model& model = run.built.model;
   if (model.superelements.empty() && model.tyres.empty()) return {};
@@ -73,7 +73,7 @@ std::string observe(Run& run) {
   return why_to_end(run);
 }
 
-/// The end of the next step at the latest: where loads may jump, or the next mark of a road.
+/// Latest end of the next step: the next breakpoint of loads, or the next mark of a road.
 StepEnd bounded(Run& run, const RoadAhead& ahead, const StepEnd& stop, double step) {
   if (!ahead.has_marks()) return stop;
   evaluate(run.built.model, run.built.state, run.workspace.now);

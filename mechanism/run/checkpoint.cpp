@@ -1,4 +1,4 @@
-// Between runs and checkpoint files.
+// Checkpoint files, and runs that continue from files.
 #include "mechanism/run/checkpoint.hpp"
 
 #include <cmath>
@@ -36,7 +36,7 @@ bool is_same_file(const std::string& a, const std::string& b) {
   return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored) || fs::equivalent(a, b, ignored);
 }
 
-/// "arm.results.h5.part" -> "arm.results.h5".
+/// Name of the finished results: "arm.results.h5.part" -> "arm.results.h5".
 std::string final_name(const std::string& results) { return without_ending(results, {".part"}); }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -51,7 +51,7 @@ std::string results_of(const formats::Checkpoint& checkpoint, const std::string&
   return (fs::path(file).parent_path() / fs::path(checkpoint.results).filename()).string();
 }
 
-/// The rows that the run of a checkpoint had stored until then.
+/// Rows that the run of a checkpoint had stored until then.
 formats::ResultsBeginning rows_until(const formats::Checkpoint& checkpoint, const std::string& file) {
   const std::string results = results_of(checkpoint, file);
   if (results.empty())
@@ -68,7 +68,7 @@ formats::ResultsBeginning rows_until(const formats::Checkpoint& checkpoint, cons
       file, "leave --append out and give -o a name of its own");
 }
 
-/// With the report of that run, if it came to write one.
+/// Takes the rows of the previous run, and its report if it was written.
 void begin_with(Run& run, const formats::ResultsBeginning& beginning) {
   run.beginning = beginning;
   run.report.rows = static_cast<long>(beginning.rows);
@@ -91,7 +91,7 @@ std::vector<formats::ValueChange> changes_since(const Run& run, const std::strin
       file, "go on with the scene that wrote it; integrator, output and tolerances may differ");
 }
 
-/// `values`: of the scene that the file belongs to.
+/// Compares the scene with `values`, those of the scene of the file.
 void compare_scenes(Run& run, const std::string& file, const std::string& values, ChangedValues changed) {
   if (run.values.empty()) return;
   if (values.empty()) {

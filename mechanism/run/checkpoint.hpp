@@ -1,4 +1,4 @@
-// Checkpoints of a running analysis, and runs that go on from a checkpoint or from a results file.
+// Checkpoints of a running analysis, and runs that continue from a checkpoint or a results file.
 #pragma once
 
 #include <optional>
@@ -16,23 +16,23 @@
 
 namespace tisserand::mechanism {
 
-/// SHA-256 of what a state block means: version and fields, names of nodes, coordinates and constraints, superelements.
-/// Values (masses, loads, steps) are no part of it.
+/// SHA-256 of the meaning of a state block: version and fields, names of nodes, coordinates and constraints,
+/// superelements. Values (masses, loads, steps) are not part of it.
 std::string fingerprint(const Model& model, const State& state);
 
-/// Writes <results>.checkpoint.h5 when it is due, each replacing the one before.
+/// Writes <results>.checkpoint.h5 when it is due. Each checkpoint replaces the previous one.
 class Checkpoints {
  public:
-  /// "arm.results.h5" -> "arm.checkpoint.h5". `time`: where the run begins or goes on.
+  /// Sets the path: "arm.results.h5" -> "arm.checkpoint.h5". `time`: start of the run.
   Checkpoints(const formats::Scene& scene, const std::string& results, double time);
 
-  /// After an accepted step. Where a checkpoint is written all rows until then are on the disk, and workspace and
-  /// method forget factors and what they have learnt, so that this run and one that goes on from the file execute the
-  /// same arithmetic.
+  /// Writes a checkpoint after an accepted step if it is due. All rows until then are on the disk first. Workspace and
+  /// method discard factors and history, so that this run and one that continues from the file execute the same
+  /// arithmetic.
   void after_step(Run& run, const Schedule& schedule, Stepper& stepper, formats::ResultsWriter& results) {
     if (due_after_step(run.built.state.time())) write(run, schedule, stepper, results);
   }
-  /// Removes what was written, which belongs to no run any more.
+  /// Removes the written checkpoint, which belongs to no run any more.
   void discard() const;
 
  private:
@@ -51,35 +51,35 @@ class Checkpoints {
   bool written_ = false;
 };
 
-/// Which of these automatic effects the run that a file (RestartFile) belongs to had left out: effect_name().
+/// Names (effect_name()) of these automatic effects that are off in the run of a file (RestartFile).
 std::vector<std::string> effects_off(const std::string& file, const std::vector<EffectUse>& uses);
 
 std::string checkpoint_path(const std::string& results);
 
-/// What `--restart` names, and the run that it belongs to.
+/// File that `--restart` names, and the run to which it belongs.
 struct RestartFile {
-  std::string path;  ///< as it lies on the disk: .part where only that is there
+  std::string path;  ///< name on the disk: .part if only that exists
   bool checkpoint = false;
-  std::string results;  ///< name of the results of that run; empty: an older checkpoint does not know it
+  std::string results;  ///< name of the results of that run; empty: unknown to an older checkpoint
 };
 
-/// Throws Error: missing, damaged, of another kind.
+/// Finds the file of `--restart`. Throws Error if it is missing, damaged or of another kind.
 RestartFile find_restart(const std::string& file);
 
-/// Throws Error if writing `results` would overwrite the run that is gone on from: its results, finished or not, or the
-/// checkpoint itself.
+/// Throws Error if writing `results` would overwrite the previous run: its results, finished or not, or the checkpoint
+/// itself.
 void require_apart(const RestartFile& restart, const std::string& results);
 
 enum class Joining { apart, appended };
 
-/// What holds where values of the scene are not those of the run that is gone on from.
+/// Treatment of scene values that differ from those of the previous run.
 enum class ChangedValues { refused, accepted };
 
-/// Puts the run where a checkpoint left it, or at a stored instant (`at`, absent: the last) of a results file: from a
-/// checkpoint bit for bit (same machine, same binary), from results through the start of an analysis, to the tolerance.
-/// Appended, the results begin with the rows of the run that is gone on from, until then (run.beginning).
-/// Throws Error: not of this scene, values that are changed and refused, past the end of the integrator, not dynamics,
-/// channels that are missing, the results of that run not found. Values that are accepted are listed in a note.
+/// Sets the run to a checkpoint, or to a stored instant (`at`, absent: the last) of a results file. A checkpoint is
+/// exact bit for bit (same machine, same binary). Results are accurate to the tolerance, by the start of an analysis.
+/// Appended, the results begin with the rows of the previous run until then (run.beginning). Throws Error: another
+/// scene, refused changes of values, time past the end of the integrator, not dynamics, missing channels, missing
+/// results of that run. A note lists accepted changes.
 void resume(Run& run, const std::string& file, const std::optional<double>& at, Joining joining, ChangedValues changed);
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// Dynamics: the steps of a schedule, and statics as a run.
+// Runs of dynamics, by the steps of a schedule, and of statics.
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -20,24 +20,24 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// What the loop of steps remembers besides the run.
+/// Data of the loop of steps besides the run.
 struct StepLoop {
   Stepper stepper;
   Schedule schedule;
   Checkpoints checkpoints;
-  StepReport last;  ///< of the last accepted step
+  StepReport last;  ///< report of the last accepted step
   double last_size = 0.0;
-  double tried_at, first_tried = 0.0;  ///< where the present step begins, and its size before it was shortened
+  double tried_at, first_tried = 0.0;  ///< start of the present step, and its size before it was shortened
 };
 
-/// The last accepted state of a run that ends early, if the schedule has not stored it.
+/// Stores the last accepted state of a run that ends early, if the schedule has not stored it.
 void write_last_row(Run& run, const StepReport& step, double size, RowWriter& out) {
   const double time = run.built.state.time();
   if (run.report.steps == 0 || out.row.time == time || time < run.scene.output.from) return;
   write_row(run, step, size, out);
 }
 
-/// Rows that the step to the present state has passed without ending there.
+/// Stores the rows that the step to the present state has passed without ending there.
 void store_rows_between(Run& run, StepLoop& loop, RowWriter& out) {
   State& state = run.built.state;
   std::optional<State> end;
@@ -49,7 +49,7 @@ void store_rows_between(Run& run, StepLoop& loop, RowWriter& out) {
   if (end) state.block() = end->block();
 }
 
-/// Why the run ends with a step that failed, or nothing: a shorter one is next.
+/// Reason to end the run after a failed step; empty: a shorter step follows.
 std::string failure_of(Run& run, const StepReport& step, const StepEnd& target, StepLoop& loop) {
   RunReport& report = run.report;
   const double before = run.built.state.time();
@@ -66,8 +66,8 @@ std::string failure_of(Run& run, const StepReport& step, const StepEnd& target, 
                                    run.built.state, run.workspace));
 }
 
-/// Bodies without mass stand where forces put them. If the start is elsewhere, they jump there in the first step, and
-/// what energy that takes is told and no longer counted as lost.
+/// Massless bodies are where forces balance. If they start elsewhere, they jump there in the first step. A note reports
+/// the energy of this jump, and the balance does not count it as lost.
 void settle_start(Run& run, formats::ResultsRow row) {
   constexpr double felt = 1e-3;
   fill_row(run.built.model, run.built.state, run.workspace.now, row);
@@ -81,16 +81,16 @@ void settle_start(Run& run, formats::ResultsRow row) {
                   std::abs(row.balance) / (energy + std::abs(row.balance)), row.balance < 0.0 ? "lost" : "gained"));
 }
 
-/// Bounds the next step by the road ahead.
+/// Limits the next step by the road ahead.
 void look_ahead(Run& run, const RoadAhead& ahead, Schedule& schedule) {
   if (!run.scene.integrator.error_control.active || !ahead.has_marks()) return;
-  // Rows between the ends of steps have left their own evaluation.
+  // Rows between the ends of steps have overwritten the evaluation.
   if (run.scene.integrator.method == formats::Method::radau)
     evaluate(run.built.model, run.built.state, run.workspace.now);
   schedule.bound(ahead.time_to_next(run.built.model, run.workspace.now, schedule.proposal()));
 }
 
-/// What an accepted step to the present state leaves in report and loop, and its rows.
+/// Updates report and loop after an accepted step to the present state, and stores its rows.
 void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, RowWriter& out) {
   RunReport& report = run.report;
   State& state = run.built.state;
@@ -111,7 +111,7 @@ void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, Ro
   loop.stepper.pass_jump();
 }
 
-/// What the stiffness says of the equilibrium that was found.
+/// Reports the stability of the equilibrium that was found, from its stiffness.
 void tell_stability(const StaticsReport& statics, RunReport& report) {
   const Stability& stability = statics.stability;
   if (statics.descents > 0)
@@ -151,7 +151,7 @@ void integrate(Run& run, RowWriter& out) {
                 std::numeric_limits<double>::quiet_NaN()};
   if (!run.schedule_memory.empty()) loop.schedule.restore(run.schedule_memory);
   const RoadAhead ahead(run.scene, model);
-  // A run that is appended has the row of this instant, if the run before it was to store one.
+  // An appended run already has the row of this instant, if the previous run was to store it.
   const bool begins_with_row = run.schedule_memory.empty() ? loop.schedule.output_at_start() : !run.beginning;
   if (begins_with_row) write_row(run, {}, 0.0, out);
   while (!loop.schedule.finished(state.time())) {

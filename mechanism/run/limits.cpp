@@ -1,4 +1,4 @@
-// Limits of angles, what is said of them, and the ends and holes of roads.
+// Limits of angles and their messages, and the ends and holes of roads.
 #include "mechanism/run/limits.hpp"
 
 #include <fmt/format.h>

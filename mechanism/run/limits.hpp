@@ -1,5 +1,5 @@
-// Why a run must end where it stands: nodes of superelements that turn far against their floating frames, tyres at the
-// ends of their roads.
+// Limits at which a run must end: large rotations of nodes against floating frames, and tyres at the ends of their
+// roads.
 #pragma once
 
 #include <string>
@@ -10,19 +10,18 @@
 
 namespace tisserand::mechanism {
 
-/// Largest angles of all superelements over the accepted states of a run. Of a cantilever of one body bent to a circle,
-/// turned by φ at its end (so that its nodes turn by φ/2 against the mean frame), the tip errs by 6.4e-5 of the length
-/// at φ = 0.4, 9.5e-4 at 0.8 and 4.3e-3 at 1.2 with second order; without, by 6.7e-3, 2.6e-2 and 5.9e-2
-/// (docs/MECHANISM_VERIFICATION.md, "Second order: error over angle and deflection").
+/// Largest angles of all superelements over the accepted states of a run. Example: a cantilever of one body bent to a
+/// circle, its end turned by φ (nodes by φ/2 against the mean frame). The tip error relative to the length at φ = 0.4,
+/// 0.8 and 1.2 is 6.4e-5, 9.5e-4 and 4.3e-3 with second order; without it 6.7e-3, 2.7e-2 and 5.9e-2 ([SO] 6).
 class FrameAngles {
  public:
   explicit FrameAngles(const Model& model) : seen_(model.superelements.size()) {}
 
-  /// After an evaluation of an accepted state. Returns why the run must end: a body with stiffening has turned beyond
-  /// where its energy means anything; or nothing.
+  /// Updates the angles after an evaluation of an accepted state. Returns why the run must end: a body with stiffening
+  /// has turned beyond the range of its energy. Empty: it may continue.
   std::string observe(const Model& model, const State& state, const Evaluation& evaluation);
 
-  /// Adds a note or a doubt for each superelement that has turned far.
+  /// Adds a note or a warning for each superelement that has turned far.
   void tell(const Model& model, RunReport& report) const;
 
  private:
@@ -34,8 +33,7 @@ class FrameAngles {
   std::vector<Seen> seen_;
 };
 
-/// After an evaluation of an accepted state: why the run must end, since a tyre has come to an end of its road; or
-/// nothing.
+/// Reason to end the run at an accepted, evaluated state: a tyre has reached an end of its road. Empty: none.
 std::string off_road(const Model& model, const State& state, const Evaluation& evaluation);
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// World-frame motion of the places, reactions, boundary forces and energies of one instant.
+// Motion of places in the world frame, reactions, boundary forces and energies of one instant.
 #include "mechanism/run/output.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// A node that owns no translations or no rotations has none to report.
+/// Blanks the translations or rotations of a node that owns none.
 void blank_missing(const Model& model, const Marker& marker, Eigen::Index column, formats::ResultsRow& row) {
   const auto blank = [column](auto&... values) {
     (values.col(column).setConstant(std::numeric_limits<double>::quiet_NaN()), ...);
@@ -82,7 +82,7 @@ void fill_superelements(const Model& model, Evaluation& evaluation, formats::Res
   }
 }
 
-/// Reactions of the fixed joints that vanished, behind those of the joints.
+/// Fills the reactions of eliminated fixed joints, after those of the joints.
 void fill_ties(const Model& model, const State& state, const double* lambda, Evaluation& evaluation,
                formats::ResultsRow& row) {
   if (model.ties.empty()) return;
@@ -95,7 +95,7 @@ void fill_ties(const Model& model, const State& state, const double* lambda, Eva
   }
 }
 
-/// What the thread of a screw exerts; after evaluate_coordinates().
+/// Reaction of the thread of a screw; after evaluate_coordinates().
 JointReaction thread_reaction(const Model& model, const Joint& joint, const double* lambda,
                               const Evaluation& evaluation) {
   if (joint.thread < 0) return {};
@@ -128,7 +128,7 @@ void fill_joints(const Model& model, const State& state, const double* lambda, E
 
 bool is_gear(const Coupling& coupling) { return coupling.motion < 0 && !coupling.thread; }
 
-/// What drives, gears and racks exert along their coordinates.
+/// Fills the forces of drives, gears and racks along their coordinates.
 void fill_couplings(const Model& model, const double* lambda, formats::ResultsRow& row) {
   Eigen::Index motion = 0, gear = 0;
   for (const Coupling& coupling : model.couplings) {
@@ -214,18 +214,18 @@ void add_force_names(const Model& model, formats::ResultsLayout& layout) {
   for (const Friction& friction : model.frictions) layout.frictions.push_back(model.joints[friction.joint].name);
 }
 
-/// The nodes of a modal body: they follow one another in the order of the bodies.
+/// Nodes of a modal body. They are stored consecutively in the order of the bodies.
 auto nodes_of(const Model& model, std::size_t body) {
   return std::ranges::equal_range(model.modal_nodes, static_cast<int>(body), {}, &ModalNode::body);
 }
 
-/// The name of a node within its body.
+/// Name of a node within its body.
 std::string own_name(const Model& model, const ModalNode& node) {
   const std::string& body = model.modal_bodies[node.body].name;
   return node.name.starts_with(body + "/") ? node.name.substr(body.size() + 1) : node.name;
 }
 
-/// What acts on a node, [force; moment about the node] in axes of the part.
+/// Wrench on a node, [force; moment about the node] in axes of the part.
 Vector6d received(const Model& model, const ModalNode& node, const Vector6d& residual, const Evaluation& evaluation) {
   const ModalBody& body = model.modal_bodies[node.body];
   const Matrix3d to_part = body.axes * motion_of(evaluation, body.node).R.transpose();
@@ -235,7 +235,7 @@ Vector6d received(const Model& model, const ModalNode& node, const Vector6d& res
   return force;
 }
 
-/// Names and offsets of modal bodies, and of those of their nodes that something acts on.
+/// Adds names and offsets of modal bodies, and of those of their nodes on which something acts.
 void add_modal_names(const Model& model, formats::ResultsLayout& layout) {
   layout.modal_offset = layout.modal_node_offset = {0};
   for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
@@ -248,7 +248,7 @@ void add_modal_names(const Model& model, formats::ResultsLayout& layout) {
   }
 }
 
-/// Motion of the frames of modal bodies in axes of their parts, after evaluate().
+/// Fills the motion of the frames of modal bodies in axes of their parts, after evaluate().
 void fill_modal_frames(const Model& model, const Evaluation& evaluation, formats::ResultsRow& row) {
   for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
     const ModalBody& body = model.modal_bodies[i];
@@ -261,7 +261,7 @@ void fill_modal_frames(const Model& model, const Evaluation& evaluation, formats
   }
 }
 
-/// Forces on nodes of modal bodies, after evaluate().
+/// Fills the forces on nodes of modal bodies, after evaluate().
 void fill_modal_forces(const Model& model, const Evaluation& evaluation, formats::ResultsRow& row) {
   Eigen::Index column = 0;
   for (std::size_t k = 0; k < model.modal_nodes.size(); ++k)

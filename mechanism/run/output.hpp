@@ -1,4 +1,4 @@
-// From the accepted state to one row of the results file.
+// Conversion of an accepted state to one row of the results file.
 #pragma once
 
 #include <string>
@@ -12,16 +12,16 @@
 
 namespace tisserand::mechanism {
 
-/// Leaves the places that output.channels stores. After that the model reads no stored states any more. Throws Error
+/// Removes the places that output.channels does not store. After that the model cannot read stored states. Throws Error
 /// for a channel that names no node.
 void keep_chosen_places(const formats::Scene& scene, Model& model);
 
 formats::ResultsLayout results_layout(const Model& model, const formats::Scene& scene);
 
-/// Adds large_output() of rows_to_come() from `time` on, if there is something to say.
+/// Adds large_output() of rows_to_come() from `time` on to the notes, if it is not empty.
 void note_large_output(const formats::Scene& scene, const Model& model, double time, std::vector<std::string>& notes);
 
-/// Evaluates the state and fills all but step, iterations, residual and constraint.
+/// Evaluates the state and fills the row except step, iterations, residual and constraint.
 void fill_row(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row);
 
 }  // namespace tisserand::mechanism

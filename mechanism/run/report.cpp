@@ -16,7 +16,7 @@ const char* outcome_name(RunOutcome outcome) {
   return names[static_cast<int>(outcome)];
 }
 
-/// "flexibility off: crank, block (at most 0.2 tolerances: crank, t = 0.3); on: rod (9 tolerances at t = 0.01)".
+/// Text on the choice of an effect: "flexibility off: crank (at most 0.2 tolerances: crank, t = 0.3); on: rod".
 std::string choice_text(const RunReport& report, const std::string& effect) {
   std::vector<std::string> texts;
   for (const bool on : {false, true}) {
@@ -51,7 +51,7 @@ double relative_balance(const RunReport& report) {
   return report.energy_reference > 0.0 ? report.largest_balance / report.energy_reference : 0.0;
 }
 
-/// Work is counted in dynamics only, and the balance seen at stored instants only.
+/// Whether the report has an energy balance. Work is counted in dynamics only, and the balance at stored instants only.
 bool has_balance(const RunReport& report) {
   return report.analysis == formats::AnalysisKind::dynamics && report.rows > 0;
 }
@@ -128,7 +128,7 @@ std::string report_json(const RunReport& report) {
                      {"start", report.seconds_start},
                      {"steps", report.seconds_steps},
                      {"output", report.seconds_output}};
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);  // names of files may be no UTF-8
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);  // file names may be no UTF-8
 }
 
 std::string report_text(const RunReport& report, const Units& units) {

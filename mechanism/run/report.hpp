@@ -1,4 +1,4 @@
-// What a run says of itself: counts, balance, doubts; as JSON and as text.
+// Report of a run: counts, balance, warnings; as JSON and as text.
 #pragma once
 
 #include <string>
@@ -12,17 +12,17 @@
 
 namespace tisserand::mechanism {
 
-/// What the run has chosen of an automatic effect.
+/// Choice of a run for one automatic effect.
 struct ChosenEffect {
   std::string effect, body;
   bool on = true;
-  double demand = 0.0;  ///< what it would change, over the tolerance: at most, where it is off; else why it is on
-  double time = 0.0;    ///< when
+  double demand = 0.0;  ///< off: bound of its change, over the tolerance; on: the change that turned it on
+  double time = 0.0;    ///< time of this change
 };
 
-/// unstable: statics found an equilibrium in which some direction is unstable.
+/// Outcome of a run. unstable: statics found an equilibrium in which some direction is unstable.
 enum class RunOutcome { completed, unstable, not_converged, interrupted };
-/// Whether the analysis went to its end.
+/// Whether the analysis reached its end.
 inline bool is_finished(RunOutcome outcome) {
   return outcome == RunOutcome::completed || outcome == RunOutcome::unstable;
 }
@@ -30,35 +30,35 @@ inline bool is_finished(RunOutcome outcome) {
 struct RunReport {
   formats::AnalysisKind analysis = formats::AnalysisKind::dynamics;
   RunOutcome outcome = RunOutcome::completed;
-  std::string reason;   ///< of a run that did not complete
+  std::string reason;   ///< why a run did not complete
   std::string results;  ///< path of the results file
-  std::string before;   ///< report (JSON) of the run that this one is appended to, or empty
-  double time = 0.0;    ///< reached
+  std::string before;   ///< report (JSON) of the run to which this one is appended, or empty
+  double time = 0.0;    ///< last time reached
   long steps = 0;
   long iterations = 0;
   long factorisations = 0;
-  long row_choices = 0;  ///< steps at which the constraint rows that are solved for were chosen anew
-  long rejected = 0;     ///< steps taken again with half the size
-  long inaccurate = 0;   ///< of these, steps whose local error was too large
+  long row_choices = 0;  ///< steps at which the active constraint rows were chosen again
+  long rejected = 0;     ///< steps repeated with a smaller size
+  long inaccurate = 0;   ///< of these, steps with a too large local error
   double least_step = 0.0, greatest_step = 0.0;
-  std::vector<std::string> rejections;  ///< the first ones: when and why
-  double largest_constraint = 0.0;      ///< over all steps
+  std::vector<std::string> rejections;  ///< time and reason of the first ones
+  double largest_constraint = 0.0;      ///< largest violation over all steps
   long rows = 0;                        ///< stored instants
   double balance = 0.0;                 ///< energy balance at the last stored instant
-  double largest_balance = 0.0;         ///< over the stored instants
+  double largest_balance = 0.0;         ///< largest size over the stored instants
   double energy_reference = 0.0;        ///< largest energy that moved: EnergyBalance::moved()
   Mobility mobility;
   Preflight preflight;
   std::vector<std::string> not_unique;  ///< joints whose reactions are not unique: those of least norm are stored
   Projection projection;
-  std::string table_title;  ///< of the lines that only this analysis has: poses, modes
+  std::string table_title;  ///< title of lines that only this analysis has: poses, modes
   std::vector<std::string> table;
   std::vector<std::string> notes;
-  std::vector<std::string> scene_notes;  ///< those of `notes` that the scene gives, not the analysis
-  std::vector<std::string> doubts;   ///< of the results, measured while it ran
-  std::vector<std::string> effects;  ///< what the model contains: pools and terms that are on
-  std::string switches;              ///< optional effects that it has, and those that the scene switches off
-  double tolerance = 0.0;            ///< of automatic effects; 0: there are none
+  std::vector<std::string> scene_notes;  ///< those of `notes` that depend on the scene, not on the analysis
+  std::vector<std::string> doubts;   ///< warnings about the results, measured during the run
+  std::vector<std::string> effects;  ///< contents of the model: pools and active terms
+  std::string switches;              ///< optional effects of the model, and those that the scene disables
+  double tolerance = 0.0;            ///< tolerance of automatic effects; 0: there are none
   std::vector<ChosenEffect> automatic;
   long repeated = 0;  ///< steps of runs that began again because an effect that was off mattered
   std::string solver;
@@ -72,12 +72,12 @@ struct RunReport {
   }
 };
 
-/// As JSON (stored in the results file) and as the lines that the command prints.
+/// Report as JSON (stored in the results file) and as the lines that the command prints.
 std::string report_json(const RunReport& report);
 std::string report_text(const RunReport& report, const Units& units);
 
-/// Removes the notes on the scene that a report before has had, `told`, and adds the others to it: analyses of one
-/// command have the same scene.
+/// Removes the notes on the scene that a previous report contained (`told`), and adds the others to `told`. Analyses of
+/// one command share the scene.
 void drop_told_notes(RunReport& report, std::vector<std::string>& told);
 
 }  // namespace tisserand::mechanism

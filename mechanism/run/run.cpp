@@ -27,16 +27,16 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Regularises massless directions where there is no step: their accelerations come from statics.
+/// Step that regularises massless directions in analyses without steps. Their accelerations come from statics.
 constexpr double massless_step = 1e-3;
 
-/// What the model contains: pools and terms that are on.
 bool has_gravity(const Model& model) {
   bool any = false;
   for_each_body(model, [&any](const auto& body) { any = any || !body.gravity.isZero(0.0); });
   return any;
 }
 
+/// List of the contents of the model: pools and active terms.
 std::vector<std::string> effects(const Model& model) {
   std::vector<std::string> list;
   const auto add = [&list](std::size_t count, std::string what) {
@@ -65,7 +65,7 @@ std::vector<std::string> effects(const Model& model) {
   return list;
 }
 
-/// "load 'motor', x component": the value at `time`, with its formula, if it is no finite number.
+/// Text "load 'motor', x component: ..": the value at `time`, with its formula, if it is not finite.
 std::string nonfinite_text(const std::string& what, const formats::TimeFunctionSpec& spec, double time, double value) {
   if (std::isfinite(value)) return {};
   const auto* expression = std::get_if<formats::TimeExpression>(&spec);
@@ -80,8 +80,8 @@ void require_finite_loads(Run& run) {
   if (!bad.empty()) throw Error(bad, run.scene.file, "correct the formula, for example with t > 0 ? .. : ..");
 }
 
-/// `radau` keeps internal coordinates in its systems and counts on a constant block of them, which bodies with
-/// stiffening or inertia F do not have.
+/// Throws Error for `radau` with stiffening or inertia F. It keeps internal coordinates in its systems and needs a
+/// constant block of them, which such bodies do not have.
 void require_method_fits(const Run& run) {
   if (run.scene.analysis != formats::AnalysisKind::dynamics || run.scene.integrator.method != formats::Method::radau)
     return;
@@ -97,10 +97,10 @@ void require_method_fits(const Run& run) {
       run.scene.file, "write 'second_order: off' at these bodies, or use method: generalised_alpha");
 }
 
-/// Notes "body 'a': text" of the same text as one, with the names.
+/// Notes with notes "body 'a': text" of equal text merged to one, which lists the names.
 std::vector<std::string> merged(const std::vector<std::string>& notes) {
   constexpr std::string_view head = "body '", middle = "': ";
-  std::vector<std::pair<std::string, std::vector<std::string>>> texts;  // and the names; none: a note of something else
+  std::vector<std::pair<std::string, std::vector<std::string>>> texts;  // text, names; no names: another note
   for (const std::string& note : notes) {
     const std::size_t end = note.find(middle);
     if (!note.starts_with(head) || end == std::string::npos) {
@@ -124,7 +124,7 @@ std::vector<std::string> merged(const std::vector<std::string>& notes) {
   return result;
 }
 
-/// Which equations repeat what others demand, and whose reactions are not unique for that reason.
+/// Notes redundant constraint equations, and the joints whose reactions are therefore not unique.
 void note_redundancy(Run& run) {
   const Mobility& mobility = run.report.mobility;
   if (mobility.redundant.empty()) return;
@@ -145,7 +145,7 @@ void note_redundancy(Run& run) {
   }
 }
 
-/// Whether all of it is given as zero.
+/// Whether all its values are zero.
 bool rests(const formats::SpringSpec& spring) {
   const auto zero = [](const formats::LawSpec& law) {
     const double* factor = std::get_if<double>(&law);
@@ -158,7 +158,7 @@ bool rests(const formats::BushingSpec& bushing) {
   return bushing.stiffness.isZero(0.0) && bushing.damping.isZero(0.0) && bushing.preload.isZero(0.0);
 }
 
-/// Springs, stops and bushings whose values are zero, as a sweep passes through them.
+/// Notes springs, stops and bushings whose values are all zero, which a sweep may contain.
 void note_resting(Run& run) {
   std::vector<std::string> names;
   for (const formats::SpringSpec& spring : run.scene.springs)
@@ -169,7 +169,7 @@ void note_resting(Run& run) {
     run.report.notes.push_back(fmt::format("without force, since all values are zero: {}", listed(names)));
 }
 
-/// A suspension whose axes are not parallel stands still without any other sign.
+/// Notes locked loops. A suspension whose axes are not parallel does not move, without any other sign.
 void note_locked(Run& run) {
   const std::vector<std::string>& locked = run.report.mobility.locked;
   if (locked.empty()) return;
@@ -179,7 +179,7 @@ void note_locked(Run& run) {
                   listed(locked)));
 }
 
-/// Notes on the scene that follow from its constraints and forces.
+/// Adds notes on the scene that follow from its constraints and forces.
 void note_mechanism(Run& run) {
   const auto before = static_cast<std::ptrdiff_t>(run.report.notes.size());
   note_redundancy(run);
@@ -198,7 +198,7 @@ std::string with_unit(double value, const std::string& unit) {
   return fmt::format("{:.4g}{}", value, after_number(unit));
 }
 
-/// What the start has made of free velocities and initial values.
+/// Notes how the start has chosen free velocities and used initial values.
 void note_start(const StartReport& start, Run& run) {
   std::vector<std::string>& notes = run.report.notes;
   const Units& units = run.scene.units;
@@ -230,7 +230,7 @@ void note_start(const StartReport& start, Run& run) {
                     start.projection.velocity));
 }
 
-/// What the kind of the analysis needs besides a state on the constraints.
+/// Prepares what an analysis needs besides a state that satisfies the constraints.
 void prepare(Run& run) {
   switch (run.scene.analysis) {
     case formats::AnalysisKind::dynamics:
@@ -266,9 +266,9 @@ void prepare(Run& run) {
   }
 }
 
-/// After the row of `time`: once enough is stored, says what the whole will take if its steps stay as they are.
+/// Predicts the size of the results after the row of `time`: announces it once enough rows are stored.
 void foretell_size(double time, Run& run) {
-  constexpr double enough = 1e7;  // bytes: a hundredth of what is worth a word
+  constexpr double enough = 1e7;  // bytes: a hundredth of the size that is announced
   OutputForecast& forecast = run.forecast;
   if (forecast.bytes == 0) return;
   forecast.rows += 1.0;
@@ -341,7 +341,7 @@ void begin_from(Run& run, const State& end) {
 void start(Run& run) {
   require_method_fits(run);
   require_finite_loads(run);
-  if (run.scene.analysis == formats::AnalysisKind::assembly) {  // makes what the others start from
+  if (run.scene.analysis == formats::AnalysisKind::assembly) {  // makes the start of other analyses
     run.report.mobility = count_mobility(run.built.model, run.built.state, run.workspace.now);
     return;
   }
@@ -388,7 +388,7 @@ bool is_interrupted(Run& run) {
 void tell_doubts(Run& run) {
   std::vector<std::string>& doubts = run.report.doubts;
   const auto stressed = [&run]() -> std::vector<bool> {
-    if (run.built.model.planar) return {};  // coordinates out of the plane, which such stress needs, are not there
+    if (run.built.model.planar) return {};  // such stress needs coordinates out of the plane, which do not exist
     evaluate(run.built.model, run.built.state, run.workspace.now);
     return stressed_by_constraints(run.built.model, run.workspace.now);
   };

@@ -1,4 +1,4 @@
-// Analyses that are no matter of a time step: assembly, kinematics, inverse dynamics, modes, from start to rows.
+// Analyses without time integration, from start to rows: assembly, kinematics, inverse dynamics, modes.
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Kinematics knows no reactions, assembly no accelerations either: what was not computed is no number.
+/// Blanks what was not computed. Kinematics has no reactions; assembly has no accelerations either.
 void blank(formats::AnalysisKind kind, formats::ResultsRow& row) {
   const auto blank_all = [](auto&... values) { (values.setConstant(none), ...); };
   blank_all(row.joint_force, row.joint_moment, row.coupling_first_force, row.coupling_second_force, row.motion_force,
@@ -32,7 +32,7 @@ void blank(formats::AnalysisKind kind, formats::ResultsRow& row) {
             row.frame_angular_acceleration, row.modal.acceleration, row.modal.angular_acceleration);
 }
 
-/// Work of drives, loads and dampers by the trapezoidal rule over the step that has ended.
+/// Adds the work of drives, loads and dampers over the last step by the trapezoidal rule.
 void count_work(const Model& model, double size, State& state, const Workspace& workspace) {
   const double damping = damping_power(model, workspace.now);
   state.work() += 0.5 * size * (state.load_power() + workspace.now.load_power);
@@ -41,7 +41,7 @@ void count_work(const Model& model, double size, State& state, const Workspace& 
   state.damping_power() = damping;
 }
 
-/// Forces of the present motion, if the analysis asks for them.
+/// Solves for the forces of the present motion if the analysis needs them. Returns false if it fails.
 bool solve_forces(Run& run) {
   return run.scene.analysis != formats::AnalysisKind::inverse_dynamics ||
          solve_multipliers(run.built.model, run.built.state, run.workspace);
@@ -65,8 +65,8 @@ void stop_at_dead_point(Run& run, double time, const StepReport& step) {
                   run.scene.integrator.max_halvings));
 }
 
-/// What the modes are of the coordinates of superelements and modal bodies: a shape is a velocity, and rows of results
-/// hold rates.
+/// Adds the coordinates of superelements and modal bodies in the modes. A shape is used as a velocity, since rows of
+/// results hold rates.
 void add_body_coordinates(const Run& run, const ModesReport& modes, Evaluation& evaluation, formats::ResultsRow row,
                           formats::ModesTable& table) {
   const Model& model = run.built.model;
@@ -145,7 +145,7 @@ void move_along(Run& run, RowWriter& out) {
     count_work(model, state.time() - before, state, run.workspace);
     if (schedule.accept(state.time()).output) write_motion_row(run, step, state.time() - before, out);
     if (run.control.progress) run.control.progress(state.time());
-    if (run.scene.analysis != formats::AnalysisKind::inverse_dynamics) continue;  // without forces
+    if (run.scene.analysis != formats::AnalysisKind::inverse_dynamics) continue;  // kinematics has no tyre forces
     report.reason = off_road(model, state, run.workspace.now);
     if (report.reason.empty()) continue;
     report.outcome = RunOutcome::not_converged;

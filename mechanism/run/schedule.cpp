@@ -32,7 +32,7 @@ double Schedule::controlled_end(double time) const {
   if (output_.interval && !interpolates_) t = std::min(t, due());
   if (integrator_.end - t < round_off_) t = integrator_.end;
   if (breakpoint_ < breakpoints_.size()) t = std::min(t, breakpoints_[breakpoint_]);
-  // The last two steps before an instant share what is left, so that none is tiny.
+  // The last two steps before an instant share the remaining time, so that none is tiny.
   const double left = t - time, size = std::min(proposal_, bound_);
   if (left <= size * (1.0 + 1e-9)) return t;
   return time + (left < 2.0 * size ? 0.5 * left : size);
@@ -79,8 +79,8 @@ void Schedule::adapt(const StepReport& report, double size) {
   const double next = report.proposed > 0.0
                           ? std::clamp(report.proposed, least_step(integrator_), greatest_step(integrator_))
                           : next_step(integrator_, size, report.error_ratio);
-  // A step cut short by an instant tells nothing against the longer one that was to come; but no step is more than
-  // twice the one before, whose errors the rebuilt acceleration would multiply.
+  // A step cut by an instant does not argue against the longer proposal. But no step is more than twice the previous
+  // one, whose errors the rebuilt acceleration would multiply.
   const bool cut = size < proposal_ * (1.0 - 1e-9);
   const double longer = cut && next >= size ? std::min(std::max(next, proposal_), 2.0 * size) : next;
   proposal_ = retried_ ? std::min(next, size) : longer;

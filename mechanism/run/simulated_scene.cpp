@@ -66,7 +66,7 @@ SimulatedBody described(const formats::VirtualBodySpec&, Files&) {
   return body;
 }
 
-/// Masses in the units of the scene, and origins of floating frames, as the model has them.
+/// Sets masses in the units of the scene, and origins of floating frames, from the model.
 void set_masses(const Model& model, const std::map<std::string, SimulatedBody*>& bodies) {
   for (const RigidBody& rigid : model.rigid_bodies) {
     SimulatedBody& body = *bodies.at(rigid.name);
@@ -85,7 +85,7 @@ void set_masses(const Model& model, const std::map<std::string, SimulatedBody*>&
   for (const ModalBody& modal : model.modal_bodies) bodies.at(modal.name)->mass = modal.mass;
 }
 
-/// Where the nodes are in the part frames of their bodies before anything moves (3 x places).
+/// Positions of the nodes in the part frames of their bodies before any motion (3 x places).
 Eigen::Matrix3Xd node_references(const formats::Scene& scene, const Model& model, const State& start,
                                  const std::vector<int>& body_of_node) {
   Eigen::Matrix3Xd references(3, static_cast<Eigen::Index>(model.places.size()));
@@ -117,7 +117,7 @@ class StoredNodes {
     for (const PlaceAlias& alias : model.place_aliases) by_name_[alias.name] = alias.place;
   }
 
-  /// `name`: the node that the scene names, which is taken if it is stored and the marker is on it.
+  /// Marker on a stored node. `name`: the node that the scene names, preferred if it is stored and the marker is on it.
   SimulatedMarker at(const Marker& marker, const std::string& name) const {
     SimulatedMarker found;
     found.position = marker.p;
@@ -247,7 +247,7 @@ formats::SimulatedScene simulated_scene(const formats::Scene& scene, const BodyF
   std::map<std::string, SimulatedBody*> by_name;
   for (SimulatedBody& body : simulated.bodies) by_name[body.name] = &body;
   set_masses(model, by_name);
-  for (const Place& place : model.places) {  // names of bodies in assemblies hold slashes, those of nodes do not
+  for (const Place& place : model.places) {  // body names in assemblies contain slashes, node names do not
     auto found = index.find(place.name);
     if (found == index.end()) found = index.find(place.name.substr(0, place.name.rfind('/')));
     simulated.body_of_node.push_back(found == index.end() ? -1 : found->second);

@@ -1,4 +1,4 @@
-// The choice of the method, made once.
+// Dispatch to the method, which is chosen once.
 #include "mechanism/run/stepper.hpp"
 
 namespace tisserand::mechanism {

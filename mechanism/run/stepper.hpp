@@ -15,11 +15,11 @@ class Stepper {
 
   /// See advance() of step/step.hpp.
   [[nodiscard]] StepReport advance(const StepEnd& end, State& state, Workspace& workspace);
-  /// The state at an instant within the last step, which ended at `state`. Radau alone.
+  /// Sets `state` to an instant within the last step, which ended at `state`. For Radau only.
   void interpolate(double time, State& state, Workspace& workspace);
-  /// Factors and what was learnt, of workspace and method.
+  /// Discards factors and history of workspace and method.
   void forget(Workspace& workspace);
-  /// A breakpoint of loads was passed.
+  /// Declares that a breakpoint of loads was passed.
   void pass_jump();
   SolverHealth health(const Workspace& workspace) const;
 

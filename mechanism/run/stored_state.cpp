@@ -1,4 +1,4 @@
-// Channels of a row back to nodes, internal coordinates, frames and angles.
+// Conversion of a stored row to nodes, internal coordinates, frames and angles.
 #include "mechanism/run/stored_state.hpp"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ std::size_t find_row(const formats::ResultsReader& reader, const std::string& fi
   return static_cast<std::size_t>(nearest - time.begin());
 }
 
-/// What a planar model would leave out of a stored instant, and where there is most of it.
+/// Motion of a stored instant that a planar model would omit, and its largest values.
 class LeftOut {
  public:
   explicit LeftOut(const Model& model) : model_(model) {}
@@ -70,7 +70,7 @@ class LeftOut {
     raise(speed_, name, std::max(std::abs(velocity.z()), model_.length * omega.head<2>().norm()));
     raise(height_, name, std::abs(height));
   }
-  /// A length and a velocity beside those of the nodes.
+  /// Registers a length and a velocity besides those of the nodes.
   void deflection(const std::string& name, double size) { raise(height_, name, size); }
   void rate(const std::string& name, double size) {
     fastest_ = std::max(fastest_, size);
@@ -79,13 +79,13 @@ class LeftOut {
 
   void require_nothing(const std::string& file) const {
     const auto require = [&file](const Largest& one, const char* what, double size, const char* beside) {
-      if (one.size <= share * size) return;  // not where it is no number
+      if (one.size <= share * size) return;  // false for not-a-number
       throw Error(fmt::format("holds a motion out of the plane of the scene: {} of '{}' is {:.3g} along the normal, "
                               "beside {} of {:.3g}",
                               what, one.name, one.size, beside, size),
                   file, "go on without planar: on");
     };
-    // Of what has come to rest round-off is left: less than this of the scene's size within the step.
+    // At rest, velocities are round-off: within a step they move less than this fraction of the scene's size.
     constexpr double rest = 1e-12;
     if (!(speed_.size * model_.motion_spacing <= rest * model_.length))
       require(speed_, "the velocity", fastest_, "a largest one");
@@ -93,12 +93,12 @@ class LeftOut {
   }
 
  private:
-  static constexpr double share = 1e-6;  // above what runs in space drift by
+  static constexpr double share = 1e-6;  // above the drift of runs in space
   struct Largest {
     double size = 0.0;
     std::string name;
   };
-  /// What is no number stays the largest.
+  /// A not-a-number stays the largest.
   static void raise(Largest& largest, const std::string& name, double size) {
     if (!(size <= largest.size) && !std::isnan(largest.size)) largest = {size, name};
   }
@@ -107,7 +107,7 @@ class LeftOut {
   Largest speed_, height_;
 };
 
-/// The turn about z that R is but for round-off.
+/// Rotation about z that equals R up to round-off.
 Eigen::Quaterniond turn_in_plane(const Eigen::Quaterniond& R) {
   return Eigen::Quaterniond(R.w(), 0.0, 0.0, R.z()).normalized();
 }
@@ -140,7 +140,7 @@ void read_nodes(const Model& model, const StoredRow& stored, State& state, LeftO
   }
 }
 
-/// Canonical internal coordinates of those of the file: the body's, then those of the modes that it leaves out.
+/// Canonical internal coordinates from those of the file: those of the body, then those of its omitted modes.
 VectorXd canonical(const SuperelementBody& body, const VectorXd& file) {
   VectorXd boundary(static_cast<Eigen::Index>(body.file.boundary_row.size())),
       internal(static_cast<Eigen::Index>(body.file.internal_row.size()));

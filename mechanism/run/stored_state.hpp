@@ -1,4 +1,4 @@
-// The state of a scene from one instant of its results file.
+// State of a scene from one instant of its results file.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,11 @@ struct StoredSums {
   double work = 0.0;
   double dissipated = 0.0;
   double initial_energy = 0.0;
-  std::size_t row = 0;  ///< of the instant
+  std::size_t row = 0;  ///< row of the instant
 };
 
-/// Positions, velocities, internal coordinates and their rates, floating frames and unwrapped angles at the stored
-/// instant nearest to `at` (absent: the last). Throws Error: no such instant, channels of `nodes`, `superelements` or
+/// Reads positions, velocities, internal coordinates and their rates, floating frames and unwrapped angles at the
+/// stored instant `at` (absent: the last). Throws Error: no such instant, channels of `nodes`, `superelements` or
 /// `joints/coordinate` that were not stored, names that the scene does not have.
 StoredSums read_stored_state(const Model& model, const std::string& file, const std::optional<double>& at, State& state,
                              Workspace& workspace);
