@@ -1,4 +1,4 @@
-// Linear systems of complex values on the pattern of the real ones: the same three verbs.
+// Linear systems with complex values on the pattern of the real ones.
 #pragma once
 
 #include <complex>
@@ -9,20 +9,20 @@
 
 namespace tisserand::mechanism {
 
-/// KLU, UMFPACK or LAPACK for complex values, as `kind` says of the real ones (both dense ones are LAPACK's here).
+/// KLU, UMFPACK or LAPACK for complex values. `kind` is that of the real solver; both dense kinds are LAPACK's here.
 /// Solutions are not refined: they are increments of iterations that correct them. No allocation in numeric() and
 /// solve() after the first numeric(), except inside UMFPACK.
 class ComplexSolver {
  public:
-  /// Symbolic; the pattern must outlive the solver. Sparse QR is not there: fails for it.
+  /// Symbolic factorisation. The pattern must outlive the solver. There is no complex sparse QR.
   ComplexSolver(const SparsePattern& pattern, SolverKind kind);
   ~ComplexSolver();
 
-  /// `values` must stay as they are until the last solve(). Values that are not finite are not regular.
+  /// Factors `values`, which must not change until the last solve(). Not regular if one is not finite.
   [[nodiscard]] FactorReport numeric(std::span<const std::complex<double>> values);
-  /// In place.
+  /// Solves in place.
   void solve(std::span<std::complex<double>> right_hand_side);
-  /// Forgets pivots and factors, so that the next numeric() does what the first did.
+  /// Discards pivots and factors, so that the next numeric() works like the first.
   void forget();
 
  private:

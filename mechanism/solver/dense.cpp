@@ -1,4 +1,4 @@
-// Dense LU as back ends: a small one of our own, and LAPACK's.
+// Dense LU as back ends: an own one for small systems, and LAPACK's.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -45,8 +45,8 @@ double largest(const Scalar* column, int size) {
   return Eigen::Map<const Eigen::Array<Scalar, Eigen::Dynamic, 1>>(column, size).abs().maxCoeff();
 }
 
-/// Columns are padded to multiples of four rows; the zeros of L and U beside their triangles let every update start and
-/// end at a full register.
+/// Dense LU for small systems. Columns are padded to multiples of four rows. Zeros outside the triangles of L and U let
+/// every update start and end at a full register.
 class SmallDense : public BackEnd {
  public:
   explicit SmallDense(const SparsePattern& pattern);
@@ -61,7 +61,7 @@ class SmallDense : public BackEnd {
   double exchange_rows(int k);
 
   int n_ = 0;
-  int rows_ = 0;  ///< leading dimension, and columns: of multiples of four, zeros behind n
+  int rows_ = 0;  ///< leading dimension and number of columns: multiple of four, zeros after n
   const double* values_ = nullptr;
   std::vector<double> lower_;     ///< L without its unit diagonal, zeros elsewhere
   std::vector<double> upper_;     ///< U without its diagonal, zeros elsewhere
@@ -79,8 +79,8 @@ SmallDense::SmallDense(const SparsePattern& pattern)
       order_(static_cast<std::size_t>(n_), 0),
       work_(static_cast<std::size_t>(rows_), 0.0) {}
 
-/// Brings the largest entry of column k to row k, in L and in what is left of the matrix. Its size is known before its
-/// place: the search for both at once waits for each comparison. Returns the size; not a number if one of them is none.
+/// Swaps the largest entry of column k to row k, in L and in the remaining matrix. Finds the maximum first, then its
+/// index: a combined search cannot be vectorised. Returns the maximum; not-a-number if the column contains one.
 double SmallDense::exchange_rows(int k) {
   const double* a = upper_column(k);
   const double size = Eigen::Map<const Eigen::ArrayXd>(a + k, n_ - k).abs().maxCoeff<Eigen::PropagateNaN>();
@@ -123,8 +123,8 @@ FactorReport SmallDense::factor(const double* values) {
   return {ratio > 0.0, ratio, ratio > 0.0 ? -1 : weakest, 1.0};
 }
 
-/// Four rows at a time, by numbers in the triangle on the diagonal and by registers in the rest; what is behind row n
-/// is zero.
+/// Solves four rows at a time, with scalars in the triangle on the diagonal and with registers in the rest. Entries
+/// after row n are zero.
 void SmallDense::solve(double* b) {
   double* w = work_.data();
   for (int k = 0; k < n_; ++k) w[k] = b[order_[k]];

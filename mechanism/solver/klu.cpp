@@ -22,16 +22,16 @@ struct KluCalls {
   decltype(&klu_free_numeric) free_numeric;
 };
 
-/// Kept pivots are given up where they grow more than the reciprocal of this: half of the digits are gone then, and
-/// what is left of them is what one refinement restores.
+/// Kept pivots are discarded if they grow by more than the reciprocal of this. Then half of the digits are lost, and
+/// one refinement restores only as many.
 constexpr double least_growth = 1e-8;
-/// Factors with more entries than this times KLU's count are tried with the other ordering: chains of bodies exceed the
-/// count by a quarter to a half, what is to be caught by 4 and more.
+/// If factors have more entries than this times KLU's count, the other ordering is tried. Chains of bodies exceed the
+/// count by a quarter to a half, unsuitable orderings 4 times and more.
 constexpr double honest_fill = 2.0;
 /// Orderings of KLU.
 constexpr int by_amd = 0, by_colamd = 1;
 
-/// KLU's interface knows no const; it changes neither pattern nor values.
+/// KLU's interface has no const. It changes neither pattern nor values.
 int* starts(const SparsePattern& pattern) { return const_cast<int*>(pattern.column_start().data()); }
 int* rows(const SparsePattern& pattern) { return const_cast<int*>(pattern.rows().data()); }
 
@@ -47,7 +47,7 @@ constexpr KluCalls real_calls{klu_factor, klu_refactor, klu_solve, klu_rcond, kl
 constexpr KluCalls complex_calls{klu_z_factor, klu_z_refactor, klu_z_solve,
                                  klu_z_rcond,  klu_z_rgrowth,  klu_z_free_numeric};
 
-/// On every place of the pattern one of ±0.5 to ±1.5, four times that on the diagonal, where masses stand.
+/// Made-up values: ±0.5 to ±1.5 at each position, four times that on the diagonal, where masses are.
 std::vector<double> made_up_values(const SparsePattern& pattern) {
   std::vector<double> values;
   std::minstd_rand random(1);
@@ -59,12 +59,12 @@ std::vector<double> made_up_values(const SparsePattern& pattern) {
   return values;
 }
 
-/// Short memory is no singular matrix.
+/// Throws if memory ran out, so that it is not taken for a singular matrix.
 void require_klu_memory(const klu_common& common) {
   if (common.status == KLU_OUT_OF_MEMORY || common.status == KLU_TOO_LARGE) throw std::bad_alloc();
 }
 
-/// A symbolic analysis and the factors that belong to it.
+/// Symbolic analysis and the factors that belong to it.
 struct KluFactors {
   const KluCalls* calls = &real_calls;
   klu_symbolic* symbolic = nullptr;
@@ -76,7 +76,7 @@ struct KluFactors {
     require_klu_memory(common);
     TISSERAND_ENSURE(symbolic != nullptr, "KLU status {}", common.status);
   }
-  /// False: singular, and no factors.
+  /// Factors the matrix. Returns false without factors if it is singular.
   bool factor(const SparsePattern& pattern, double* values, klu_common& common) {
     numeric = calls->factor(starts(pattern), rows(pattern), values, symbolic, &common);
     require_klu_memory(common);
@@ -95,8 +95,8 @@ struct KluFactors {
   double entries() const { return static_cast<double>(numeric->lnz) + numeric->unz; }
 };
 
-/// Fresh pivots: in the order of AMD, which counts on pivots on the diagonal, or, where the zeros there have spoilt its
-/// fill, in that of COLAMD, whose fill no choice of pivots exceeds, if that fills less. Returns what has factors, null
+/// Factors with new pivots. The order of AMD expects pivots on the diagonal, and zeros there can increase its fill.
+/// Then COLAMD, whose bound on fill holds for all pivots, is tried, and the smaller factors stay. Returns those, null
 /// if singular. `by_columns` is analysed when it is first needed.
 KluFactors* factor_anew(const SparsePattern& pattern, double* values, KluFactors& by_diagonal, KluFactors& by_columns,
                         klu_common& common) {
@@ -170,7 +170,7 @@ class Klu : public BackEnd {
   klu_common common_;
   double* values_ = nullptr;
   KluFactors by_diagonal_, by_columns_;
-  KluFactors* used_ = nullptr;  ///< which of them has factors
+  KluFactors* used_ = nullptr;  ///< the one that has factors; null: none
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The door: dispatch to a back end, backward errors, refinement, estimates of condition.
+// Dispatch to a back end, backward errors, refinement, estimates of the condition.
 #include "mechanism/solver/linear_solver.hpp"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ std::unique_ptr<BackEnd> make(const SparsePattern& pattern, SolverKind kind) {
 
 using Vector = Eigen::VectorXd;
 
-/// visit(row, value) for the entries of a column.
+/// Calls visit(row, value) for the entries of a column.
 template <class Visit>
 void for_column(const SparsePattern& pattern, const double* values, int j, Visit visit) {
   if (pattern.storage() == SparsePattern::Storage::dense) {
@@ -62,7 +62,7 @@ double norm_1(const SparsePattern& pattern, const double* values) {
   return largest;
 }
 
-/// residual <- b − A x; returns max |a|.
+/// Subtracts A x from `residual`, which holds b. Returns max |a|.
 double subtract_product(const SparsePattern& pattern, const double* values, const double* x, Vector& residual) {
   double largest = 0.0;
   for (int j = 0; j < pattern.size(); ++j)
@@ -82,14 +82,14 @@ struct LinearSolver::Engine {
   const double* values = nullptr;
   SolverHealth health;
   long factorisations = 0;
-  bool measure = false;  ///< the next solution's backward error
-  bool refine = false;   ///< solutions with these factors
+  bool measure = false;  ///< measure the backward error of the next solution
+  bool refine = false;   ///< refine solutions with these factors
   Vector right, work, sign;
 
   Engine(const SparsePattern& p, SolverKind k)
       : pattern(&p), kind(k), solver(make(p, k)), right(p.size()), work(p.size()), sign(p.size()) {}
 
-  /// |A⁻¹|₁ from below by Hager's method [Hig88]: the maximum of |A⁻¹ x|₁ over |x|₁ = 1 is sought along its gradients.
+  /// Lower bound of |A⁻¹|₁ by Hager's method [Hig88]: searches the maximum of |A⁻¹ x|₁ over |x|₁ = 1 along gradients.
   double inverse_norm() {
     const int n = pattern->size();
     work.setConstant(1.0 / n);
@@ -132,7 +132,7 @@ struct LinearSolver::Engine {
       health.reciprocal_condition = std::min(health.reciprocal_condition, reciprocal_condition());
     }
     health.reciprocal_growth = std::min(health.reciprocal_growth, report.reciprocal_growth);
-    if (kind == SolverKind::qr) report.reciprocal_condition = reciprocal_condition();  // R's diagonal is not shown
+    if (kind == SolverKind::qr) report.reciprocal_condition = reciprocal_condition();  // the interface hides R
     return report;
   }
 

@@ -1,4 +1,4 @@
-// Linear systems with one pattern and many values: symbolic once, numeric when the matrix changes, solve at will.
+// Linear systems with one pattern and many values: one symbolic factorisation, a numeric one for each matrix.
 #pragma once
 
 #include <memory>
@@ -8,10 +8,10 @@
 
 namespace tisserand::mechanism {
 
-/// What solves the systems of a model. `dense`: LU of our own for small systems, LAPACK's above.
+/// Solver of the systems of a model. `dense`: own LU for small systems. `lapack`: LAPACK's LU for larger ones.
 enum class SolverKind { klu, umfpack, dense, lapack, qr };
 
-/// "KLU", "UMFPACK", "dense LU", "dense LU (LAPACK)", "sparse QR".
+/// Name of a solver: "KLU", "UMFPACK", "dense LU", "dense LU (LAPACK)", "sparse QR".
 const char* solver_name(SolverKind kind);
 SparsePattern::Storage solver_storage(SolverKind kind);
 
@@ -19,23 +19,23 @@ SparsePattern::Storage solver_storage(SolverKind kind);
 struct FactorReport {
   bool regular = false;
   double reciprocal_condition = 0.0;  ///< cheap estimate: least over largest pivot (of QR: diagonal entry of R)
-  int singular_column = -1;           ///< where the elimination broke down, if known
-  double reciprocal_growth = 1.0;     ///< least of max|a_j|/max|u_j| over the columns; 1 where it is not looked at
-  double fill = 0.0;  ///< entries of the factors relative to those of the matrix; 0: the solver tells not
+  int singular_column = -1;           ///< column where the elimination broke down, if known
+  double reciprocal_growth = 1.0;     ///< least of max|a_j|/max|u_j| over the columns; 1 if not computed
+  double fill = 0.0;                  ///< entries of the factors relative to those of the matrix; 0: unknown
 };
 
-/// The worst that a solver has seen since it was made. Looked at for factorisations 1, 2, 4, 8, ... and for those
-/// whose pivots look poor.
+/// Worst values since the solver was made. They are measured at factorisations 1, 2, 4, 8, ... and at those with poor
+/// pivots.
 struct SolverHealth {
   double reciprocal_condition = 1.0;  ///< least 1/(|A|₁ |A⁻¹|₁), the second norm estimated
-  double reciprocal_growth = 1.0;     ///< least reciprocal growth of pivots; 1 with QR and UMFPACK, which do not tell
+  double reciprocal_growth = 1.0;     ///< least reciprocal growth of pivots; 1 with QR and UMFPACK (not reported)
   double backward_error = 0.0;        ///< largest |b − A x|∞/(max|a| |x|₁ + |b|∞), before refinement
   double fill = 0.0;                  ///< largest: entries of the factors relative to those of the matrix; 0 with QR
   long refined = 0;                   ///< solutions improved by a step of iterative refinement
 };
 
-/// The only door to KLU, UMFPACK, SuiteSparseQR and LAPACK. No allocation in numeric() and solve() after the first
-/// numeric(), except inside UMFPACK and SuiteSparseQR, which have no other way.
+/// The only interface to KLU, UMFPACK, SuiteSparseQR and LAPACK. No allocation in numeric() and solve() after the first
+/// numeric(), except inside UMFPACK and SuiteSparseQR, which always allocate.
 class LinearSolver {
  public:
   LinearSolver(const SparsePattern& pattern, SolverKind kind);  ///< symbolic; storage of the pattern: solver_storage()
@@ -43,11 +43,11 @@ class LinearSolver {
   LinearSolver(LinearSolver&&) noexcept;
   LinearSolver& operator=(LinearSolver&&) noexcept;
 
-  /// `values` must stay as they are until the last solve().
+  /// Factors the matrix. `values` must not change until the last solve().
   [[nodiscard]] FactorReport numeric(std::span<const double> values);
-  /// In place; with one step of iterative refinement where the backward error of these factors exceeds 1e-13.
+  /// Solves in place, with one step of iterative refinement if the backward error of these factors exceeds 1e-13.
   void solve(std::span<double> right_hand_side);
-  /// Forgets pivots and factors, so that the next numeric() does what the first did. Counts of health stay.
+  /// Discards pivots and factors, so that the next numeric() works like the first. Keeps the values of health.
   void forget();
 
   SolverKind kind() const;

@@ -14,7 +14,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Columns up to which a dense decomposition is taken: a QR of 400 x 400 takes 15 ms, above conjugate gradients are
+/// Largest number of columns for a dense decomposition. A QR of 400 x 400 takes 15 ms. Above, conjugate gradients are
 /// faster.
 constexpr int dense_columns = 400;
 

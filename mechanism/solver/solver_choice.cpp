@@ -1,4 +1,4 @@
-// A model of the time of one factorisation, fed with counts.
+// Estimate of the time of one factorisation from counts on the pattern.
 #include "mechanism/solver/solver_choice.hpp"
 
 #include <algorithm>
@@ -17,19 +17,18 @@ using back_end::Effort, back_end::klu_effort, back_end::klu_trial, back_end::umf
 
 /// Dense storage is not considered above this size (2 MB of values).
 constexpr int dense_limit = 500;
-/// Where UMFPACK's bound of the flops exceeds KLU's count so many times, the count may hold no longer: KLU orders for
-/// pivots on the diagonal, which the zeros of the constraints forbid, and fills 10 to 100 times more (grids of bodies).
-/// It is counted anew on a trial then, unless even the hopeful count is too much work for one.
+/// If UMFPACK's bound of the flops exceeds KLU's count by this factor, the count may be wrong. KLU orders for pivots on
+/// the diagonal, which zeros of the constraints forbid, and then fills 10 to 100 times more (grids of bodies). In this
+/// case a trial factorisation counts the flops, unless the first count already exceeds the second limit.
 constexpr double honest_count = 5.0, most_trial_flops = 2e7;
 
-/// Entries of factors that stay in the nearest cache. What lies beyond them is read more slowly; that is no reason to
-/// read the first ones more slowly too (a car of 234 unknowns and 5800 entries took twice the time with the dense
-/// code).
+/// Entries of the factors that fit into the nearest cache. Only the entries beyond them are counted at the slower rate.
+/// With the slower rate for all, a car of 234 unknowns and 5800 entries got the dense code and took twice the time.
 constexpr double near_entries = 4000.0;
 
 struct Candidate {
   SolverKind kind;
-  double cost;  ///< [ns], of 27 chains, grids and blocks of 22 to 36 000 unknowns mostly within 30 to 50 %
+  double cost;  ///< [ns]; error mostly 30 to 50 % in 27 chains, grids and blocks of 22 to 36 000 unknowns
   double flops;
   double entries;
 };
@@ -46,7 +45,7 @@ std::array<Candidate, 4> candidates(const SparsePattern& pattern) {
   const double reading = 8.0 * std::min(klu.entries, near_entries) + 25.0 * std::max(0.0, klu.entries - near_entries);
   const double never = std::numeric_limits<double>::infinity();
   const bool small = pattern.size() <= dense_limit;
-  // Our dense code skips zeros of U: n/3 rows for each of its entries.
+  // The own dense code skips zeros of U: n/3 rows for each of its entries.
   return {
       Candidate{SolverKind::klu, trusted ? reading + 0.45 * klu.flops : never, klu.flops, klu.entries},
       Candidate{SolverKind::umfpack, 1300.0 * n + 30.0 * entries_of_matrix + 0.3 * umfpack.flops, umfpack.flops,

@@ -1,4 +1,4 @@
-// Positions to compressed columns and back.
+// Compressed columns from positions, and the search for slots.
 #include "mechanism/solver/sparse_pattern.hpp"
 
 #include <algorithm>

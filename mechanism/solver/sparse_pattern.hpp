@@ -1,4 +1,4 @@
-// Where the values of a matrix stand: compressed columns, fixed when the model is built.
+// Positions of the values of a matrix: compressed columns, fixed when the model is built.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ class SparsePattern {
  public:
   enum class Storage { sparse, dense };
 
-  /// Positions may repeat; they are merged.
+  /// Position of an entry. Repeated positions are merged.
   struct Position {
     int row;
     int column;
@@ -21,11 +21,11 @@ class SparsePattern {
   Storage storage() const { return storage_; }
   /// Number of stored values.
   int values() const { return values_; }
-  /// Structural nonzeros (also for dense storage).
+  /// Number of structural nonzeros (also for dense storage).
   int nonzeros() const { return nonzeros_; }
   /// Index into the values of position (row, column), which must be in the pattern.
   int slot(int row, int column) const;
-  /// visit(row, slot) for each position of a column, ascending.
+  /// Calls visit(row, slot) for each position of a column, in ascending order.
   template <class Visit>
   void for_each_in(int column, Visit visit) const {
     for (int at = column_start_[column]; at < column_start_[static_cast<std::size_t>(column) + 1]; ++at)

@@ -25,7 +25,7 @@ class SparseQr : public BackEnd {
     A.i = rows_.data();
     A.itype = CHOLMOD_LONG;
     A.xtype = CHOLMOD_REAL;
-    std::vector<double> values(rows_.size(), 0.0);  // not looked at, but demanded
+    std::vector<double> values(rows_.size(), 0.0);  // required by the interface, but not used
     A.x = values.data();
     A.dtype = CHOLMOD_DOUBLE;
     A.sorted = A.packed = 1;
@@ -41,7 +41,7 @@ class SparseQr : public BackEnd {
     matrix_.x = const_cast<double*>(values);
     double largest = 0.0;
     for (std::size_t k = 0; k < rows_.size(); ++k) largest = std::max(largest, std::abs(values[k]));
-    const double tolerance = 1e-18 * largest;  // columns without a part of their own; poor ones show in the condition
+    const double tolerance = 1e-18 * largest;  // only columns that depend exactly; poor ones show in the condition
     const int done = SuiteSparseQR_numeric<double>(tolerance, &matrix_, factors_, &common_);
     TISSERAND_ENSURE(done, "status {}", common_.status);
     const auto& qr = *factors_;
@@ -62,7 +62,7 @@ class SparseQr : public BackEnd {
   }
 
  private:
-  /// b <- second(first(b)) for the two halves of a solution.
+  /// Replaces b by second(first(b)), the two halves of a solution.
   template <class First, class Second>
   void in_halves(double* b, First first, Second second) {
     cholmod_dense right{};

@@ -13,7 +13,7 @@
 namespace tisserand::mechanism::back_end {
 namespace {
 
-/// Short memory is no singular matrix.
+/// Throws if memory ran out, so that it is not taken for a singular matrix.
 void require_umfpack_memory(int status) {
   if (status == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc();
 }
@@ -36,7 +36,7 @@ class Umfpack : public BackEnd {
       status = umfpack_zi_symbolic(pattern.size(), pattern.size(), starts(), rows(), nullptr, nullptr, &symbolic_,
                                    control_.data(), info_.data());
     }
-    control_[UMFPACK_IRSTEP] = 0;  // refinement is LinearSolver's, where it is needed
+    control_[UMFPACK_IRSTEP] = 0;  // LinearSolver refines where necessary
     require_umfpack_memory(status);
     TISSERAND_ENSURE(status == UMFPACK_OK, "UMFPACK status {}", status);
   }
@@ -85,7 +85,7 @@ class Umfpack : public BackEnd {
     std::copy(result_.begin(), result_.end(), b);
   }
 
-  /// The column of the first pivot that is zero.
+  /// Column of the first zero pivot, −1 if there is none.
   int singular_column() {
     std::vector<int> columns(static_cast<std::size_t>(pattern_.size()));
     std::vector<double> pivots(columns.size());
@@ -103,7 +103,7 @@ class Umfpack : public BackEnd {
   std::array<double, UMFPACK_INFO> info_{};
   void* symbolic_ = nullptr;
   void* numeric_ = nullptr;
-  std::vector<int> integers_;  ///< work of a solution
+  std::vector<int> integers_;  ///< workspace of a solution
   std::vector<double> reals_, result_;
 };
 
