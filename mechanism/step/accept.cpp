@@ -1,4 +1,4 @@
-// What is done once per step.
+// Work done once per step.
 #include "mechanism/step/accept.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// What all methods keep, and the powers integrated by the trapezoidal rule, but those of damped superelements.
+/// Stores what all methods keep, and integrates powers by the trapezoidal rule, except those of damped superelements.
 void accept(const Model& model, double step, const Evaluation& now, Dissipation& dissipation, State& state) {
   settle(model, now, state);
   state.acceleration_scale() = std::max(state.acceleration_scale(), size_of(model, state.algorithmic()));
@@ -67,8 +67,8 @@ void finish(Iteration& it) {
       return;
     }
   }
-  // Index 3 doubly integrates what Newton leaves of its constraints: there a step has to end far below the tolerance,
-  // as it does from the constant prediction.
+  // Index 3 integrates twice what Newton's iteration leaves of its constraints. There a step has to end far below the
+  // tolerance, as it does from the constant prediction.
   if (options.formulation == formats::Formulation::stabilised_index2) {
     memory.predictor.learn(it.model, step, memory.tuning.smooth_rate, memory.previous, it.state);
     age_projection(it.model, memory.tuning, it.workspace.now, memory.projection);

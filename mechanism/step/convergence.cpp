@@ -1,4 +1,4 @@
-// Residuals and violations of one Newton iteration against what they may be.
+// Residuals and violations of one Newton iteration relative to their limits.
 #include "mechanism/step/convergence.hpp"
 
 #include <algorithm>
@@ -12,14 +12,14 @@ namespace {
 using formats::Formulation;
 using formats::IntegratorSpec;
 
-/// Largest error of an iterated floating frame [rad]: its iteration ends at 1e-14 where it converges (frame.hpp), a
-/// larger error is one of a frame that does not.
+/// Largest error of an iterated floating frame [rad]. Its iteration ends at 1e-14 if it converges (frame.hpp). A larger
+/// error shows that it does not.
 constexpr double frame_tolerance = 1e-10;
 /// Allowed violations of constraints relative to the motion of a step, in units of Newton's tolerance. A violation Φ
-/// corresponds to an acceleration of 4 Φ/h² (β about 1/4), so with 5 it may be about as wrong as the forces.
+/// corresponds to an acceleration of 4 Φ/h² (β about 1/4), so with 5 its error may be about that of the forces.
 constexpr double share_of_motion = 5.0;
 
-/// The first NaN stays.
+/// Keeps the larger value and its index. The first NaN stays.
 void raise(double& value, int& at, double candidate, int index) {
   if (candidate <= value || std::isnan(value)) return;
   value = candidate;
@@ -41,9 +41,9 @@ struct Closed {
   double rate = 0.0;  ///< [1/time]
 };
 
-/// A violation Φ corresponds to an acceleration of about 4 Φ/h², a violation B v to B v/h. It is small against the
-/// accelerations of the motion only if Φ is small against their displacement in a step. The limit is not below the
-/// round-off; for Φ this is the round-off of the positions.
+/// Limits of closed constraints. A violation Φ corresponds to an acceleration of about 4 Φ/h², a violation B v to B
+/// v/h. It is small against the accelerations of the motion only if Φ is small against their displacement in a step.
+/// The limit is not below the round-off; for Φ this is the round-off of the positions.
 Closed closed_constraints(const Model& model, const IntegratorSpec& options, double step, const State& state) {
   const double acceleration = std::max(state.acceleration_scale(), size_of(model, state.algorithmic()));
   const double motion = share_of_motion * options.tolerance * step * step * acceleration;
@@ -67,7 +67,7 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
   Norms norms;
   double scale[3];
   for (int k = 0; k < 3; ++k) scale[k] = std::max(state.force_scale(k), evaluation.force_scale[k]);
-  // Forces and moments measure each other through the length, so that a scale of zero in one does not stall the test.
+  // Forces and moments are compared through the length, so that a scale of zero in one does not stall the test.
   const double force = std::max(scale[0], scale[1] / model.length);
   const double internal_ratio = 1.0 / (options.tolerance * std::max(scale[2], 1e-250));
   const double allowed = std::max(options.tolerance * force, force_round_off(model, state)) + 1e-300;

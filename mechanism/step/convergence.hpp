@@ -1,5 +1,5 @@
-// When Newton's iteration of a step has converged: forces against those of the motion, constraints against what it
-// moves.
+// Convergence test of Newton's iteration: forces relative to those of the motion, constraints relative to the motion of
+// a step.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace tisserand::mechanism {
 
-/// Ratios are values divided by what is allowed.
+/// Sizes of residuals and violations. Ratios are values divided by their limits.
 struct Norms {
   double force_ratio = 0.0;
   double constraint_ratio = 0.0;
@@ -26,11 +26,11 @@ struct Norms {
   double worst() const { return std::max(force_ratio, constraint_ratio); }
 };
 
-/// Largest component of boundary coordinates, positions relative to the characteristic length.
+/// Largest component of boundary coordinates. Translations are relative to the characteristic length.
 double size_of(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& increment);
 
-/// Largest residuals against the running maxima of forces, moments and internal forces; largest violations against the
-/// characteristic length (rates: against length/step).
+/// Largest residuals relative to the running maxima of forces, moments and internal forces, and largest violations
+/// relative to the characteristic length (rates: to length/step).
 Norms measure(const Model& model, const formats::IntegratorSpec& options, double step, const State& state,
               Evaluation& evaluation);
 

@@ -1,4 +1,4 @@
-// Mean rates of a step in place of those at its ends.
+// Damping power from mean rates of a step instead of those at its ends.
 #include "mechanism/step/dissipation.hpp"
 
 namespace tisserand::mechanism {

@@ -10,7 +10,7 @@ namespace tisserand::mechanism {
 AlphaParameters alpha_parameters(const formats::IntegratorSpec& spec) {
   AlphaParameters p;
   switch (spec.method) {
-    case formats::Method::bdf:  // their start is that of generalised alpha
+    case formats::Method::bdf:  // these methods start like generalised alpha
     case formats::Method::radau:
     case formats::Method::automatic:
     case formats::Method::generalised_alpha:

@@ -13,7 +13,7 @@ namespace {
 
 using formats::Formulation;
 
-/// Counts new factors. False: singular, which is the outcome.
+/// Counts new factors. Returns false with the outcome if they are singular.
 bool are_regular(const FactorReport& factors, Iteration& it) {
   ++it.report.factorisations;
   if (factors.regular && factors.reciprocal_condition >= singular_condition) return true;
@@ -22,7 +22,7 @@ bool are_regular(const FactorReport& factors, Iteration& it) {
   return false;
 }
 
-/// Factors again at the state of the last evaluation. False: singular.
+/// Factors again at the state of the last evaluation. Returns false if singular.
 bool refactor(Iteration& it) {
   return are_regular(it.workspace.matrix.factor(it.model, it.state, it.scheme.request, it.workspace.now), it);
 }
@@ -33,7 +33,7 @@ bool projection_fails(const Iteration& it) {
          it.report.constraint_ratio > it.last_constraint_ratio;
 }
 
-/// Factors of the position projection at the state of the last evaluation. False: singular.
+/// Factors the position projection at the state of the last evaluation. Returns false if singular.
 bool renew_projection(Iteration& it) {
   return are_regular(renew_projection(it.model, it.state, it.scheme, it.workspace.now, it.workspace.memory.projection),
                      it);
@@ -43,14 +43,14 @@ bool contracts_slowly(const Iteration& it) {
   return it.increment > it.workspace.memory.tuning.slow_rate * it.last_increment;
 }
 
-/// Smallest increment that is no round-off: `increment_floor`, or the round-off of positions if that is larger, as at 1
-/// km from the origin.
+/// Smallest increment above round-off: `increment_floor`, or the round-off of positions if that is larger, as at 1 km
+/// from the origin.
 double floor_of(const Iteration& it) {
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   return std::max(increment_floor, rounding * reach_of(it.model, it.state) / it.model.length);
 }
 
-/// Whether the last increment was as small as round-off lets it become.
+/// Whether the last increment has reached round-off.
 bool round_off(const Iteration& it) {
   const double floor = floor_of(it);
   if (size_of(it.model, it.workspace.matrix.correction) >= floor) return false;
@@ -96,8 +96,8 @@ bool converged(Iteration& it) {
     return false;
   }
   if (norms.worst() <= 1.0) return true;
-  // Kept factors say nothing of multipliers that move no body: those of a plane mechanism that has turned by more than
-  // 60 degrees since would grow from step to step, while positions stand still.
+  // Kept factors do not test multipliers that move no body. Those of a plane mechanism that has turned by more than 60
+  // degrees since would grow from step to step, while positions do not change.
   if (it.factors == Factors::fresh && round_off(it)) return true;
   if (it.count >= it.options.max_iterations) it.report.outcome = StepOutcome::too_many_iterations;
   return false;

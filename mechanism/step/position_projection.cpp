@@ -1,4 +1,4 @@
-// Weight, factors and their age.
+// Weight of the projection, its factors and their age.
 #include "mechanism/step/position_projection.hpp"
 
 #include <algorithm>
@@ -11,13 +11,12 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Weight of every direction, for those without mass and stiffness, relative to the largest: above round-off of the
-/// factors, and far below any body of the same mechanism (mass ratio 1e10).
+/// Weight of every direction relative to the largest, for those without mass and stiffness. It is above round-off of
+/// the factors, and far below any body of the same mechanism (mass ratio 1e10).
 constexpr double least_weight = 1e-12;
 
-/// A coordinate without mass that gives way to a force by more than this (1 is about what the heaviest body does, 1e12
-/// what the least weight does) is held by no constraint: nothing but the least weight would bound what (B₀ − B_m)ᵀμ₁
-/// does to it.
+/// No constraint holds a massless coordinate that yields to a force by more than this (1 is about the heaviest body,
+/// 1e12 the least weight). Only the least weight would then bound the effect of (B₀ − B_m)ᵀμ₁ on it.
 constexpr double most_give = 1e4;
 
 bool serves(const PositionProjection& projection, double step) {
@@ -25,7 +24,7 @@ bool serves(const PositionProjection& projection, double step) {
          projection.step <= 2.0 * step;
 }
 
-/// The least weight for all coordinates; and which of them turn a body with mass.
+/// Adds the least weight to all coordinates. Finds the rotations of bodies with mass.
 void weigh(const Model& model, PositionProjection& projection) {
   std::vector<double>& values = projection.system->matrix.values;
   const auto weight = [&](int i) -> double& { return values[model.pattern->slot(i, i)]; };
@@ -39,20 +38,20 @@ void weigh(const Model& model, PositionProjection& projection) {
   }
 }
 
-/// Which of the coordinates without mass constraints hold: those that give way to forces on all of them are not held.
+/// Finds the massless coordinates that constraints hold. Those that yield to forces on all of them are not held.
 void find_held(const Model& model, PositionProjection& projection) {
   const int n = model.sizes.boundary;
   if (projection.held.minCoeff() > 0.0) return;
   SaddleSystem& system = *projection.system;
   system.unknowns.setZero();
-  for (int i = 0; i < n; ++i)  // of unlike sizes, which cancel along no direction
+  for (int i = 0; i < n; ++i)  // of different sizes, so that they cancel along no direction
     if (projection.held[i] == 0.0) system.unknowns[i] = (1.0 + std::fmod(0.618 * i, 1.0)) / model.equation_scale[i];
   system.solve(model);
   for (int i = 0; i < n; ++i)
     if (std::abs(system.unknowns[i]) <= most_give * model.equation_scale[i]) projection.held[i] = 1.0;
 }
 
-/// Where the matrix holds B₀ᵀ.
+/// Positions of B₀ᵀ in the matrix.
 std::vector<PositionProjection::Entry> entries_of_rows(const Model& model) {
   std::vector<PositionProjection::Entry> entries;
   for (int row = 0; row < model.sizes.constraints; ++row)
@@ -62,14 +61,14 @@ std::vector<PositionProjection::Entry> entries_of_rows(const Model& model) {
   return entries;
 }
 
-/// B₀ of the matrix that was made for the factors.
+/// Stores B₀ of the matrix that was made for the factors.
 void keep_rows(const Model& model, PositionProjection& projection) {
   const std::vector<double>& values = projection.system->matrix.values;
   for (PositionProjection::Entry& entry : projection.entries)
     entry.value = values[entry.slot] / model.value_scale[entry.slot];
 }
 
-/// μ₁ for a step of this length: δ, and with it μ over the scale of the matrix, goes with the cube of the step.
+/// Scales μ₁ to a step of this length. δ, and with it μ over the scale of the matrix, grows with the cube of the step.
 void expect(double step, PositionProjection& projection) {
   projection.taken = step;
   if (projection.expected_step == 0.0) return;
@@ -81,8 +80,8 @@ void expect(double step, PositionProjection& projection) {
     projection.old[entry.coordinate] += entry.value * projection.expected[entry.row];
 }
 
-/// What the direction of the middle of the step asks of the upper rows, besides what they have been given; B is taken
-/// to turn evenly from B₀ to that of the last evaluate().
+/// Sets the upper rows to what the direction of the middle of the step requires beyond what they have received. B is
+/// assumed to turn evenly from B₀ to that of the last evaluate().
 void turn_direction(const Model& model, const Evaluation& evaluation, PositionProjection& projection) {
   apply_transposed_jacobian(model, evaluation, projection.expected, projection.turned);
   const double share = (projection.elapsed + 0.5 * projection.taken) / (projection.elapsed + projection.taken);
@@ -91,7 +90,7 @@ void turn_direction(const Model& model, const Evaluation& evaluation, PositionPr
   projection.upper = projection.turned;
 }
 
-/// Radians by which bodies turn in the step so far.
+/// Angle [rad] by which bodies turn in the step so far.
 double turn_of_step(const Model& model, const Evaluation& evaluation, const PositionProjection& projection) {
   return evaluation.displacement.head(model.sizes.boundary).cwiseProduct(projection.turns).lpNorm<Eigen::Infinity>();
 }

@@ -1,4 +1,4 @@
-// What the last changes say about the next one.
+// Prediction of the next change from the last two.
 #include "mechanism/step/predictor.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ void Predictor::learn(const Model& model, double step, double smooth_rate, const
     forget();
     return;
   }
-  // The largest change of an acceleration, rotations times the length; and what the change before leaves of it.
+  // The largest change of an acceleration, rotations times the length, and its difference from the previous change.
   double change = 0.0, rest = 0.0;
   for (int i = 0; i < model.sizes.boundary; ++i) {
     const double one = state.algorithmic()[i] - last.algorithmic()[i];

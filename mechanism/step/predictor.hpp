@@ -1,4 +1,4 @@
-// A better guess of the next acceleration than the last one, where the motion is smooth.
+// Prediction of the next acceleration in smooth motion, better than the last acceleration.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,10 +21,10 @@ struct Predictor {
 
   Eigen::VectorXd acceleration, multipliers;
   bool known = false;   ///< the last step had the size of this one
-  bool smooth = false;  ///< it would have been predicted better
+  bool smooth = false;  ///< the prediction would have improved the last step
 };
 
-/// Adds the change to acceleration and multipliers of a step that is `predict`ed; `last`: the state where it begins.
+/// Adds the predicted change to acceleration and multipliers after predict(). `last`: state at the start of the step.
 void foresee(const Predictor& predictor, const StepScheme& scheme, const State& last, State& state,
              Evaluation& evaluation);
 

@@ -1,4 +1,4 @@
-// The weighted constraint Jacobian and its pseudoinverse.
+// Weighted constraint Jacobian and its pseudoinverse; examination of the active rows.
 #include "mechanism/step/redundancy.hpp"
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// μ = U λ with |μ|² = Σ |f|² + |m|²/L²: one upper triangle per joint (its wrenches are independent), a number per
-/// coupling; and A = Bᵀ U⁻¹, rotations scaled with 1/L.
+/// Weights μ = U λ with |μ|² = Σ |f|² + |m|²/L²: one upper triangle per joint (its wrenches are independent), a number
+/// per coupling; and A = Bᵀ U⁻¹, rotations scaled with 1/L.
 struct WeightedJacobian {
   std::vector<Eigen::MatrixXd> triangle;
   Eigen::VectorXd coupling_weight;
@@ -29,7 +29,7 @@ struct WeightedJacobian {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// [f; m/L] on B of a unit multiplier of the row.
+/// Wrench [f; m/L] on B of a unit multiplier of the row.
 Vector6 unit_wrench(const Row12& row, const MarkerPair& pair, double length) {
   const JointReaction r = reaction_of(row, pair);
   Vector6 wrench;
@@ -84,8 +84,8 @@ WeightedJacobian weighted_jacobian(const Model& model, const Evaluation& evaluat
   return result;
 }
 
-/// Parts that are no branch of a tree: what is left when parts with one joint or none are taken away again and again.
-/// The ground is no part. Parts of couplings stay.
+/// Flags of the parts in loops: those that remain when parts with one joint or none are removed repeatedly. The ground
+/// is no part. Parts of couplings stay.
 std::vector<bool> parts_in_loops(const Model& model, const Parts& parts) {
   const auto part = [&](const Marker& marker) { return marker.node < 0 ? parts.count() : parts.of_node[marker.node]; };
   std::vector<int> joints(static_cast<std::size_t>(parts.count()) + 1, 0);
@@ -145,10 +145,10 @@ bool RowWatch::renew(const Model& model, State& state, Evaluation& evaluation) {
   return largest_factor(model, state, evaluation) > most_factor && choose_active_rows(model, state, evaluation);
 }
 
-/// Factors c of [M Bₐᵀ; Bₐ 0][x; c] = [b; 0] for each row b that is left out: b = Bₐᵀ c, with x = 0 if b depends on the
-/// rows Bₐ that are solved for. Infinite if it does not.
+/// Factors c of [M Bₐᵀ; Bₐ 0][x; c] = [b; 0] for each omitted row b: b = Bₐᵀ c, with x = 0 if b depends on the active
+/// rows Bₐ. Infinite if it does not.
 double RowWatch::largest_factor(const Model& model, const State& state, Evaluation& evaluation) {
-  constexpr double independent = 1e-6;  // of the row
+  constexpr double independent = 1e-6;  // relative to the row
   if (!system_) {
     system_.emplace(model);
     factors_.setZero(model.sizes.constraints);
@@ -203,7 +203,7 @@ Eigen::VectorXd least_norm_multipliers(const Model& model, const Evaluation& eva
 }
 
 std::vector<std::string> joints_without_unique_reaction(const Model& model, const Evaluation& evaluation) {
-  // A random vector has, with certainty for all practical purposes, a part along every direction of the null space.
+  // With practical certainty, a random vector has a component along every direction of the null space.
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   const Eigen::VectorXd probe =
@@ -212,7 +212,7 @@ std::vector<std::string> joints_without_unique_reaction(const Model& model, cons
       probe - without_null_space(weighted_jacobian(model, evaluation).A, probe, rank_tolerance);
   std::vector<std::string> names;
   for (const Joint& joint : model.joints)
-    if (null.segment(joint.row, joint.size()).norm() > 1e-7) names.push_back(joint.name);  // of planar ones maybe none
+    if (null.segment(joint.row, joint.size()).norm() > 1e-7) names.push_back(joint.name);  // none in some planar ones
   for (const Coupling& coupling : model.couplings)
     if (std::abs(null[coupling.row]) > 1e-7) names.push_back(coupling.name);
   return names;

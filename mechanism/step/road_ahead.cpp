@@ -1,4 +1,4 @@
-// Marks of roads and the speed of wheels.
+// Marks of roads, and the time of wheels to them.
 #include "mechanism/step/road_ahead.hpp"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Where the height of a piece changes its law, and points between that a step must not pass over.
+/// Adds the points where the height of a piece changes its law, and intermediate points that a step must not pass over.
 void add_marks(const formats::RoadPieceSpec& piece, std::vector<double>& marks) {
   const double end = piece.start + piece.length;
   if (piece.shape == formats::RoadPieceShape::trapezoid) {
@@ -24,7 +24,7 @@ void add_marks(const formats::RoadPieceSpec& piece, std::vector<double>& marks) 
   for (int quarter = 0; quarter <= 4; ++quarter) marks.push_back(piece.start + 0.25 * quarter * piece.length);
 }
 
-/// Time to the next of the ascending marks from x at the rate v; those nearer than `least` are passed.
+/// Time to the next of the ascending marks from x at the rate v. Marks nearer than `least` count as passed.
 double time_along(const std::vector<double>& marks, double x, double v, double least) {
   constexpr double never = std::numeric_limits<double>::infinity();
   if (v > 0.0) {

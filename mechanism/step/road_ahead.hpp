@@ -1,4 +1,4 @@
-// Short pieces of road ahead of wheels, which a step must not pass over.
+// Short pieces of road ahead of wheels, over which a step must not pass.
 #pragma once
 
 #include <vector>
@@ -9,21 +9,21 @@
 
 namespace tisserand::mechanism {
 
-/// Marks along roads: the edges and quarters of their bumps, the feet, tops and middles of their ramps, the corners of
-/// their tables. They bound steps whose size an error decides, as breakpoints do: such an error is measured where the
-/// step ends, and a step from the flat before a bump to the flat behind it has none.
+/// Marks along roads: edges and quarters of bumps, feet, tops and middles of ramps, corners of tables. They bound steps
+/// with error control as breakpoints do. The error is measured at the end of a step, so a step over a whole bump, from
+/// flat to flat, would show none.
 class RoadAhead {
  public:
   RoadAhead(const formats::Scene& scene, const Model& model);
 
   bool has_marks() const { return any_; }
 
-  /// Time until a wheel reaches its next mark at its present speed, infinite if none is ahead. What is nearer than a
-  /// hundredth of `step` counts as reached.
+  /// Time until a wheel reaches its next mark at its present speed, infinite if none is ahead. Marks nearer than a
+  /// hundredth of `step` count as reached.
   double time_to_next(const Model& model, const Evaluation& evaluation, double step) const;
 
  private:
-  std::vector<std::vector<double>> marks_;  ///< of each road, ascending x
+  std::vector<std::vector<double>> marks_;  ///< x of the marks of each road, ascending
   bool any_ = false;
 };
 

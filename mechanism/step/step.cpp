@@ -1,4 +1,4 @@
-// The time step on a page: predict, evaluate, check, factor, solve, correct, accept. Numbers: docs/THEORY.md.
+// The time step: predict, evaluate, check, factor, solve, correct, accept. Formula numbers are those of docs/THEORY.md.
 #include "mechanism/step/step.hpp"
 
 #include "mechanism/equations/increments.hpp"
@@ -8,8 +8,8 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Newton's iteration from the prediction. True if it converges. False without an outcome in the report if kept factors
-/// are given up.
+/// Newton's iteration from the prediction. Returns true if it converges. Returns false without an outcome in the report
+/// if kept factors are discarded.
 bool iterate(Iteration& it, const StepEnd& end) {
   Evaluation& now = it.workspace.now;
   const StepMemory& memory = it.workspace.memory;
@@ -33,7 +33,7 @@ bool iterate(Iteration& it, const StepEnd& end) {
   }
 }
 
-/// A step with the constraint rows that are active in the state.
+/// Takes a step with the constraint rows that are active in the state.
 StepReport take_step(const Model& model, const formats::IntegratorSpec& options, const StepEnd& end, State& state,
                      Workspace& workspace) {
   const StepScheme scheme = step_scheme(model, options, state, end.time);

@@ -1,6 +1,6 @@
 // Time step of the constrained equations on SO(3): generalised alpha and HHT, index 3 and stabilised index 2.
 //
-// The numbers are those of docs/THEORY.md, section 10; they stand beside the verbs of step.cpp. ∘ exp: retract(), on
+// The numbers are those of docs/THEORY.md, section 10. The calls in step.cpp cite them. ∘ exp: retract(), on
 // SO(3) the exponential of a material rotation vector. a: the algorithmic acceleration.
 //   (58) r(q, v, v̇, λ, t) = G_iner + G_int + Bᵀλ − F = 0,  Φ(q, t) = 0                                    [BCA12] (1)
 //   (62) (1−α_m) a_{n+1} + α_m a_n = (1−α_f) v̇_{n+1} + α_f v̇_n                                           [BCA12] (8)
@@ -22,14 +22,14 @@
 
 namespace tisserand::mechanism {
 
-/// Where a step ends, and the instant at which loads are evaluated there (just before a jump).
+/// End of a step, and the instant at which loads are evaluated there (just before a jump).
 struct StepEnd {
   double time = 0.0;
   double load_time = 0.0;
 };
 
-/// One step from `state` (accepted, consistent) to `end`. On any outcome but `accepted` the state is as before.
-/// If the rank of the constraints has changed on the way (rows that are left out open, or the step fails in an
+/// Computes one step from `state` (accepted, consistent) to `end`. On any outcome but `accepted` the state is
+/// unchanged. If the rank of the constraints changed (omitted rows are violated, or the step fails in an
 /// overconstrained mechanism), the rows are chosen again and the step is repeated. Only this allocates memory.
 [[nodiscard]] StepReport advance(const Model& model, const formats::IntegratorSpec& options, const StepEnd& end,
                                  State& state, Workspace& workspace);

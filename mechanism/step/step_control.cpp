@@ -1,4 +1,4 @@
-// Error per unit of time, and a step to match.
+// Local error of a step, and the size of the next one.
 #include "mechanism/step/step_control.hpp"
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Safety, and bounds of the change, as usual for one-step methods ([HW96] IV.8 has 0.9, 0.2 and steps that stay where
-/// they would grow by less than 1.2, which keeps factors); growth is bounded by 2, since multipliers carry a transient
-/// after each change (DECISIONS.md, "Index 3 and a change of step").
+/// Safety factor and bounds of the change, as usual for one-step methods. [HW96] IV.8 has 0.9, 0.2 and 1.2, below which
+/// steps stay and keep their factors. Growth is bounded by 2, since multipliers have a transient after each change
+/// (DECISIONS.md, "Index 3 and a change of step").
 constexpr double safety = 0.9;
 constexpr double most_growth = 2.0;
 constexpr double least_growth = 1.2;
@@ -32,7 +32,7 @@ void estimate_error(const formats::IntegratorSpec& options, double step, const S
 LocalError measure_error(const Model& model, const formats::ErrorControl& control, double share,
                          const Eigen::Ref<const Eigen::VectorXd>& error) {
   LocalError worst;
-  // Largest of `size` coordinates from `first` on, one unit of the tolerance being `unit`. The first NaN stays.
+  // Takes the largest of `size` coordinates from `first`. `unit`: one unit of the tolerance. The first NaN stays.
   const auto look_at = [&](int first, int size, double unit) {
     for (int k = first; k < first + size; ++k) {
       const double ratio = std::abs(error[k]) / (unit * share);
@@ -67,7 +67,7 @@ double shorter_step(double step, double ratio) {
 }
 
 double instant_tolerance(double step, double time) {
-  const double written = std::min(1e-11 * std::abs(time), 1e-3 * step);  // numbers of a scene, given to twelve digits
+  const double written = std::min(1e-11 * std::abs(time), 1e-3 * step);  // rounding of scene values with 12 digits
   return std::max({1e-9 * step, written, 8.0 * std::numeric_limits<double>::epsilon() * std::abs(time)});
 }
 

@@ -1,4 +1,4 @@
-// Outcomes in words.
+// Text of a step report.
 #include "mechanism/step/step_report.hpp"
 
 #include <fmt/format.h>

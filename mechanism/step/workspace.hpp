@@ -1,4 +1,4 @@
-// Work space of a run besides model and state: evaluation, iteration matrix, memory of the steps before.
+// Work space of a run besides model and state: evaluation, iteration matrix, memory of previous steps.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 
 namespace tisserand::mechanism {
 
-/// Factors that age within a few steps are not worth keeping for a while: after each failure the pause doubles.
+/// Decides whether factors are kept. If they serve only a few steps, a pause follows, which doubles after each failure.
 struct FactorReuse {
   int kept = 0;   ///< steps that the present factors have served
   int fresh = 0;  ///< steps to take with new factors after the latest failure
   int fresh_left = 0;
 
-  /// Whether the next step tries the factors that are there, which belong to its matrix; counts the pause down.
+  /// Whether the next step tries the existing factors, which belong to its matrix. Counts down the pause.
   bool tries_kept() {
     if (fresh_left == 0) return true;
     --fresh_left;
@@ -32,8 +32,8 @@ struct FactorReuse {
   }
 };
 
-/// Data that a step keeps from the steps before, besides the factors of the iteration matrix. They influence how a step
-/// converges, not the solution.
+/// Data that a step keeps from previous steps, besides the factors of the iteration matrix. They influence the
+/// convergence of a step, not the solution.
 struct StepMemory {
   explicit StepMemory(const Model& model)
       : previous(model.sizes), predictor(model.sizes), dissipation(model), rows(model) {}
@@ -44,7 +44,7 @@ struct StepMemory {
     dissipation.forget();
   }
 
-  State previous;  ///< the state where the step begins: the last accepted one
+  State previous;  ///< state at the start of the step: the last accepted one
   Predictor predictor;
   FactorReuse reuse;
   PositionProjection projection;
@@ -55,8 +55,8 @@ struct StepMemory {
 
 struct Workspace {
   explicit Workspace(const Model& model) : now(model), matrix(model), memory(model) {}
-  /// Resets: the next step factors and learns from the start, so that a run continued from a copy of the state in
-  /// another workspace takes bit-equal steps (tests/verification/checkpoint_test.cpp).
+  /// Discards factors and predictors: the next step works like the first. So a run continued from a copy of the state
+  /// in another workspace takes bit-equal steps (tests/verification/checkpoint_test.cpp).
   void forget() {
     matrix.forget();
     memory.forget();
