@@ -1,4 +1,4 @@
-// Initial stress in elastic coordinates.
+// Stiffness under initial stress in elastic coordinates.
 #include "mechanism/switching/buckling.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Wᵀ Σ e_a Γ_a W.
+/// Stiffness of the stress e in elastic coordinates: Wᵀ Σ e_a Γ_a W.
 MatrixXd stress_stiffness(const QuadraticForms& Gamma, const VectorXd& e, const MatrixXd& W) {
   MatrixXd K = MatrixXd::Zero(Gamma.size, Gamma.size);
   add_combination(Gamma, 1.0, e, K);

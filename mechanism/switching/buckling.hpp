@@ -1,4 +1,4 @@
-// How near the loads that deform a body bring it to buckling.
+// Nearness to buckling of a body under the loads that deform it.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,23 +7,23 @@
 
 namespace tisserand::mechanism {
 
-/// Constants of a body with stiffening, made once: the forms of its stiffness under initial stress in elastic
-/// coordinates z, y = W z, WᵀS̄W = 1, without rigid motion.
+/// Constants of a body with stiffening, made once: its stiffness under initial stress in elastic coordinates z, y = W
+/// z, WᵀS̄W = 1, without rigid motion.
 class Buckling {
  public:
   Buckling(const SuperelementBody& body, const SuperelementCompliance& compliance);
 
-  /// p, the part of the load of buckling that the stress of y is, with free ends that do not turn with the chord
-  /// (π² EI/l² of a straight beam): −λ for the lowest eigenvalue λ of Wᵀ K_σ W, K_σ = Σ (l_a·y) Γ_a, THEORY (43); 0
-  /// where all of them are positive.
+  /// Fraction p of the buckling load that the stress of y is, with free ends that do not turn with the chord (π² EI/l²
+  /// for a straight beam). p = −λ for the lowest eigenvalue λ of Wᵀ K_σ W, K_σ = Σ (l_a·y) Γ_a ([SO] 3). p = 0 if all
+  /// eigenvalues are positive.
   double load_share(const Eigen::VectorXd& y) const;
-  /// Not below load_share(), in a few operations: Σ |l_a·y| ‖Wᵀ Γ_a W‖.
+  /// Upper bound of load_share() in a few operations: Σ |l_a·y| ‖Wᵀ Γ_a W‖.
   double bound(const Eigen::VectorXd& y) const { return (stiffening_->L * y).cwiseAbs().dot(norms_); }
 
  private:
   const Stiffening* stiffening_;
   Eigen::MatrixXd W_;      ///< N x elastic coordinates
-  Eigen::VectorXd norms_;  ///< of each row of L
+  Eigen::VectorXd norms_;  ///< ‖Wᵀ Γ_a W‖ for each row of L
 };
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// Least kinetic energy, shared out among the bodies that ask for it.
+// Least kinetic energy of the carried motion, divided among the deforming bodies.
 #include "mechanism/switching/carried_inertia.hpp"
 
 #include <algorithm>

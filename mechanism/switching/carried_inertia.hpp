@@ -1,4 +1,4 @@
-// What the joints of a body that deforms move along with it: the inertia that its own frequencies do not know.
+// Inertia that the joints of a deforming body carry along, which its own frequencies do not contain.
 #pragma once
 
 #include <vector>
@@ -9,25 +9,24 @@
 
 namespace tisserand::mechanism {
 
-/// A body that deforms by y without rigid motion takes markers of its joints along, B ẏ. The rigid motion of all bodies
-/// that makes good for that with the least kinetic energy, B v = −B ẏ, has T = ½ vᵀM v = ½ μᵀB ẏ, which is
-/// added to that of ẏ: a cantilever bends slower than a free beam, and slower still with a mass at its tip.
+/// A body that deforms by y without rigid motion moves markers of its joints by B ẏ. The rigid motion v of all bodies
+/// that compensates this with the least kinetic energy, B v = −B ẏ, has T = ½ vᵀM v = ½ μᵀB ẏ. T is added to that of ẏ.
+/// So a cantilever bends slower than a free beam, and still slower with a mass at its tip.
 class CarriedInertia {
  public:
-  /// Of the model that runs, in which the bodies are rigid; of the whole one. Both must stay where they are.
+  /// `running`: the model that runs, in which the bodies are rigid. Both models must outlive this object.
   CarriedInertia(const Model& running, const Model& whole);
 
-  /// Where the run stands. Factors once for all that follows.
+  /// Sets the state of the run and factors once for the following energies().
   void set(const State& running, double step);
-  /// Whether energies() knows them: the models have the same constraints, or the running one none.
+  /// Whether energies() is valid: the models have the same constraints, or the running one has none.
   bool knows() const { return usable_ || running_.sizes.constraints == 0; }
-  /// T of each body of the whole model that deforms (deformation.hpp), at a state of it that was evaluated; rates: of
-  /// each, empty ones rest.
-  /// Zero where the models have other constraints or nothing can be factored.
+  /// Energy T of each deforming body (deformation.hpp) of the whole model, at an evaluated state of it. `rates`: one
+  /// per body; empty ones are at rest. Zero if the models have different constraints or the factorisation failed.
   std::vector<double> energies(const std::vector<Eigen::VectorXd>& rates, const Evaluation& whole);
 
  private:
-  /// The velocity of a body, added to `v`.
+  /// Adds the velocity of a body to `v`.
   void add_velocity(std::size_t index, const Eigen::VectorXd& rate, const Evaluation& now, Eigen::VectorXd& v) const;
 
   const Model& running_;

@@ -1,4 +1,4 @@
-// Pseudo-inverse in coordinates of one size; products with S̄ and M̄.
+// Pseudo-inverse of S̄ in coordinates scaled to one size; products with S̄ and M̄.
 #include "mechanism/switching/compliance.hpp"
 
 #include <algorithm>
@@ -16,10 +16,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Eigenvalues of the scaled S̄ below this part of the largest belong to motions without strain.
+/// Eigenvalues of the scaled S̄ below this fraction of the largest belong to motions without strain.
 constexpr double strainless = 1e-11;
 
-/// V with Vᵀ S V = 1 and V Vᵀ the pseudo-inverse of S, in coordinates of one size.
+/// Shapes V with Vᵀ S V = 1 and V Vᵀ the pseudo-inverse of S, in coordinates scaled to one size.
 MatrixXd strained_shapes(const MatrixXd& S, const VectorXd& units) {
   const MatrixXd scaled = units.asDiagonal() * S * units.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(scaled);
@@ -29,7 +29,7 @@ MatrixXd strained_shapes(const MatrixXd& S, const VectorXd& units) {
   return units.asDiagonal() * modes.eigenvectors().rightCols(count) * sizes.asDiagonal();
 }
 
-/// The body, if its internal coordinates have stiffness.
+/// Returns the body. Throws Error if its internal coordinates have no stiffness.
 const SuperelementBody& stiff(const SuperelementBody& body) {
   if (body.modes > 0 && !(body.S_II.minCoeff() > 0.0))
     throw Error(fmt::format("'{}' has a mechanism inside, which no effect that is switched while the scene runs can hold",

@@ -1,4 +1,4 @@
-// What a body yields to loads on it: its quasi-static deformation, and the size of one.
+// Compliance of a body: its quasi-static deformation under loads, and measures of a deformation.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,35 +7,35 @@
 
 namespace tisserand::mechanism {
 
-/// Constants of a body that deforms, made once. A deformation y has the coordinates of deformation.hpp, S and M are the
+/// Constants of a deforming body, made once. A deformation y has the coordinates of deformation.hpp. S and M are the
 /// stiffness and the mass of the body in them.
 class Compliance {
  public:
   virtual ~Compliance() = default;
 
-  /// y with S y = g for loads that are in balance, without rigid motion: Φᵀ M y = 0, so that its centre of mass and its
+  /// Deformation y with S y = g for loads in balance, without rigid motion: Φᵀ M y = 0. So its centre of mass and its
   /// mean orientation stay.
   virtual Eigen::VectorXd deformation(const Eigen::VectorXd& load) const = 0;
-  /// y − Φ (Φᵀ M Φ)⁻¹ Φᵀ M y.
+  /// Deformation without rigid motion: y − Φ (Φᵀ M Φ)⁻¹ Φᵀ M y.
   virtual Eigen::VectorXd without_rigid_motion(const Eigen::VectorXd& y) const = 0;
 
   double strain_energy(const Eigen::VectorXd& y) const { return 0.5 * y.dot(stiffness(y)); }
   double kinetic_energy(const Eigen::VectorXd& rate) const { return 0.5 * rate.dot(mass(rate)); }
-  /// S y.
+  /// Product S y.
   virtual Eigen::VectorXd stiffness(const Eigen::VectorXd& y) const = 0;
-  /// M y.
+  /// Product M y.
   virtual Eigen::VectorXd mass(const Eigen::VectorXd& y) const = 0;
 
-  /// How far the body is bent: the largest displacement of a node, also as seen from any other node where the scene may
-  /// hold it, or √2 times the root mean square over its mass, which is the amplitude of a sine: internal coordinates
-  /// move no node.
+  /// Size of the bending: the largest displacement of a node, also relative to any node where the scene may hold it, or
+  /// √2 times the root mean square over its mass. The latter is the amplitude of a sine, and includes internal
+  /// coordinates, which move no node.
   virtual double displacement(const Eigen::VectorXd& y) const = 0;
-  /// The largest force on a node of those that deform it by y.
+  /// Largest nodal force that deforms the body by y.
   virtual double force(const Eigen::VectorXd& y) const = 0;
 };
 
-/// S̄⁺ of the boundary of a superelement and the projector off its rigid motions. `force`: of S̄ y, and of internal
-/// coordinates if their whole load came from inertia, M̄_BI S̄_II y_I.
+/// Compliance of a superelement: S̄⁺ of the boundary and the projector off its rigid motions. `force`: that of S̄ y,
+/// and that of internal coordinates if inertia were their whole load, M̄_BI S̄_II y_I.
 class SuperelementCompliance final : public Compliance {
  public:
   explicit SuperelementCompliance(const SuperelementBody& body);
@@ -47,7 +47,7 @@ class SuperelementCompliance final : public Compliance {
   double displacement(const Eigen::VectorXd& y) const override;
   double force(const Eigen::VectorXd& y) const override;
 
-  /// N x elastic coordinates: W with WᵀS̄W = 1, without rigid motion; internal coordinates last.
+  /// Elastic shapes W (N x elastic coordinates) with WᵀS̄W = 1, without rigid motion; internal coordinates last.
   Eigen::MatrixXd elastic_shapes() const;
 
  private:

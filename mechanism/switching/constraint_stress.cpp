@@ -1,4 +1,4 @@
-// The Jacobian on motions of rigid bodies, and reactions that do no work on them.
+// Constraint Jacobian on motions of rigid bodies, and reactions that do no work on them.
 #include "mechanism/switching/constraint_stress.hpp"
 
 #include <cmath>
@@ -21,14 +21,14 @@ using Eigen::VectorXd;
 using Matrix = Eigen::SparseMatrix<double>;
 using Entries = std::vector<Eigen::Triplet<double>>;
 
-/// Rows that depend on the others to this part count as dependent: places and axes may have six digits in a file. A
-/// loop that only that keeps from being stressed has reactions of 1e6 times its loads.
+/// Rows that depend on the others up to this fraction count as dependent, since positions and axes in a file may have
+/// six digits. A loop free of stress only by such a difference has reactions of 1e6 times its loads.
 constexpr double dependent = 1e-6;
-/// Reactions on a body that deform it, relative to their random sizes of one each: far above the part of `dependent`
-/// that is left out of balance, far below what two joints of a loop exert.
+/// Size of reactions that deform a body, relative to their random sizes of one each. It is far above the imbalance that
+/// `dependent` leaves, and far below what two joints of a loop exert.
 constexpr double deforming = 1e-4;
 
-/// Bᵀ, boundary coordinates x constraint rows, rows of angles times the characteristic length.
+/// Bᵀ: boundary coordinates x constraint rows; rows of angles times the characteristic length.
 Matrix transposed_jacobian(const Model& model, const Evaluation& now) {
   Entries entries;
   for_each_row(model, now, [&](int row, const ElementMap& map, const auto&, const Row12& values) {
@@ -40,8 +40,8 @@ Matrix transposed_jacobian(const Model& model, const Evaluation& now) {
   return B;
 }
 
-/// T, six motions of each part about the first node that owns coordinates, rotations times the characteristic length;
-/// modes rest.
+/// Matrix T: six motions of each part about its first node that owns coordinates, rotations times the characteristic
+/// length. Modes are at rest.
 Matrix rigid_motions(const Model& model, const Parts& parts, const Evaluation& now) {
   Entries entries;
   const auto add = [&](int row, int column, const Matrix3d& block) {
@@ -67,8 +67,8 @@ Matrix rigid_motions(const Model& model, const Parts& parts, const Evaluation& n
   return T;
 }
 
-/// Forces, moments over the characteristic length and loads of modes over the root of the mass, squared: of each part
-/// on the nodes that own coordinates.
+/// Squared loads of each part on the nodes that own coordinates: forces, moments over the characteristic length, and
+/// loads of modes over the root of the mass.
 std::vector<double> on_parts(const Model& model, const Parts& parts, const VectorXd& load) {
   std::vector<double> square(static_cast<std::size_t>(parts.count()), 0.0);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {

@@ -1,4 +1,4 @@
-// Bodies that constraints can stress though no load acts: their flexibility decides reactions.
+// Bodies that constraints can stress without loads. Their flexibility decides reactions.
 #pragma once
 
 #include <vector>
@@ -7,16 +7,16 @@
 
 namespace tisserand::mechanism {
 
-/// Marks bodies that deform (deformation.hpp) and that reactions alone can stress: λ exists that is in balance on every
-/// body taken as a rigid one and deforms this one. With the motions T of rigid bodies, Tᵀ Bᵀ λ = 0 and Bᵀ λ ≠ 0 on the
-/// body.
+/// Flags of the deforming bodies (deformation.hpp) that reactions alone can stress. Then a λ exists that is in balance
+/// on every body taken as rigid and deforms this one. With the motions T of rigid bodies, Tᵀ Bᵀ λ = 0 and Bᵀ λ ≠ 0 on
+/// the body.
 ///
-/// Equations of rigid bodies leave the size of such a λ open. Where it does work on a drive or on the gap of a loop,
-/// rigid bodies cannot move either: a four-bar with one axis out of line moves only because its bodies deform. These λ
-/// are as many as there are rows beyond the rank of Tᵀ Bᵀ. So a loop of hinges has them whether its axes are parallel,
-/// nearly parallel or not, and no round-off decides.
+/// Rigid bodies do not determine the size of such a λ. If it does work on a drive or on the gap of a loop, rigid bodies
+/// cannot move: a four-bar with one axis out of line moves only because its bodies deform. There are as many such λ as
+/// rows beyond the rank of Tᵀ Bᵀ. So a loop of hinges has them if its axes are parallel, nearly parallel or not.
 ///
-/// After evaluate(). λ is one random vector without its part along the rows, which has a part along every such λ.
+/// Call it after evaluate(). λ is one random vector without its component along the rows. It has a component along
+/// every such λ.
 std::vector<bool> stressed_by_constraints(const Model& model, const Evaluation& now);
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// Superelements first, then modal bodies.
+// Indices, deformations and welded parts of the deforming bodies.
 #include "mechanism/switching/deformation.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Bodies of a model that deform, and their deformation as seen from the floating frame.
+// Bodies of a model that deform, and their deformation relative to the floating frame.
 #pragma once
 
 #include <string>
@@ -11,36 +11,36 @@
 
 namespace tisserand::mechanism {
 
-/// Bodies that deform are counted superelements first, then modal bodies.
+/// Number of deforming bodies. Indices count superelements first, then modal bodies.
 inline std::size_t deforming_bodies(const Model& model) {
   return model.superelements.size() + model.modal_bodies.size();
 }
-/// Of such a body; -1: it is a superelement.
+/// Index of the modal body of a deforming body; -1: it is a superelement.
 inline int modal_body_of(const Model& model, std::size_t index) {
   const std::size_t before = model.superelements.size();
   return index < before ? -1 : static_cast<int>(index - before);
 }
 const std::string& name_of(const Model& model, std::size_t index);
-/// deforming_bodies() if there is none of that name.
+/// Index of the deforming body of that name; deforming_bodies() if there is none.
 std::size_t deforming_body(const Model& model, const std::string& name);
-/// Numbers of a deformation.
+/// Number of coordinates of a deformation.
 Eigen::Index deformation_size(const Model& model, std::size_t index);
 
-/// In axes of the frame. Of superelements boundary, then internal coordinates; of modal bodies the motion of the frame
-/// [d; θ] that goes with the deformation, then w.
+/// Deformation in axes of the frame. Superelement: boundary, then internal coordinates. Modal body: the motion [d; θ]
+/// of the frame that belongs to the deformation, then w.
 struct Deformation {
   Eigen::VectorXd y;
   Eigen::VectorXd rate;  ///< [1/time]
 };
 
-/// The y alone.
+/// Deformation y at the evaluated state, without its rate.
 Eigen::VectorXd y_of(const Model& model, std::size_t index, const Evaluation& now);
-/// Of a body where it was evaluated: ẏ = Υ q̇; of modal bodies without motion of the frame.
+/// Deformation of a body at the evaluated state: ẏ = Υ q̇; for modal bodies without motion of the frame.
 Deformation deformation_of(const Model& model, std::size_t index, const Evaluation& now);
 /// Largest speed of a node that has translations.
 double largest_speed(const Model& model, const State& state);
 
-/// Number of the part that each of them is a piece of: welded_beams(), and fixed joints with modal bodies.
+/// Number of the welded part of each deforming body: by welded_beams(), and by fixed joints with modal bodies.
 std::vector<int> welded_parts(const Model& model);
 
 }  // namespace tisserand::mechanism

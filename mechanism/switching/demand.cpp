@@ -1,4 +1,4 @@
-// Loads, deformations and their sizes at the samples of a window.
+// Demands from loads and deformations at the samples of a window.
 #include "mechanism/switching/demand.hpp"
 
 #include <algorithm>
@@ -12,14 +12,14 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// A of the header.
+/// Amplification A of the header.
 double amplification(double r2) {
   constexpr double most = 50.0, unsure = 0.1;
   const double resonance = 1.0 / std::max(std::abs(1.0 - r2) - unsure * r2, 1.0 / most);
   return std::max(resonance, r2 > 0.5 ? 2.0 : 1.0);
 }
 
-/// A part of nothing is nothing.
+/// Quotient; zero if the value is zero.
 double part(double value, double whole) { return value == 0.0 ? 0.0 : value / whole; }
 
 }  // namespace
@@ -68,12 +68,12 @@ double Demand::modal_force() const {
 
 double Demand::of(std::size_t use, bool ended) const {
   const Judged& judged = judged_[use];
-  if (!(largest_force_ > 0.0) || (growing_ && !ended)) return judged.place;  // or nothing bears anything yet: round-off
+  if (!(largest_force_ > 0.0) || (growing_ && !ended)) return judged.place;  // or no force yet: round-off
   return std::max(judged.place, judged.force / (tolerance_ * largest_force_));
 }
 
-/// What is left over at the nodes of a body that does not deform, in axes of its frame, which its nodes have; at its
-/// modes.
+/// Load g on a body that does not deform: minus the residual at its nodes, in axes of its frame, which its nodes have,
+/// and at its modes.
 VectorXd Demand::load_of(std::size_t index, const Evaluation& now) const {
   VectorXd load = VectorXd::Zero(deformation_size(whole_, index));
   if (const int modal = modal_body_of(whole_, index); modal >= 0) {
@@ -95,7 +95,7 @@ VectorXd Demand::load_of(std::size_t index, const Evaluation& now) const {
   return load;
 }
 
-/// ρ of the header.
+/// Ratio ρ of the header.
 double Demand::stiffening_share(std::size_t index, const Evaluation& now) const {
   const VectorXd y = y_of(whole_, index, now);
   const double elastic = 2.0 * bodies_[index].compliance->strain_energy(y);
@@ -119,14 +119,14 @@ double Demand::Change::r2() const {
   return frequency() * frequency() * kinetic / strain_rate;
 }
 
-/// y of the header; of a body that deforms its own.
+/// Deformation y of the header; for a deforming body its own deformation.
 VectorXd Demand::deformation_at(std::size_t index, const Evaluation& now) const {
   const Compliance& compliance = *bodies_[index].compliance;
   if (bodies_[index].flexibility >= 0) return compliance.deformation(load_of(index, now));
   return compliance.without_rigid_motion(y_of(whole_, index, now));
 }
 
-/// To the next sample: from the second one of a window on there is a rate, from the third an acceleration.
+/// Adds a sample. From the second one of a window on there is a rate, from the third an acceleration.
 void Demand::move_on(Body& body, VectorXd y, double time) const {
   const Compliance& compliance = *body.compliance;
   body.acceleration.resize(0);
@@ -157,7 +157,7 @@ void Demand::move_on(Body& body, VectorXd y, double time) const {
   body.seen = true;
 }
 
-/// To bodies that do not deform, which alone have to be foreseen; the others tell.
+/// Adds carried inertia to bodies that do not deform. Those that deform contain it in their motion.
 void Demand::add_carried(const Evaluation& now, CarriedInertia& inertia) {
   std::vector<VectorXd> rates, accelerations;
   for (const Body& body : bodies_) {
@@ -184,7 +184,7 @@ void Demand::note(int use, double place, double force) {
   judged.time = time_;
 }
 
-/// Eigenvalues only where they can decide: over a bound, and more so than before.
+/// Computes eigenvalues only where they can decide: above a bound, and larger than before.
 void Demand::sample_stress(Body& body) {
   constexpr double allowed = 0.1, tells = 0.2, grown = 1.1;
   if (body.buckling == nullptr) return;
@@ -199,7 +199,7 @@ void Demand::note_body(std::size_t index, const Evaluation& now) {
   const double u = part(body.u, tolerance_ * whole_.length);
   if (body.flexibility >= 0) {
     const double r2 = body.change.r2(), changing_r2 = body.tremor.r2(), frequency = body.tremor.frequency();
-    const double period = frequency > 0.0 ? 1.0 / frequency : 0.0;  // over 2π
+    const double period = frequency > 0.0 ? 1.0 / frequency : 0.0;  // divided by 2π
     const double trembling = (amplification(changing_r2) - 1.0) * period * body.rate_u;
     note(body.flexibility, std::max(amplification(r2) * u, u + part(trembling, tolerance_ * whole_.length)),
          std::min(changing_r2, 1.0) * body.tremor.amplitude_of(body.acceleration_f));

@@ -1,23 +1,22 @@
-// Whether an effect that is off would matter: what it would change of positions and forces, against what the scene
-// allows.
+// Demand D of an effect that is off: its estimated change of positions and forces relative to the tolerance.
 //
-// Of the motion of the model that runs, as a motion of the whole one, in which all effects are on, the residual of the
-// nodes of a rigid superelement, and of the modes of a modal body without any, is the load that deforms it, with its
-// sign turned: what joints and forces exert there, less the inertia of the rigid motion. Its quasi-static deformation
-// is y = S̄⁺ g, of modal bodies w = g/ω². How fast that changes, r² = Σ T(ẏ)/Σ V(y) over the samples of a window, is the
-// square of its frequency over that of the body in its joints, T with what these move along (carried_inertia.hpp): the
-// deformation is larger by A = 1/(|1 − r²| − 0.1 r²), the shape of y being not quite that of a mode (2 at least where
-// loads jump, r² > 1/2; 50 at most), and its inertia changes forces by the part r², at most 1, of those that tremble.
-// Differences over dt see a sine of frequency Ω as one of (2/dt) tan(Ω dt/2): r² is corrected by what Σ V(ẏ)/Σ V(y),
-// that squared, says. A load that rests hides one that trembles: so the same again with the changes, r'² = Σ T(ÿ)/Σ
-// V(ẏ), of amplitudes u' and f' that are those of ẏ over their frequency and of ÿ over its square. With u the largest
-// displacement and f the largest force of y in the window, L the size of the scene, F the largest force so far and τ
-// the tolerance,
+// Load. The motion of the running model is taken as a motion of the whole one, in which all effects are on. There the
+// residual at the nodes of a rigid superelement, or of the modes of a modal body without modes, is −g. The load g
+// deforms the body: forces of joints and loads minus the inertia of the rigid motion. The quasi-static deformation is y
+// = S̄⁺ g, for modal bodies w = g/ω².
+// Dynamics. Over the samples of a window r² = Σ T(ẏ)/Σ V(y) is the squared ratio of the frequency of y to that of the
+// body in its joints. T includes what these carry along (carried_inertia.hpp). The deformation is larger than y by A =
+// 1/(|1 − r²| − 0.1 r²); 0.1 since y is not quite a mode. A is at most 50, and at least 2 where loads jump, r² > 1/2.
+// Inertia changes the vibrating forces by the fraction min(r², 1).
+// Differences over dt see a sine of frequency Ω as one of (2/dt) tan(Ω dt/2). Its square is Σ V(ẏ)/Σ V(y), which
+// corrects r².
+// A constant load hides a vibrating one. So the changes are judged too: r'² = Σ T(ÿ)/Σ V(ẏ) and A'. The amplitudes u'
+// and f' are those of ẏ over its frequency and of ÿ over its square.
+// u, f: largest displacement and force of y in the window; L: size of the scene; F: largest force so far; τ: tolerance.
 //   flexibility:  D = max(A u/(τ L), (u + (A' − 1) u')/(τ L), min(r'², 1) f'/(τ F))
 //   stiffening of a body that deforms:  D = ρ max(u/(τ L), f/(τ F)),  ρ = |yᵀ(∂V/∂y − S̄ y)| / yᵀ S̄ y
-// A body with stiffening under a part p of its load of buckling (buckling.hpp) bends by 1/(1 − p) more than y, with
-// ends that the scene holds less by more: both effects matter from p = 0.1 on, D = p/0.1. An effect matters where D
-// > 1.
+// A body with stiffening under a fraction p of its buckling load (buckling.hpp) bends 1/(1 − p) times as much as y,
+// more if its ends are held less. Both effects matter from p = 0.1 on, D = p/0.1. An effect matters where D > 1.
 #pragma once
 
 #include <map>
@@ -35,30 +34,30 @@ namespace tisserand::mechanism {
 
 class Demand {
  public:
-  /// `uses`: of bodies of the whole model that deform (deformation.hpp); those that are not on are judged. The model
-  /// must stay where it is; start: of the run [time].
+  /// `uses`: effects of deforming bodies of the whole model (deformation.hpp). Those that are off are judged. The model
+  /// must outlive this object. `start`: start of the run [time].
   Demand(const Model& whole, const std::vector<EffectUse>& uses, double tolerance, double start);
 
-  /// At a state of the whole model, evaluated; largest force: of the run so far; inertia: set in this window. A window
-  /// has `window_samples` samples; its last one is the first of the next.
+  /// Takes a sample at an evaluated state of the whole model. `largest_force`: of the run so far. `inertia`: set in
+  /// this window. A window has `window_samples` samples; its last one is the first of the next.
   void sample(const State& state, const Evaluation& now, double largest_force, CarriedInertia& inertia);
   static constexpr int window_samples = 5;
-  /// Whether the next sample is the first of a window, after the one where it begins.
+  /// Whether the next sample is the second of a window, the first after its beginning.
   bool begins_window() const { return samples_ % window_samples == 1; }
 
-  /// Largest force so far that deforms a modal body: what it bears where nothing holds it.
+  /// Largest force in this window that deforms a modal body, which no node bears.
   double modal_force() const;
   /// Largest elastic force of a body in this window.
   double force(std::size_t index) const { return bodies_[index].f; }
-  /// D of a use: the largest so far, with F of the latest sample. While the run goes on it is that by places alone
-  /// where F grows faster than in proportion to the time of the run, as at a start from rest: what matters beside it
-  /// now may be nothing beside what comes.
+  /// Largest D of a use so far, with F of the latest sample. During the run it counts positions alone while F grows
+  /// faster than in proportion to time, as after a start from rest: forces that matter now may be small against later
+  /// ones.
   double of(std::size_t use, bool ended) const;
-  /// When D of a use was the largest.
+  /// Time at which D of a use was largest.
   double time_of(std::size_t use) const { return judged_[use].time; }
 
  private:
-  /// A vector of deformation that changes from sample to sample of a window.
+  /// Sums over a deformation vector that changes from sample to sample of a window.
   struct Change {
     double kinetic = 0.0;      ///< Σ T of its rate
     double strain = 0.0;       ///< Σ V of its means
@@ -66,29 +65,29 @@ class Demand {
     double time = 0.0;         ///< Σ dt
     int count = 0;
     double frequency() const;  ///< Ω, corrected
-    /// Of a sine of that frequency, from second differences of its samples.
+    /// Amplitude of a sine of that frequency, from second differences of its samples.
     double amplitude_of(double acceleration) const;
     double r2() const;
   };
   struct Body {
-    const Compliance* compliance = nullptr;  ///< nothing: no effect of it is judged
-    const Buckling* buckling = nullptr;      ///< nothing: no stiffening
-    int flexibility = -1, stiffening = -1;   ///< uses that are judged
+    const Compliance* compliance = nullptr;  ///< null: none of its effects is judged
+    const Buckling* buckling = nullptr;      ///< null: no stiffening
+    int flexibility = -1, stiffening = -1;   ///< indices of the judged uses
     Eigen::VectorXd y;
     double time = 0.0;
     bool seen = false;                   ///< there was a sample
     Eigen::VectorXd rate, acceleration;  ///< latest differences; empty: none in this window
-    double rate_time = 0.0;              ///< the middle of that of the rate
-    Change change, tremor;               ///< of y, of ẏ
-    double u = 0.0, f = 0.0;             ///< largest of y in the window
-    double rate_u = 0.0;                 ///< largest of ẏ
-    double acceleration_f = 0.0;         ///< largest of ÿ
-    double stressed = 0.0;               ///< largest Buckling::bound() that was looked into, of the run
+    double rate_time = 0.0;              ///< middle of the interval of the rate
+    Change change, tremor;               ///< sums of y, of ẏ
+    double u = 0.0, f = 0.0;             ///< largest displacement and force of y in the window
+    double rate_u = 0.0;                 ///< largest displacement of ẏ
+    double acceleration_f = 0.0;         ///< largest force of ÿ
+    double stressed = 0.0;               ///< largest Buckling::bound() of the run whose eigenvalues were computed
   };
   struct Judged {
-    double place = 0.0;  ///< largest D by places
-    double force = 0.0;  ///< the same by forces, times τ F
-    double time = 0.0;   ///< of the sample that raised one of them last
+    double place = 0.0;  ///< largest D by positions
+    double force = 0.0;  ///< largest D by forces, times τ F
+    double time = 0.0;   ///< time of the sample that last raised one of them
   };
   void add_superelement(const SuperelementUse& use, Body& body);
   Eigen::VectorXd load_of(std::size_t index, const Evaluation& now) const;
@@ -103,14 +102,14 @@ class Demand {
 
   const Model& whole_;
   double tolerance_;
-  std::map<int, SuperelementCompliance> compliances_;  ///< by the body of the uses of a file
-  std::map<int, Buckling> buckling_;                   ///< the same, of those with stiffening
-  std::map<int, ModalCompliance> modal_compliances_;   ///< of modal bodies
-  std::vector<Body> bodies_;                           ///< that deform
-  std::vector<Judged> judged_;                         ///< of each use
+  std::map<int, SuperelementCompliance> compliances_;  ///< by index of the body of the uses
+  std::map<int, Buckling> buckling_;                   ///< by the same index, for bodies with stiffening
+  std::map<int, ModalCompliance> modal_compliances_;   ///< by index of the modal body
+  std::vector<Body> bodies_;                           ///< the deforming bodies
+  std::vector<Judged> judged_;                         ///< one per use
   double largest_force_ = 0.0;                         ///< F at the latest sample
-  double start_, time_ = 0.0;                          ///< of the run; of the latest sample
-  bool growing_ = false;                               ///< F, faster than in proportion to the time of the run
+  double start_, time_ = 0.0;                          ///< start of the run; time of the latest sample
+  bool growing_ = false;                               ///< F grows faster than in proportion to the time of the run
   int samples_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Mass of the frame and the modes at rest; rows of the nodes.
+// Mass of the frame and of the modes at rest; displacements and rotations of the nodes.
 #include "mechanism/switching/modal_compliance.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a modal body yields to loads on it.
+// Compliance of a modal body.
 #pragma once
 
 #include <vector>
@@ -8,18 +8,18 @@
 
 namespace tisserand::mechanism {
 
-/// The undeformed body in axes of its frame, of the mass matrix [GA00] (8), (16): 6 x 6 mass of the motion of the
-/// frame, its coupling with w, 6 x m, and how w moves the mass as a rigid body, the one over the other.
+/// Rigid part of the mass matrix [GA00] (8), (16) of the undeformed body in axes of its frame. mass: 6 x 6 of the
+/// motion of the frame. coupling: 6 x m with w. part: mass⁻¹ coupling, the rigid motion of the mass by w.
 struct RigidPart {
   Eigen::Matrix<double, 6, 6> mass;
   Eigen::Matrix<double, 6, Eigen::Dynamic> coupling, part;
 };
 RigidPart rigid_part(const ModalBody& body);
 
-/// Of a modal body of a model, which must stay where it is: S = diag(0, ω²), and M as its frame holds it. No node bears
-/// what loads a mode; so forces are those of the mass, √(2 m T), by Cauchy and Schwarz not below the sum of |ÿ| over
-/// it, with T of ÿ as seen from where that is the most: from the mean of the mass, or from a node on which something
-/// acts and that turns, as from the clamp of a cantilever. `force` is that of a vibration of the shape y with ω² = V/T.
+/// Compliance of a modal body: S = diag(0, ω²), M as in its frame. The model must outlive this object. No node bears
+/// the load of a mode, so forces are those of the mass, √(2 m T). By Cauchy and Schwarz this is not below the sum of
+/// |ÿ| over the mass. T of ÿ is the largest relative to the mean of the mass or to a turning node with a load, as at a
+/// clamp. `force` is that of a vibration of the shape y with ω² = V/T.
 class ModalCompliance final : public Compliance {
  public:
   ModalCompliance(const Model& model, std::size_t modal_body);
@@ -37,8 +37,8 @@ class ModalCompliance final : public Compliance {
   const ModalBody& body_;
   RigidPart rigid_;
   Eigen::MatrixXd move_;            ///< 3 n x (6 + m): displacements of the nodes
-  Eigen::MatrixXd turn_;            ///< the same, their rotations
-  std::vector<Eigen::Vector3d> x_;  ///< of the nodes
+  Eigen::MatrixXd turn_;            ///< 3 n x (6 + m): rotations of the nodes
+  std::vector<Eigen::Vector3d> x_;  ///< positions of the nodes
   std::vector<std::size_t> held_;   ///< nodes on which something acts and that turn
 };
 

@@ -1,4 +1,4 @@
-// Bodies by their names, places of one model on the nodes of the other.
+// Correspondence of bodies by name, and of places of one model with nodes of the other.
 #include "mechanism/switching/transfer.hpp"
 
 #include <algorithm>
@@ -28,8 +28,8 @@ NodeMotion motion_of_marker(const Marker& marker, const NodeMotion& node) {
           marker.R.transpose() * node.Omegad};
 }
 
-/// The centre of mass of the floating frame with the momenta of the body: (Φᵀ M̄ Φ) V = Φᵀ M̄ ẏ in axes of the frame,
-/// V = [ẋ₀; Ω₀].
+/// Motion of the centre of mass with the momenta of the body: (Φᵀ M̄ Φ) V = Φᵀ M̄ ẏ in axes of the floating frame, V =
+/// [ẋ₀; Ω₀].
 NodeMotion rigid_motion(const SuperelementBody& body, const SuperelementScratch& scratch) {
   const LocalMotion<double>& motion = scratch.motion;
   const Eigen::MatrixXd rigid = rigid_columns(body);
@@ -48,13 +48,13 @@ NodeMotion rigid_motion(const SuperelementBody& body, const SuperelementScratch&
   return result;
 }
 
-/// Linear momentum, and angular momentum about the centre of mass, of a modal body where it was evaluated, by the mass
-/// matrix [GA00] (8), (16); world axes.
+/// Linear momentum, and angular momentum about the centre of mass, of an evaluated modal body by the mass matrix [GA00]
+/// (8), (16); world axes.
 struct CentralMomenta {
   Vector3d center, linear, angular;
 };
 
-/// `velocity` of the frame, in its axes: p = m v + Ω × c + ċ, about the frame c × v + J Ω + N ẇ.
+/// Momenta from the `velocity` of the frame in its axes: p = m v + Ω × c + ċ; about the frame c × v + J Ω + N ẇ.
 CentralMomenta central_momenta(const ModalBody& body, const ModalScratch& s, const Vector3d& x,
                                const Vector3d& velocity) {
   const Vector3d center = s.c / body.mass, p = body.mass * velocity + s.om.cross(s.c) + s.cd;
@@ -62,14 +62,14 @@ CentralMomenta central_momenta(const ModalBody& body, const ModalScratch& s, con
   return {x + s.A * center, s.A * p, s.A * h};
 }
 
-/// Angular velocity, in axes of the frame, with which a body has that angular momentum about its centre of mass.
+/// Angular velocity, in axes of the frame, at which a body has this angular momentum about its centre of mass.
 Vector3d spin_of(const ModalBody& body, const ModalScratch& s, const Vector3d& angular) {
   const Matrix3d lever = skew<double>(s.c), J = s.J + lever * lever / body.mass;
   const Vector3d h = s.A.transpose() * angular - s.N * s.wd + s.c.cross(s.cd) / body.mass;
   return body.planar ? Vector3d(0.0, 0.0, h.z() / J(2, 2)) : Vector3d(J.completeOrthogonalDecomposition().solve(h));
 }
 
-/// How the modes from `first` on turn the mass.
+/// Mean rotation of the mass by the modes from `first` on.
 Vector3d mean_turn(const ModalBody& body, Eigen::Index first, const Eigen::VectorXd& w) {
   if (body.planar) return Vector3d::Zero();
   Eigen::VectorXd gone = w;
@@ -99,7 +99,7 @@ StateTransfer::StateTransfer(const Model& from, const Model& to) : from_(from), 
   }
 }
 
-/// The node of that name, what becomes rigid, or a place on a rigid body.
+/// Source of a node: the node of that name, a superelement that becomes rigid, or a place on a rigid body.
 StateTransfer::Source StateTransfer::source_of(int node) const {
   const std::string& name = to_.nodes[node].name;
   for (int i = 0; i < std::ssize(from_.nodes); ++i)
@@ -172,7 +172,7 @@ void StateTransfer::set_modal_bodies(const State& state, const Evaluation& now, 
   }
 }
 
-/// The body stands where its mass was, and has the momenta of the modes that are gone.
+/// Sets the frame so that the mass keeps its mean pose, with the momenta of the removed modes.
 void StateTransfer::leave_modes_out(const ModalBody& body, const ModalBody& own, const ModalScratch& scratch,
                                     State& result) const {
   const Node& node = to_.nodes[body.node];
@@ -223,7 +223,7 @@ void StateTransfer::apply(const State& state, const Evaluation& now, State& resu
   set_modal_bodies(state, now, result);
   set_treads(state, result);
   set_hinges(state, result);
-  result.algorithmic() = result.vdot();  // those of a step are of its model
+  result.algorithmic() = result.vdot();  // a step has those of its own model
   const bool same_constraints = from_.sizes.constraints == to_.sizes.constraints;
   result.lambda().setZero();
   result.active().setOnes();

@@ -1,4 +1,4 @@
-// The state of one model as a state of another model of the same scene, in which a body is flexible or rigid.
+// Transfer of a state to another model of the same scene, in which a body is flexible instead of rigid, or the reverse.
 #pragma once
 
 #include <optional>
@@ -12,26 +12,25 @@
 
 namespace tisserand::mechanism {
 
-/// Whether a state of one model is a state of the other as it stands: same nodes, coordinates and constraints.
+/// Whether a state of one model is valid for the other: same nodes, coordinates and constraints.
 bool share_states(const Model& a, const Model& b);
 
-/// What corresponds to what, found once. Both models must stay where they are.
+/// Correspondence of two models, found once. Both must outlive this object.
 class StateTransfer {
  public:
   /// Throws Error for a node without a counterpart.
   StateTransfer(const Model& from, const Model& to);
 
-  /// `state`, at which `now` was evaluated, as a state of the other model: nodes of both keep their motion to the bit,
-  /// places that become nodes or stop being some move with the rigid body, with accelerations. Bodies that are flexible
-  /// in both keep their deformation, one that becomes flexible is undeformed. A body that becomes rigid takes the pose
-  /// of its floating frame and the linear and angular momentum that its mass matrix has in axes of the frame; a modal
-  /// body that loses modes takes the mean pose of its mass, and its momenta.
-  /// Multipliers are kept where both models have the same constraints, else they are zero. No heap allocation where no
-  /// body becomes rigid.
+  /// Converts `state`, at which `now` was evaluated, to the other model. Nodes of both keep their motion bit for bit.
+  /// Places that become nodes, or cease to be nodes, move with the rigid body, with accelerations. Bodies flexible in
+  /// both keep their deformation. One that becomes flexible is undeformed. One that becomes rigid takes the pose of its
+  /// floating frame, and the linear and angular momentum of its mass matrix in axes of the frame. A modal body that
+  /// loses modes takes the mean pose of its mass and its momenta. Multipliers are kept if both models have the same
+  /// constraints, else they are zero. Allocates memory only if a body becomes rigid.
   void apply(const State& state, const Evaluation& now, State& result) const;
 
  private:
-  /// Where the motion of a node comes from: a node, a marker of a rigid body, or a superelement that becomes rigid.
+  /// Source of the motion of a node: a node, a marker of a rigid body, or a superelement that becomes rigid.
   struct Source {
     int node = -1;
     std::optional<Marker> marker;
@@ -47,15 +46,15 @@ class StateTransfer {
 
   const Model& from_;
   const Model& to_;
-  std::vector<Source> sources_;     ///< of each node
-  std::vector<int> superelements_;  ///< of each of `to`: the one of `from`, -1: it was rigid
-  std::vector<int> frames_;         ///< of each of `to` that was rigid: the node of the rigid body
+  std::vector<Source> sources_;     ///< one per node of `to`
+  std::vector<int> superelements_;  ///< per superelement of `to`: the one of `from`; -1: it was rigid
+  std::vector<int> frames_;         ///< per superelement of `to` that was rigid: the node of the rigid body
   std::vector<int> modal_bodies_;   ///< of each of `to`: the one of `from`
-  std::vector<int> turns_;          ///< of each angle of `to`: the one of `from`, -1: it has none
+  std::vector<int> turns_;          ///< per angle of `to`: the one of `from`; -1: it has none
 };
 
-/// The same at once, for a start: accelerations and multipliers are zero, a start solves for them and puts positions
-/// and velocities onto the constraints (mechanism/analyses/start.hpp).
+/// State transferred at once, for a start. Accelerations and multipliers are zero. A start solves for them and projects
+/// positions and velocities on the constraints (mechanism/analyses/start.hpp).
 State transfer(const Model& from, const State& state, const Model& to);
 
 }  // namespace tisserand::mechanism
