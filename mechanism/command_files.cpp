@@ -1,4 +1,4 @@
-// Stems of given names with the endings of what is made of them.
+// Default file names from the stems of given names; results file of a restarted run.
 #include "mechanism/command_files.hpp"
 
 #include <variant>
@@ -11,7 +11,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Without each of the endings in turn.
+/// Path without each of the endings in turn.
 std::string stem_of(std::string path, const std::vector<std::string>& endings) {
   for (const std::string& ending : endings) path = without_ending(path, {ending});
   return path;

@@ -10,17 +10,17 @@
 
 namespace tisserand::mechanism {
 
-/// "dir/pendulum.scene.yaml" -> "dir/pendulum.results.h5": outputs lie beside what they are made of.
+/// Default results file beside the scene: "dir/pendulum.scene.yaml" -> "dir/pendulum.results.h5".
 std::string default_results(const std::string& scene);
 
-/// "dir/pendulum.results.h5" -> "dir/pendulum.html".
+/// Default page or picture beside the first results file: "dir/pendulum.results.h5" -> "dir/pendulum.html".
 std::string default_page(const std::vector<std::string>& results, const char* ending);
 
-/// The files that a run reads and must not replace.
+/// Files that a run reads and must not replace.
 std::vector<std::string> inputs(const formats::Scene& scene);
 
-/// The results file that was asked for; empty: that of the scene. A run that goes on from a file never overwrites what
-/// the file belongs to. Throws Error.
+/// Results file of a run: `asked`, or empty for the default of the scene. A restarted run never overwrites the results
+/// of its restart file unless it appends to them. Throws Error.
 std::string output_of(const std::string& asked, Joining joining, const std::optional<RestartFile>& restart);
 
 }  // namespace tisserand::mechanism

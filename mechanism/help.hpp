@@ -1,4 +1,4 @@
-// What `mechanism --help` and the help of each command tell.
+// Texts of `mechanism --help` and of the help of each command.
 #pragma once
 
 namespace tisserand::mechanism::help {

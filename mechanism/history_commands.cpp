@@ -1,4 +1,4 @@
-// Words of the command line for histories.
+// Options and actions of the commands channels, export, plot and compare.
 #include "mechanism/history_commands.hpp"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ void draw(PlotWords& words) {
 }
 
 void add_plot(CLI::App& app) {
-  const auto kept = std::make_shared<PlotWords>();  // by the callback
+  const auto kept = std::make_shared<PlotWords>();  // shared with the callback, which outlives this function
   PlotWords& words = *kept;
   CLI::App* command = add_command(app, "plot", help::about_plot);
   PlotOptions& options = words.options;

@@ -1,4 +1,4 @@
-// The commands that read results files and draw or list channels: channels, export, plot, compare.
+// Commands that read results files and draw, compare or list channels: channels, export, plot, compare.
 #pragma once
 
 #include <string>
@@ -17,16 +17,16 @@ struct SeriesArguments {
 
 void add_series_arguments(CLI::App& command, SeriesArguments& arguments);
 
-/// With the references that the words mean. Throws Error.
+/// Request with the references parsed from the arguments. Throws Error.
 SeriesRequest complete(SeriesArguments arguments);
 
-/// The same for a page or a picture of a run. Throws Error for a results file as reference: it is shown as a run.
+/// Request for a page or a picture of a run. Throws Error for a results file as reference: it must be given as a run.
 SeriesRequest complete_for_page(const SeriesArguments& arguments);
 
-/// All files that are read.
+/// All files that the command reads.
 std::vector<std::string> drawn_files(const SeriesArguments& arguments);
 
-/// A command that tells `about` in its own help, and the first line of it in that of the program.
+/// Adds a command. Its own help shows all of `about`, the help of the program shows the first line.
 CLI::App* add_command(CLI::App& app, const char* name, const char* about);
 
 void add_history_commands(CLI::App& app);

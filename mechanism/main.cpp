@@ -1,4 +1,4 @@
-// Command line of the second stage.
+// Command line of `mechanism`.
 #include <atomic>
 #include <csignal>
 #include <map>
@@ -49,8 +49,8 @@ std::atomic<bool> interrupt_requested{false};
 
 void on_interrupt(int) { interrupt_requested = true; }
 
-/// Ctrl-C, `kill` and a closed terminal end the run in order; a second one ends the program at once. A signal that the
-/// caller ignores (nohup, a job in the background) stays ignored.
+/// Makes Ctrl-C, `kill` and a closed terminal end the run in order. A second signal ends the program at once. A signal
+/// that the caller ignores (nohup, a background job) stays ignored.
 void listen_for_interrupts() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction action {};
@@ -86,13 +86,13 @@ int exit_code(const mechanism::RunReport& report) {
   return report.outcome == interrupted ? exit_interrupted : report.outcome == not_converged ? exit_not_converged : 0;
 }
 
-/// What the reports of a command have said of the scene, which its analyses share.
+/// Reports printed so far: pre-flight warnings and notes that the analyses of a scene share, to print them once.
 struct Told {
   bool doubts = false;
   std::vector<std::string> notes;
 };
 
-/// Runs one analysis and prints its report without what is `told`.
+/// Runs one analysis and prints its report without what `told` already holds.
 mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunRequest& request, const std::string& name,
                           Told& told) {
   const double start = request.scene.integrator.start;
@@ -155,7 +155,7 @@ int check(const RunArguments& arguments) {
   const formats::Scene scene = read(arguments);
   std::vector<std::string> told;
   for (const mechanism::PlannedAnalysis& one : mechanism::plan(scene, "", {})) {
-    if (!one.from.empty()) continue;  // starts where another one ends
+    if (!one.from.empty()) continue;  // it starts at the end of another analysis
     mechanism::RunReport report = mechanism::inspect(one.scene, {});
     mechanism::drop_told_notes(report, told);
     say(fmt::format("{}: {}{}: no errors found\n{}", arguments.scene, scene.name,
@@ -295,7 +295,7 @@ void add_picture(CLI::App& app, PictureArguments& arguments) {
   });
 }
 
-/// Prints what is wrong with the words of the command line.
+/// Prints what is wrong with the command line, and the nearest valid words.
 int tell_usage(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   std::vector<std::string> commands, options;
   const CLI::App* command = nullptr;

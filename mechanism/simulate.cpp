@@ -1,4 +1,4 @@
-// scene -> model -> start -> steps -> results, as a page of calls.
+// Sequence of calls of one run: scene -> model -> start -> steps -> results.
 #include "mechanism/simulate.hpp"
 
 #include <utility>

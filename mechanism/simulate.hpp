@@ -1,4 +1,4 @@
-// One run of a scene, from the file to the results: the story of this stage.
+// One run of a scene, from the file to the results.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace tisserand::mechanism {
 
-/// Builds the model, starts, runs the analysis and writes its results. Throws Error for faults of the input.
+/// Builds the model, starts, runs the analysis and writes its results. Throws Error for errors in the input.
 RunEnd simulate(const RunRequest& request, const RunControl& control);
 
-/// The same for a scene of one analysis.
+/// Runs a scene with one analysis and writes the results to `path`. Throws Error.
 RunReport simulate(const formats::Scene& scene, const std::string& path, const RunControl& control);
 
-/// Builds and starts but runs nothing: counts and notes.
+/// Builds and starts the model without running it. Returns counts and notes.
 RunReport inspect(const formats::Scene& scene, const RunControl& control);
 
 }  // namespace tisserand::mechanism
