@@ -1,5 +1,4 @@
-// What the patch of a tyre does with its slip, whether the contact was found in space or in the plane; dual numbers for
-// tangents.
+// Forces of the contact patch from its slip, for contacts found in space or in the plane; dual numbers for tangents.
 #pragma once
 
 #include <cmath>
@@ -13,9 +12,9 @@ namespace tisserand::mechanism {
 
 /// Penetration, over the radius, at which the damper acts fully.
 inline constexpr double landing = 0.01;
-/// τ v₀/R₀ of Tyre.
+/// Time constant of the relaxation equations: τ v₀/R₀ of Tyre.
 inline constexpr double lag_share = 1e-6;
-/// Share of slip velocity that damps deflections at standstill, and the speed over v₀ at which it has gone.
+/// Fraction of the slip velocity that damps deflections at standstill, and the speed over v₀ at which it vanishes.
 inline constexpr double rocking_share = 0.01, rocking_speed = 10.0;
 
 template <class T>
@@ -23,14 +22,14 @@ T magnitude(const T& a) {
   return real_part(a) < 0.0 ? T(-a) : a;
 }
 
-/// 0 below 0, 1 above 1, a cubic without kinks between.
+/// Smooth step: 0 below 0, 1 above 1, a cubic without kinks between.
 template <class T>
 T smooth_share(const T& t) {
   if (!(real_part(t) > 0.0)) return T(0.0);
   return real_part(t) < 1.0 ? T(t * t * (3.0 - 2.0 * t)) : T(1.0);
 }
 
-/// −1 to 1, in proportion near 0.
+/// Smooth sign: −1 to 1, proportional near 0.
 template <class T>
 T smooth_sign(const T& t) {
   if (real_part(magnitude(t)) >= 1.0) return T(real_part(t) < 0.0 ? -1.0 : 1.0);
@@ -43,7 +42,7 @@ struct TreadMotion {
   T u = T(0.0), v = T(0.0), ud = T(0.0), vd = T(0.0), udd = T(0.0), vdd = T(0.0);
 };
 
-/// c δ̇ comes in with the penetration; `lying`: 1, or less where the wheel lies on its side.
+/// Vertical load. c δ̇ grows with the penetration. `lying`: 1, or less if the wheel lies on its side.
 template <class T>
 T vertical_load(const Tyre& tyre, const T& penetration, const T& rate, const T& lying) {
   const T ramp = smooth_share<T>(penetration / (landing * tyre.radius));
@@ -51,12 +50,12 @@ T vertical_load(const Tyre& tyre, const T& penetration, const T& rate, const T& 
   return real_part(load) > 0.0 ? load : T(0.0);
 }
 
-/// Of the vertical spring.
+/// Energy of the vertical spring.
 inline double spring_energy(const Tyre& tyre, double penetration) {
   return (tyre.stiffness / 2.0 + tyre.progressive * penetration / 3.0) * penetration * penetration;
 }
 
-/// V below v₀ goes over into v₀/2 at standstill without a kink.
+/// Speed V, which below v₀ goes to v₀/2 at standstill without a kink.
 template <class T>
 T regularised(const T& speed, double low) {
   return real_part(speed) < low ? T((speed * speed + low * low) / (2.0 * low)) : speed;
@@ -73,7 +72,7 @@ T rolling_radius(const Tyre& tyre, const T& penetration) {
   return tyre.radius - nominal * (law->p.DREFF * atan(law->p.BREFF * rho) + law->p.FREFF * rho);
 }
 
-/// How the contact slips, before any law: velocities along and across, and the speed to which they are related.
+/// Slip of the contact before any law: velocities along and across, and the speed to which they relate.
 template <class T>
 struct ContactSlip {
   T along, across;         ///< V_x − Ω R, V_y
@@ -81,7 +80,7 @@ struct ContactSlip {
   T rolling_radius, rolling;
 };
 
-/// From velocities of the contact along and across, and of the spin.
+/// Slip from velocities of the contact along and across, and from the spin.
 template <class T>
 ContactSlip<T> slip_from(const Tyre& tyre, const T& penetration, const T& Vx, const T& Vy, const T& spin) {
   ContactSlip<T> s;
@@ -96,7 +95,7 @@ ContactSlip<T> slip_from(const Tyre& tyre, const T& penetration, const T& Vx, co
   return s;
 }
 
-/// σ_x and σ_y, not below their least.
+/// Relaxation lengths σ_x and σ_y, not below their least value.
 template <class T>
 RelaxationLengths<T> relaxation_of(const Tyre& tyre, const PatchSlip<T>& slip) {
   RelaxationLengths<T> sigma{T(tyre.relaxation), T(tyre.relaxation)};
@@ -105,13 +104,13 @@ RelaxationLengths<T> relaxation_of(const Tyre& tyre, const PatchSlip<T>& slip) {
   return {magic_formula::at_least(sigma.along, least), magic_formula::at_least(sigma.across, least)};
 }
 
-/// −u̇ and −v̇ of the first-order equations at the deflections.
+/// Rates −u̇ and −v̇ of the first-order equations at the deflections.
 template <class T>
 struct LagRate {
   T along, across;
 };
 
-/// Slips from the deflections, and their rates.
+/// Sets the slips from the deflections and returns the rates of these.
 template <class T>
 LagRate<T> relax(const Tyre& tyre, const ContactSlip<T>& s, const TreadMotion<T>& tread, PatchSlip<T>& slip) {
   const RelaxationLengths<T> sigma = relaxation_of(tyre, slip);
@@ -124,7 +123,7 @@ LagRate<T> relax(const Tyre& tyre, const ContactSlip<T>& s, const TreadMotion<T>
   return {V / sigma.along * tread.u - s.along, V / sigma.across * tread.v - s.across};
 }
 
-/// In the air deflections die away as if the tyre rolled at v₀ at least.
+/// Rates in the air: deflections decay as if the tyre rolled with at least v₀.
 template <class T>
 LagRate<T> forget(const Tyre& tyre, const T& spin, const TreadMotion<T>& tread) {
   const T V = magnitude(spin) * tyre.radius + tyre.low_speed;
@@ -132,7 +131,7 @@ LagRate<T> forget(const Tyre& tyre, const T& spin, const TreadMotion<T>& tread) 
   return {rate * tread.u, rate * tread.v};
 }
 
-/// Forces of the patch, and the moment about the axle that the wheel feels beside that of F_x.
+/// Forces of the patch, and the moment about the axle on the wheel besides that of F_x.
 template <class T>
 struct PatchAction {
   PatchForce<T> force;
@@ -141,7 +140,7 @@ struct PatchAction {
   LagRate<T> lag{T(0.0), T(0.0)};
 };
 
-/// `radius`: loaded.
+/// Action of the patch. `radius`: loaded radius.
 template <class T>
 PatchAction<T> act_in_patch(const Tyre& tyre, const ContactSlip<T>& s, const TreadMotion<T>& tread, const T& load,
                             const T& penetration, const T& radius, const T& camber_sine, double friction) {
@@ -162,19 +161,19 @@ PatchAction<T> act_in_patch(const Tyre& tyre, const ContactSlip<T>& s, const Tre
   return a;
 }
 
-/// As the tread is.
+/// Motion of the tread.
 inline TreadMotion<double> tread_motion(const Tread& t) {
   return {t.w[0], t.w[1], t.wd[0], t.wd[1], t.wdd[0], t.wdd[1]};
 }
 
-/// And its derivative by deflection k (0, 1; others: none) with the coefficients of a tangent.
+/// Motion of the tread and its derivative by deflection k (0, 1; others: none) with the coefficients of a tangent.
 inline TreadMotion<Dual> tread_motion(const Tread& t, const TangentCoefficients& c, int k) {
   const auto moved = [k](int i, double at, double coefficient) { return Dual(at, i == k ? coefficient : 0.0); };
   return {moved(0, t.w[0], c.stiffness), moved(1, t.w[1], c.stiffness), moved(0, t.wd[0], c.damping),
           moved(1, t.wd[1], c.damping),  moved(0, t.wdd[0], c.mass),    moved(1, t.wdd[1], c.mass)};
 }
 
-/// m (ẅ + (ẇ + rate)/τ) of both equations.
+/// Residual m (ẅ + (ẇ + rate)/τ) of both equations.
 template <class T>
 Eigen::Matrix<T, 2, 1> lag_residual(const Tyre& tyre, const TreadMotion<T>& tread, const LagRate<T>& rate) {
   const double m = lag_mass(tyre), tau = lag_share * tyre.radius / tyre.low_speed;

@@ -9,22 +9,22 @@
 
 namespace tisserand::mechanism {
 
-/// Speed over which slips count: the larger of those of wheel and tread.
+/// Reference speed of slips: the larger of |V_x| and |Ω R|.
 template <class T>
 T slip_speed(const ComprehensiveSlip& /*law*/, const T& ahead, const T& turned) {
   return real_part(ahead) > real_part(turned) ? ahead : turned;
 }
 
-/// With the combined slip S = √(S_s² + S_αγ²), S_αγ = S_α + l sin γ/(2 R), μ = μ₀ − (μ₀ − μ₁) min(S, 1) and
-/// S_n = √((C_s S_s)² + (C_α S_αγ)²)/(3 μ F_z), l_n = 1 − S_n: where S_n < 1
+/// Force of the patch. With the combined slip S = √(S_s² + S_αγ²), S_αγ = S_α + l sin γ/(2 R), μ = μ₀ − (μ₀ − μ₁)
+/// min(S, 1) and S_n = √((C_s S_s)² + (C_α S_αγ)²)/(3 μ F_z), l_n = 1 − S_n, where S_n < 1
 ///   F_x = −C_s S_s l_n² − μ_x F_z q,  F_y = −C_α S_α l_n² − μ_y F_z q − C_γ sin γ l_n²,  q = 1 − 3 l_n² + 2 l_n³
-///   M_z = l l_n² (C_α S_α (2 l_n/3 − ½) + 3/2 μ_y F_z S_n²), in the direction of rolling,
-/// else all slides: μ F_z against the slip, M_z = 0. (μ_x, μ_y) = μ (S_s, S_αγ)/S. With S_α alone it is the brush model
+///   M_z = l l_n² (C_α S_α (2 l_n/3 − ½) + 3/2 μ_y F_z S_n²), in the direction of rolling.
+/// Else all slides: μ F_z against the slip, M_z = 0. (μ_x, μ_y) = μ (S_s, S_αγ)/S. With S_α alone it is the brush model
 /// F_y = μ F_z (3 s − 3 s² + s³), M_z = C_α S_α l (1 − s)³/6, s = C_α S_α/(3 μ F_z).
 ///
-/// Differs from [GN90]: slips have signs instead of cases; camber acts only while the tyre rolls and by the share of
-/// the patch that adheres, so that no force jumps where sliding begins; the whole is never more than μ F_z; without the
-/// small term of M_z from longitudinal and lateral slip together.
+/// Differs from [GN90]: Slips have signs instead of cases. Camber acts only while the tyre rolls, and by the fraction
+/// of the patch that adheres, so that no force jumps where sliding begins. The total is never more than μ F_z. The
+/// small term of M_z from longitudinal and lateral slip together is omitted.
 template <class T>
 PatchForce<T> patch_force(const ComprehensiveSlip& law, const PatchSlip<T>& slip) {
   using std::sqrt;

@@ -1,7 +1,7 @@
-// Contact of a disc with a road: where they meet, in which axes, and how deep.
+// Contact of a disc with a road: its place, axes and depth.
 //
-// The road under the wheel is taken for the plane through four points of it, before, behind and beside the lowest point
-// of the disc ([Ril12] chapter 3): exact on planes, continuous over edges, and without curvature.
+// The road under the wheel is replaced by the plane through four points of it, before, behind and beside the lowest
+// point of the disc ([Ril12] chapter 3). This is exact on planes, continuous over edges, and has no curvature.
 #pragma once
 
 #include <cmath>
@@ -13,8 +13,8 @@
 
 namespace tisserand::mechanism {
 
-/// A disc at one instant, in world axes: centre, axle (unit vector to its left), velocity of the centre, angular
-/// velocity with the spin.
+/// Motion of a disc at one instant, in world axes: centre, axle (unit vector to its left), velocity of the centre,
+/// angular velocity with the spin.
 template <class T>
 struct DiscMotion {
   Eigen::Matrix<T, 3, 1> center, axle, velocity, omega;
@@ -24,19 +24,19 @@ struct DiscMotion {
 template <class T>
 struct DiscContact {
   using Vector3 = Eigen::Matrix<T, 3, 1>;
-  bool exists = false;  ///< the road is seen by the disc; it need not touch it
+  bool exists = false;  ///< the contact is defined; the disc need not touch the road
   Vector3 x, y, n;
   Vector3 down;    ///< in the wheel plane across x, towards the road
   Vector3 point;   ///< contact centre: where `down` from the centre meets the road plane
-  T radius;        ///< from the centre to it: loaded radius
+  T radius;        ///< loaded radius: from the centre to `point`
   T penetration;   ///< depth of the lowest point of the undeformed disc below the road plane
   T sine, cosine;  ///< of the inclination (camber) angle: sine = axle · n, right-handed about x
 };
 
-/// Share of a full length scale that the four points are apart: a tenth of the radius each way.
+/// Distance of the four points from the lowest point, over the radius.
 inline constexpr double base_of_plane = 0.1;
-/// Where the cosine of the camber falls below the second the disc begins to lose the road, below the first it has lost
-/// it: a wheel that lies on its side has no contact of this kind.
+/// Cosines of the camber: below the second the disc begins to lose the road, below the first it has lost it. A wheel
+/// that lies on its side has no contact of this kind.
 inline constexpr double lost_cosine = 0.2, full_cosine = 0.4;
 
 template <class T>

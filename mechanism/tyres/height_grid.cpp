@@ -24,7 +24,7 @@ double derivative_of_polynomial(const std::vector<double>& x, const Value& value
   return sum;
 }
 
-/// Derivatives along a line of a grid, each run of finite values for itself; not-a-number at the others.
+/// Stores derivatives along a line of a grid, for each run of finite values; not-a-number at the others.
 template <class Value, class Store>
 void differentiate(const std::vector<double>& x, const Value& value, const Store& store) {
   const int size = count_of(x);
@@ -37,7 +37,7 @@ void differentiate(const std::vector<double>& x, const Value& value, const Store
   }
 }
 
-/// Of one coordinate in its interval: weights of the values and slopes at both ends, and their derivatives. Outside of
+/// Weights of the values and slopes at both ends of the interval of one coordinate, and their derivatives. Outside of
 /// the axis those of the straight continuation.
 struct HermiteWeights {
   int first = 0;

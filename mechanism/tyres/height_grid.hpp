@@ -1,4 +1,4 @@
-// Height over a grid of two coordinates: a surface without kinks through its points.
+// Heights on a grid of two coordinates: a surface without kinks through its points.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace tisserand::mechanism {
 
-/// z and its slopes along the two coordinates.
+/// Height z and its slopes along the two coordinates.
 struct GridHeight {
   double value = 0.0, by_s = 0.0, by_t = 0.0;
 };
 
-/// Bicubic Hermite interpolation: z, ∂z/∂s, ∂z/∂t and ∂²z/∂s∂t at the points of the grid, so that z and its gradient
-/// are continuous; exact at the points. Slopes are those of the polynomials through five neighbours (fewer if there are
-/// not five, one-sided at borders and holes): polynomials of degree three in each coordinate are exact.
+/// Surface by bicubic Hermite interpolation of z, ∂z/∂s, ∂z/∂t and ∂²z/∂s∂t at the points of the grid. z and its
+/// gradient are continuous, and exact at the points. Slopes are those of polynomials through five neighbours (fewer if
+/// there are not five, one-sided at borders and holes). So polynomials of degree three in each coordinate are exact.
 ///
-/// Beyond its borders the surface goes on straight. A cell with a missing height at one of its corners is a hole; there
-/// it has finite values that mean nothing.
+/// Beyond its borders the surface continues straight. A cell with a missing height at a corner is a hole. There the
+/// values are finite but have no meaning.
 class HeightGrid {
  public:
   explicit HeightGrid(const formats::RoadHeights& heights);
@@ -37,7 +37,7 @@ class HeightGrid {
     double z = 0.0, by_s = 0.0, by_t = 0.0, by_st = 0.0;
   };
   int width() const { return count_of(across_); }
-  /// Holes get the height of the next point beside them, else of the next row, and no slopes.
+  /// Gives missing points the height of the next point in their row, else of the next row, and no slopes.
   void fill_holes();
 
   std::vector<double> along_, across_;

@@ -1,5 +1,5 @@
-// The contact of contact.hpp with an axle along the normal of the plane: of its four points two are apart, and all
-// forces have two components.
+// Tyres of planar models. The axle is along the normal of the plane, so of the four points of contact.hpp the two
+// beside the wheel coincide. All forces have two components.
 #include "mechanism/tyres/in_plane.hpp"
 
 #include <cmath>
@@ -13,23 +13,23 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Centre of the disc in axes of the road (x, height; y is constant), its velocity in them, spin about the axle.
+/// Motion of the disc: centre in axes of the road (x, height; y is constant), velocity in them, spin about the axle.
 template <class T>
 struct DiscInPlane {
   T x, z, vx, vz, spin;
   double y;
 };
 
-/// Where disc and road meet, in axes of the road.
+/// Contact of disc and road, in axes of the road.
 template <class T>
 struct ContactInPlane {
   T nx, nz;       ///< normal of the road; along the wheel: turns [nz, −nx]
-  double turns;   ///< 1, or −1 where the axle points against y of the road
+  double turns;   ///< 1, or −1 if the axle points against y of the road
   T penetration;  ///< negative: above the road
   T radius;       ///< loaded
 };
 
-/// Force [x, z] in axes of the road, moment about the centre of the disc around its axle.
+/// Action of the tyre: force [x, z] in axes of the road, moment about the centre of the disc around its axle.
 template <class T>
 struct ActionInPlane {
   ContactInPlane<T> contact;
@@ -38,11 +38,11 @@ struct ActionInPlane {
   T load = T(0.0), fx = T(0.0), fz = T(0.0), moment = T(0.0);
 };
 
-/// From the node, which has axes of the plane, to the road and back.
+/// Conversion between the node, which has axes of the plane, and the road.
 struct Placement {
   Vector2d x, z;      ///< axes of the road in the plane
   Vector2d arm;       ///< from the node to the disc
-  double axle, side;  ///< ±1: along the normal of the plane; y of the road along it
+  double axle, side;  ///< ±1: direction of the axle, and of y of the road, along the normal of the plane
 
   Placement(const Tyre& tyre, const Road& road, const NodeMotion& node)
       : x(road.R.col(0).head<2>()),
@@ -63,7 +63,7 @@ DiscInPlane<double> disc_of(const Placement& at, const Road& road, const NodeMot
           at.z.dot(velocity), at.axle * node.Omega.z(), at.side * (node.x.z() - road.p.z())};
 }
 
-/// And its derivative for [δx; δθ] of the node and [δẋ; δΩ].
+/// Motion of the disc and its derivative for [δx; δθ] and [δẋ; δΩ] of the node.
 DiscInPlane<Dual> disc_of(const Placement& at, const Road& road, const NodeMotion& node, const Vector3d& dq,
                           const Vector3d& dv) {
   const DiscInPlane<double> d = disc_of(at, road, node);
@@ -80,7 +80,7 @@ ContactInPlane<T> find_contact(const Tyre& tyre, const Road& road, double turns,
   const double step = base_of_plane * tyre.radius;
   const T y(disc.y);
   const T front = road_height(road, T(disc.x + step), y), rear = road_height(road, T(disc.x - step), y);
-  const T middle = road_height(road, disc.x, y);  // and beside it
+  const T middle = road_height(road, disc.x, y);  // also that beside it
   const T slope = (front - rear) / (2.0 * step);
   ContactInPlane<T> c;
   c.turns = turns;

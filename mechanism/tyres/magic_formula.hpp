@@ -1,10 +1,10 @@
 // Force of a tyre in its contact patch by the Magic Formula, versions 5.2 and 6.1, steady state without turn slip.
 //
-// Equation numbers are those of [Pac12] section 4.3.2. Where that book and MF-Tyre, for which property files are
-// fitted, differ, this is MF-Tyre ([BSP10], and what MFeval measured of it): α and γ themselves for α* and γ*, F_z0
-// without its scaling factor in trail and arm, QDZ3 with the sign of γ, equivalent slip angles by arctan, λ'_μ =
-// λ_μ. 5.2 is that of the manual of PAC2002. Axes and signs are ISO-W, those of property files: κ = −V_sx/|V_x|
-// (driving positive), tan α = V_y/|V_x|, γ right-handed about x, so that the cornering stiffness is negative.
+// Equation numbers are those of [Pac12] section 4.3.2. Property files are fitted for MF-Tyre. Where it differs from
+// that book, the code follows MF-Tyre ([BSP10], and what MFeval measured of it): α and γ themselves for α* and γ*, F_z0
+// without its scaling factor in trail and arm, QDZ3 with the sign of γ, equivalent slip angles by arctan, λ'_μ = λ_μ.
+// 5.2 is that of the manual of PAC2002. Axes and signs are ISO-W, those of property files: κ = −V_sx/|V_x| (driving
+// positive), tan α = V_y/|V_x|, γ right-handed about x, so that the cornering stiffness is negative.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace tisserand::mechanism {
 
 namespace magic_formula {
 
-/// M_x, (4.E69); 5.2 has its first three terms, 6.2 its last three.
+/// Overturning moment M_x, (4.E69). Version 5.2 has its first three terms, 6.2 its last three.
 template <class T>
 T overturning(const MagicFormulaLaw& law, const MagicInput<T>& in, const T& Fy) {
   using std::atan;
@@ -35,7 +35,7 @@ T overturning(const MagicFormulaLaw& law, const MagicInput<T>& in, const T& Fy) 
   return R0 * p.LMX * in.Fz * sum;
 }
 
-/// M_y without the sign of rolling, (4.E70); of 5.2 the first four terms, in proportion to the load.
+/// Rolling resistance M_y without the sign of rolling, (4.E70); in 5.2 four terms, proportional to the load.
 template <class T>
 T rolling_resistance(const MagicFormulaLaw& law, const MagicInput<T>& in, const T& speed, const T& Fx) {
   using std::pow;
@@ -48,7 +48,7 @@ T rolling_resistance(const MagicFormulaLaw& law, const MagicInput<T>& in, const 
   return (p.UNLOADED_RADIUS * p.FNOMIN * p.LMY * std::pow(1.0 + in.dpi, p.QSY8)) * sum * by_load;
 }
 
-/// Slip angle and slip together as one slip angle about the zero of trail or residual moment, (4.E77), (4.E78).
+/// Equivalent slip angle of slip angle and slip, about the zero of trail or residual moment, (4.E77), (4.E78).
 template <class T>
 T equivalent_angle(const T& alpha, const T& ratio) {
   using std::atan;
@@ -60,8 +60,8 @@ T equivalent_angle(const T& alpha, const T& ratio) {
   return sign(alpha) * atan(sqrt(slope * slope + ratio * ratio));
 }
 
-/// M_z, (4.E31) to (4.E49) and (4.E71) to (4.E78). F'_y, on which the trail acts: G_yκ F_y0(γ = 0) in 6.1, F_y − S_Vyκ
-/// in 5.2.
+/// Aligning moment M_z, (4.E31) to (4.E49) and (4.E71) to (4.E78). The trail acts on F'_y: G_yκ F_y0(γ = 0) in 6.1, F_y
+/// − S_Vyκ in 5.2.
 template <class T>
 T aligning(const MagicFormulaLaw& law, const MagicInput<T>& in, const Lateral<T>& y, const T& Fx, const T& Fy,
            const LateralWeight<T>& weight) {
@@ -95,7 +95,7 @@ T aligning(const MagicFormulaLaw& law, const MagicInput<T>& in, const Lateral<T>
 
 }  // namespace magic_formula
 
-/// Speed over which slips count: |V_x|, but not less than gives the largest slip of the file.
+/// Reference speed of slips: |V_x|, but not less than the speed that gives the largest slip of the file.
 template <class T>
 T slip_speed(const MagicFormulaLaw& law, const T& ahead, const T& turned) {
   const double most = law.p.KPUMAX > 0.0 ? law.p.KPUMAX : 1.5;
@@ -142,8 +142,8 @@ PatchForce<T> patch_force(const MagicFormulaLaw& law, const PatchSlip<T>& slip) 
   return force;
 }
 
-/// σ_κ and σ_α: by carcass stiffnesses (6.1, (A3.9)) where the file has them, else by PTX and PTY (5.2). 0 where the
-/// file has neither.
+/// Relaxation lengths σ_κ and σ_α: by carcass stiffnesses (6.1, (A3.9)) if the file has them, else by PTX and PTY
+/// (5.2). 0 if the file has neither.
 template <class T>
 struct RelaxationLengths {
   T along, across;

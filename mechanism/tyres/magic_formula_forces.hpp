@@ -1,5 +1,5 @@
 // Longitudinal and lateral force by the Magic Formula, pure and combined: [Pac12] (4.E1) to (4.E30) and (4.E50) to
-// (4.E67); readings, axes and signs as in magic_formula.hpp.
+// (4.E67). Interpretation, axes and signs are those of magic_formula.hpp.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace tisserand::mechanism {
 
 namespace magic_formula {
 
-/// Least coefficient of friction, so that no stiffness factor B becomes infinite where a fit is led beyond its loads.
+/// Least coefficient of friction. It keeps the stiffness factor B finite if a fit is used beyond its loads.
 inline constexpr double least_friction = 1e-3;
 
 template <class T>
@@ -23,7 +23,7 @@ template <class T>
 T absolute(const T& a) {
   return sign(a) * a;
 }
-/// Within [low, high]; no limits where both are zero.
+/// Value limited to [low, high]; no limits if both are zero.
 template <class T>
 T within(const T& a, double low, double high) {
   if (low == 0.0 && high == 0.0) return a;
@@ -33,7 +33,7 @@ template <class T>
 T at_least(const T& a, double least) {
   return real_part(a) < least ? T(least) : a;
 }
-/// Of the given sign, and not below `least` in size.
+/// Value with the given sign and at least `least` in size.
 template <class T>
 T of_sign(const T& a, double sign, double least) {
   return sign * at_least<T>(sign * a, least);
@@ -42,7 +42,7 @@ template <class T>
 T at_most_one(const T& E) {
   return real_part(E) > 1.0 ? T(1.0) : E;
 }
-/// B x − E (B x − atan(B x)), the argument of C atan(..).
+/// Argument B x − E (B x − atan(B x)) of C atan(..).
 template <class T>
 T curved(const T& B, const T& x, const T& E) {
   using std::atan;
@@ -62,13 +62,13 @@ T cosine_of(const T& B, const T& C, const T& E, const T& x) {
   return cos(C * atan(curved(B, x, E)));
 }
 
-/// The inputs of all formulas at one instant.
+/// Inputs of all formulas at one instant.
 template <class T>
 struct MagicInput {
   T kappa, alpha, gamma;  ///< within the ranges of the file
   T Fz, dfz;              ///< within the range of the file
   double Fz0, dpi;        ///< F'_z0, dp_i
-  T rolling, shifts;      ///< shifts: 0 at standstill to 1, of all that a wheel exerts only while it rolls
+  T rolling, shifts;      ///< shifts: factor of what a wheel exerts only while it rolls, 0 at standstill to 1
   double mu_x, mu_y;      ///< λ_μ: scaling factors times friction of the road
 };
 
@@ -94,7 +94,7 @@ MagicInput<T> input_of(const MagicFormulaLaw& law, const PatchSlip<T>& slip, con
   return in;
 }
 
-/// K_xκ, (4.E15).
+/// Slip stiffness K_xκ, (4.E15).
 template <class T>
 T slip_stiffness(const formats::MagicFormula& p, const MagicInput<T>& in) {
   using std::exp;
@@ -102,7 +102,7 @@ T slip_stiffness(const formats::MagicFormula& p, const MagicInput<T>& in) {
   return in.Fz * (p.PKX1 + p.PKX2 * in.dfz) * exp(p.PKX3 * in.dfz) * (by_pressure * p.LKX);
 }
 
-/// F_x0, (4.E9) to (4.E18).
+/// Pure longitudinal force F_x0, (4.E9) to (4.E18).
 template <class T>
 T pure_longitudinal(const formats::MagicFormula& p, const MagicInput<T>& in) {
   const T gamma = p.LGAX * in.gamma;
@@ -118,7 +118,7 @@ T pure_longitudinal(const formats::MagicFormula& p, const MagicInput<T>& in) {
   return D * sine_of(B, C, E, kappa) + shift;
 }
 
-/// What the lateral force and the moments share.
+/// Terms that the lateral force and the moments share.
 template <class T>
 struct Lateral {
   T force;       ///< F_y0
@@ -127,7 +127,7 @@ struct Lateral {
   T shift, S_V;  ///< S_Hy, S_Vy
 };
 
-/// F_y0, (4.E19) to (4.E30).
+/// Pure lateral force F_y0, (4.E19) to (4.E30).
 template <class T>
 Lateral<T> pure_lateral(const MagicFormulaLaw& law, const MagicInput<T>& in) {
   using std::atan;
@@ -164,7 +164,7 @@ Lateral<T> pure_lateral(const MagicFormulaLaw& law, const MagicInput<T>& in) {
   return y;
 }
 
-/// G_xα, (4.E51) to (4.E57).
+/// Weight G_xα of the longitudinal force, (4.E51) to (4.E57).
 template <class T>
 T longitudinal_weight(const MagicFormulaLaw& law, const MagicInput<T>& in) {
   using std::atan;
@@ -176,7 +176,7 @@ T longitudinal_weight(const MagicFormulaLaw& law, const MagicInput<T>& in) {
   return cosine_of<T>(B, C, E, in.alpha + shift) / cosine_of<T>(B, C, E, shift);
 }
 
-/// G_yκ and S_Vyκ, (4.E58) to (4.E67).
+/// Weight G_yκ and shift S_Vyκ of the lateral force, (4.E58) to (4.E67).
 template <class T>
 struct LateralWeight {
   T G, S_V;

@@ -1,29 +1,29 @@
-// What the contact patch of a tyre feels and what it exerts: between the motion of a wheel and the laws of slip.
+// Slip of the contact patch of a tyre and its force: the interface between the motion of a wheel and the laws of slip.
 #pragma once
 
 namespace tisserand::mechanism {
 
-/// Slips are velocities of the contact over a speed that the law chooses, or tread deflections over relaxation lengths:
-/// along x against the rolling (positive: braking while rolling forward), across it along y. `rolling`: −1 to 1,
-/// direction in which the tread runs through the patch, 0 at standstill.
+/// Slips of the patch: velocities of the contact over a speed that the law chooses, or tread deflections over
+/// relaxation lengths. `along`: along x against the rolling (positive: braking while rolling forward). `across`: along
+/// y. `rolling`: −1 to 1, direction in which the tread runs through the patch, 0 at standstill.
 template <class T>
 struct PatchSlip {
   T along, across;
   T camber_sine;
   T load;
-  T length;  ///< of the patch
+  T length;  ///< length of the patch
   T radius;  ///< rolling radius
   T rolling;
   T speed = T(0.0);       ///< |V_x|
-  double friction = 1.0;  ///< of the road: factor of the coefficients of friction
+  double friction = 1.0;  ///< road: factor of the coefficients of friction
 };
 
-/// In tyre axes, about the contact centre.
+/// Force of the patch in tyre axes, about the contact centre.
 template <class T>
 struct PatchForce {
   T x = T(0.0), y = T(0.0), moment = T(0.0);    ///< F_x, F_y, M_z
-  T overturning = T(0.0), resistance = T(0.0);  ///< M_x and M_y of laws that measured them
-  double adhesion = 0.0;                        ///< share of the patch that does not slide
+  T overturning = T(0.0), resistance = T(0.0);  ///< M_x and M_y, if the law contains them
+  double adhesion = 0.0;                        ///< fraction of the patch that does not slide
 };
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// Spline, search by boxes, Newton's method.
+// Reference line: spline, search by boxes, Newton's method.
 #include "mechanism/tyres/reference_line.hpp"
 
 #include <algorithm>
@@ -10,9 +10,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Points in the smallest boxes.
+/// Number of points in the smallest boxes.
 constexpr int points_of_leaf = 8;
-/// Least share of r'·r' that (p − r)·r'' leaves of the derivative of (p − r)·r': the line bends no more.
+/// Least value of 1 − (p − r)·r''/(r'·r'), which bounds the derivative of (p − r)·r': the line must not bend more.
 constexpr double least_slope = 0.1;
 
 /// r'' of the cubic spline: r''ᵢ₋₁ + 4 r''ᵢ + r''ᵢ₊₁ = 6 (rᵢ₋₁ − 2 rᵢ + rᵢ₊₁)/h², with r''₀ = r''₁, r''ₙ = r''ₙ₋₁.
@@ -96,7 +96,7 @@ LinePlace ReferenceLine::find(const Vector2d& p) const {
   const double enough = 1e-15 * (std::abs(u) + step_ + p.lpNorm<1>());
   for (int i = 0; i < 50; ++i) {
     const double full = (p - line.r).dot(line.d1) / derivative();
-    // The nearest point is not far from the nearest of the points, but for the ends, where the line is straight.
+    // The solution is near the nearest of the points, except beyond the ends, where the line is straight.
     const bool bent = last() > 1 && u > u_begin_ && u < u_begin_ + step_ * last();
     const double change = bent ? std::clamp(full, -step_, step_) : full;
     u += change;

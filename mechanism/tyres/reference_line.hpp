@@ -1,4 +1,4 @@
-// The line along which the heights of a curved road are given, and how points of the plane are found from it.
+// Reference line of a curved road, and the coordinates of points along it and beside it.
 #pragma once
 
 #include <vector>
@@ -10,27 +10,27 @@
 
 namespace tisserand::mechanism {
 
-/// A point of the plane along the line (u) and to its left (v), with gradients in x and y.
+/// Coordinates of a point of the plane: u along the line, v to its left, with gradients in x and y.
 struct LinePlace {
   double u = 0.0, v = 0.0;
   Eigen::Vector2d u_by, v_by;
 };
 
-/// r(u): the cubic spline through points at equal steps of u, with constant curvature in its first and last interval,
-/// going on straight beyond its ends. Its curvature is continuous between them, so that u and v have continuous
-/// gradients. v is the distance from r(u), u that of the nearest point:
+/// Line r(u): the cubic spline through points at equal steps of u. Its curvature is constant in the first and last
+/// interval, and it continues straight beyond its ends. Its curvature is continuous between them, so u and v have
+/// continuous gradients. v is the distance from r(u), u that of the nearest point:
 ///   (p − r)·r' = 0,  v = (p − r)·n,  ∇u = r'/(r'·r' − (p − r)·r''),  ∇v = n,  n = r' turned to the left, |n| = 1.
 class ReferenceLine {
  public:
-  /// `points`: two or more, of u from u_begin to u_end.
+  /// `points`: two or more, at equal steps of u from u_begin to u_end.
   ReferenceLine(const Eigen::Matrix2Xd& points, double u_begin, double u_end);
 
-  /// Cost: logarithmic in the number of points. Where branches of the line are equally near, the first counts.
+  /// Coordinates of p. The cost is logarithmic in the number of points. The first of equally near branches counts.
   LinePlace find(const Eigen::Vector2d& p) const;
   Eigen::Vector2d point(double u, double v) const;
 
-  /// A u at which the line bends more than a strip from v_right to v_left on its sides can: 1 − κ v below the limit
-  /// that find() needs. Not-a-number: none.
+  /// A u at which the line bends too much for a strip from v_right to v_left beside it: 1 − κ v is below the limit that
+  /// find() needs. Not-a-number: none.
   double sharp_bend(double v_right, double v_left) const;
 
  private:

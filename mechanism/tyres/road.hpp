@@ -1,4 +1,4 @@
-// Road: height of the ground under tyres, with its gradient, in axes of its own that are at rest.
+// Road: height of the ground under tyres with its gradient, in axes of the road, which are at rest.
 #pragma once
 
 #include <memory>
@@ -16,53 +16,53 @@
 
 namespace tisserand::mechanism {
 
-/// z = h(x, y) and ∂h/∂x, ∂h/∂y.
+/// Height z = h(x, y) with ∂h/∂x and ∂h/∂y.
 struct RoadHeight {
   double value = 0.0;
   double by_x = 0.0;
   double by_y = 0.0;
 };
 
-/// A part of one track: height over x, 0 outside (curves: as at their ends).
+/// Piece of one track: height over x, 0 outside (curves: as at their ends).
 struct RoadPiece {
   formats::RoadPieceShape shape = formats::RoadPieceShape::cosine;
   double start = 0.0, length = 0.0, height = 0.0, ramp = 0.0;
   Curve curve = 0.0;
 
-  /// The height and its slope at x.
+  /// Height and its slope at x.
   RoadHeight at(double x) const;
 };
 
-/// Heights over a grid, along a line or along x.
+/// Heights on a grid, along a line or along x.
 struct RoadSurface {
   HeightGrid grid;
   std::optional<ReferenceLine> line;
 };
 
-/// Why there is no road at a place: beyond one of its ends, or in a hole.
+/// Reason why there is no road at a place: it is beyond an end, or in a hole.
 struct RoadLack {
   bool hole = false;
-  char axis = 'x';                          ///< x, y; along and beside a line u, v
-  double at = 0.0, begin = 0.0, end = 0.0;  ///< on that axis
+  char axis = 'x';                          ///< x, y; u, v along and beside a line
+  double at = 0.0, begin = 0.0, end = 0.0;  ///< place and limits on that axis
   Eigen::Vector2d place;                    ///< x, y or u, v
 };
 
 struct Road {
   std::string name;
-  Eigen::Vector3d p = Eigen::Vector3d::Zero();      ///< origin, from that of the model
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();      ///< origin, relative to that of the model
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< R_WR
-  std::vector<RoadPiece> left, right;               ///< right: empty where one track is all of the road
+  std::vector<RoadPiece> left, right;               ///< right: empty if one track is the whole road
   double transition = 0.0;  ///< width of the strip about y = 0 where the tracks are blended; 0: one track
-  double begin, end;        ///< x (along a line u) between which the road is there
+  double begin, end;        ///< limits of the road in x (in u along a line)
   std::shared_ptr<const RoadSurface> surface;   ///< instead of the tracks; null: none
   double friction = 1.0, friction_right = 1.0;  ///< factors of the friction of tyres where y > 0 (v > 0), and y < 0
 
-  /// `origin`: of the model.
+  /// `origin`: origin of the model.
   Road(const formats::RoadSpec& spec, const Eigen::Vector3d& origin);
   RoadHeight at(double x, double y) const;
-  /// Whether the road is missing there.
+  /// Reason why the road is missing at a place; absent: it exists there.
   std::optional<RoadLack> lack(double x, double y) const;
-  /// Factor of the friction; `strip`: width about y = 0 in which one side goes over into the other.
+  /// Factor of the friction. `strip`: width about y = 0 in which the sides blend.
   double friction_at(double x, double y, double strip) const;
 };
 

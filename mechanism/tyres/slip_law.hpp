@@ -5,7 +5,7 @@
 
 namespace tisserand::mechanism {
 
-/// Constants of [GN90]; forces per unit of slip, angles as slip.
+/// Constants of [GN90]. Stiffnesses are forces per unit of slip; angles count as slips.
 struct ComprehensiveSlip {
   double slip_stiffness = 0.0;       ///< C_s
   double cornering_stiffness = 0.0;  ///< C_α
@@ -14,11 +14,11 @@ struct ComprehensiveSlip {
   double sliding_friction = 0.0;     ///< μ₁ at slip 1 and beyond
 };
 
-/// A file's coefficients as one wheel uses them.
+/// Coefficients of a property file for one wheel.
 struct MagicFormulaLaw {
   formats::MagicFormula p;
   double pressure = 0.0;  ///< dp_i: inflation pressure over that of the file, less 1
-  bool mirrored = false;  ///< on the other side of the vehicle than in the file
+  bool mirrored = false;  ///< the wheel is on the other side of the vehicle than in the file
 
   bool is_6_1() const { return p.version == formats::MagicFormulaVersion::mf_6_1; }
   bool has_overturning() const {

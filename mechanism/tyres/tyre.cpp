@@ -1,5 +1,5 @@
-// From the motion of the wheel to slips, from forces in the patch to the wrench on the wheel; dual numbers for
-// tangents.
+// Tyres in space: slips from the motion of the wheel, the wrench on the wheel from forces in the patch; dual numbers
+// for tangents.
 #include "mechanism/tyres/tyre.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Share of the vertical stiffness that holds standing tyres along the road in the matrix of statics.
+/// Fraction of the vertical stiffness that holds standing tyres along the road in the matrix of statics.
 constexpr double standing_share = 1e-3;
 
 template <class T>
@@ -35,7 +35,7 @@ ContactSlip<T> slip_of(const Tyre& tyre, const DiscContact<T>& c, const DiscMoti
   return slip_from<T>(tyre, c.penetration, velocity.dot(c.x), velocity.dot(c.y), spin);
 }
 
-/// Factor of the friction of the road under the contact centre; its change along the way is left out of tangents.
+/// Factor of the road friction under the contact centre. Tangents omit its change along the way.
 template <class T>
 double road_friction(const Tyre& tyre, const Road& road, const DiscContact<T>& c) {
   if (road.friction == road.friction_right) return road.friction;
@@ -44,7 +44,7 @@ double road_friction(const Tyre& tyre, const Road& road, const DiscContact<T>& c
   return road.friction_at(at.x(), at.y(), tyre.radius);
 }
 
-/// What the tyre does, world axes; the wrench is about the centre of the disc.
+/// Action of the tyre in world axes. The wrench is about the centre of the disc.
 template <class T>
 struct TyreAction {
   using Vector3 = Eigen::Matrix<T, 3, 1>;
@@ -92,7 +92,7 @@ DiscMotion<double> disc_motion(const Tyre& tyre, const NodeMotion& node) {
           marker_velocity(tyre.wheel, node), node.R * node.Omega};
 }
 
-/// The motion and its derivative for δx, δΘ (material), δẋ, δΩ of the node.
+/// Motion of the disc and its derivative for δx, δΘ (material), δẋ, δΩ of the node.
 DiscMotion<Dual> disc_motion(const Tyre& tyre, const NodeMotion& node, const Vector6d& dq, const Vector6d& dv) {
   const DiscMotion<double> m = disc_motion(tyre, node);
   const Vector3d turn = node.R * dq.tail<3>(), p = node.R * tyre.wheel.p;
@@ -186,7 +186,7 @@ void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, const 
   terms.energy = spring_energy(tyre, c.penetration);
 }
 
-/// Also on bent roads the energy changes by the rate of δ itself.
+/// On curved roads too, the energy changes by the rate of δ itself.
 double dissipated_power(const Tyre& tyre, const Road& road, const NodeMotion& node, const TyreTerms& terms) {
   if (terms.penetration <= 0.0) return 0.0;
   Vector6d velocity;
