@@ -1,4 +1,4 @@
-// Trials, and what follows from their differences: the error that is left, the next tolerance, the modes.
+// Trial runs, and conclusions from their differences: the remaining error, the next tolerance, the modes.
 #include "mechanism/study/accuracy.hpp"
 
 #include <algorithm>
@@ -23,46 +23,45 @@ namespace {
 
 using formats::AccuracySpec;
 
-/// How errors and work of a method follow its tolerance.
+/// Dependence of errors and work of a method on its tolerance.
 struct Rates {
-  double first;        ///< tolerance of the first run over the error asked for
-  double second_part;  ///< of the first tolerance
-  double order;        ///< of the error in the tolerance, E ~ τ^p, that is relied on at most
-  double steps_order;  ///< of the error in the steps
-  double fewest_more;  ///< steps of a run over those of the one before, below which their difference says nothing
+  double first;        ///< tolerance of the first run over the requested error
+  double second_part;  ///< first tolerance over the second one
+  double order;        ///< assumed order of the error in the tolerance, E ~ τ^p, at most
+  double steps_order;  ///< order of the error in the steps
+  double fewest_more;  ///< least ratio of the steps of two runs whose difference is used
   double work;         ///< steps ~ τ^-work
 };
-/// Errors of generalised alpha that share out the tolerance over the time have p = 1. Its steps end on instants of
-/// output: runs whose steps those chose differ by nothing.
+/// Errors of generalised alpha that distribute the tolerance over the time have p = 1. Its steps end at instants of
+/// output. Runs whose steps these instants determine do not differ.
 constexpr Rates shared{10.0, 8.0, 0.7, 2.0, 1.3, 0.5};
-/// A tenth of radau's tolerance costs 1.5 times the steps. Its errors fall less evenly, since an estimate of lower
-/// order measures the steps; on smooth motion errors of 10 to 100 times the tolerance add up.
+/// With a tenth of its tolerance radau needs 1.5 times the steps. Its errors fall less evenly, since an estimate of
+/// lower order controls the steps. On smooth motion errors of 10 to 100 times the tolerance add up.
 constexpr Rates of_radau{0.03, 10.0, 0.5, 5.0, 1.05, 0.2};
 
-/// Of radau, over the error asked for, where a rate is asked for of what may vibrate. Error control sees vibrations by
-/// their displacements: smaller ones are damped and missing in every run alike, where they may be most of a velocity. A
-/// vibration 10⁵ times faster than the motion has 10⁻⁵ of the displacement.
+/// First tolerance of radau over the requested error, and its ratio to the second, for rates in scenes that may
+/// vibrate. Error control sees vibrations by their displacements. Smaller ones are damped and missing in every run, but
+/// may be most of a velocity. A vibration 10⁵ times faster than the motion has 10⁻⁵ of the displacement.
 constexpr double first_of_rates = 1e-6, second_of_rates = 30.0;
-/// Steps of the first run of a method that was not asked for, beyond which another is taken.
+/// Largest number of steps of the first run of an automatic method. Beyond it another method is taken.
 constexpr long most_first_steps = 50000;
-constexpr double aim = 0.4;                              ///< part of the error that a further tolerance aims at
-constexpr double least_part = 1e-3, most_part = 0.5;     ///< of the tolerance before
-constexpr double least_order = 0.3, trusted_part = 0.9;  ///< of measured orders
-/// No further run is begun that is foretold to take longer than this [s] and than so many of the first run.
+constexpr double aim = 0.4;                              ///< fraction of the error at which a further tolerance aims
+constexpr double least_part = 1e-3, most_part = 0.5;     ///< of the previous tolerance
+constexpr double least_order = 0.3, trusted_part = 0.9;  ///< bound and fraction of measured orders
+/// No further run begins if its predicted time exceeds both this [s] and this multiple of the first run.
 constexpr double longest_run = 600.0, longest_of_first = 20.0;
 constexpr double least_tolerance = 1e-12, most_tolerance = 0.05;
 constexpr int most_runs = 8;
-constexpr double instants = 500.0;  ///< stored ones, where the scene names none
-/// Of the error, that modes which are left out may make.
+constexpr double instants = 500.0;  ///< stored instants, if the scene names none
+/// Fraction of the error that omitted modes may cause.
 constexpr double modes_part = 0.1;
-/// Of the error, that modes which the files do not hold may make before there is a doubt.
+/// Fraction of the error that modes missing in the files may cause without a warning.
 constexpr double most_missing = 0.5;
-/// What twice the modes leave of their error: frequencies rise at least in proportion to their number, what a mode
-/// follows quasi-statically errs with the inverse square of its own.
+/// Fraction of the error of modes that remains with twice the modes. Frequencies rise at least in proportion to the
+/// number of modes. The error of quasi-static modes falls with the inverse square of their frequency.
 constexpr double modes_fall = 0.25;
 
-/// What differences of runs with falling tolerances tell: the error that the last one leaves, and the tolerance after
-/// it.
+/// Conclusions from differences of runs with falling tolerances: the error of the last run, and the next tolerance.
 class FallingTolerance {
  public:
   explicit FallingTolerance(const Rates& rates) : rates_(rates), order_(rates.order) {}
@@ -72,18 +71,18 @@ class FallingTolerance {
   }
   double second(double first) const { return first / rates_.second_part; }
 
-  /// A run whose tolerance is `fall` times smaller, with `more` times the steps, has changed the history by `change`.
+  /// Registers the `change` of the history by a run with a tolerance `fall` times smaller and `more` times the steps.
   void observe(double change, double fall, double more) {
     if (change_ > 0.0 && change > 0.0)
       order_ = std::min(order_, std::max(least_order, trusted_part * std::log(change_ / change) / std::log(fall_)));
     error_ = std::max({change * std::pow(fall, -order_), change_ * std::pow(fall * fall_, -order_),
                        change * std::pow(more, -rates_.steps_order * order_)});
-    // Instants of output or the longest step, not the tolerance, chose the steps: the same ones differ by nothing.
+    // Instants of output or the longest step determined the steps, not the tolerance. Equal steps give no difference.
     if (more < rates_.fewest_more) error_ = std::numeric_limits<double>::infinity();
     change_ = change;
     fall_ = fall;
   }
-  /// Forgets the last change: something else than the tolerance has caused it.
+  /// Discards the last change, which was not caused by the tolerance.
   void forget() { change_ = 0.0; }
 
   double change() const { return change_; }
@@ -93,7 +92,7 @@ class FallingTolerance {
                                                : tolerance / rates_.second_part;
     return std::max(least_tolerance, std::clamp(aimed, least_part * tolerance, most_part * tolerance));
   }
-  /// Time of a run with the tolerance `next`, if one with `tolerance` took `seconds`.
+  /// Predicted time of a run with the tolerance `next`, if one with `tolerance` took `seconds`.
   double foretold(double seconds, double tolerance, double next) const {
     return seconds * std::pow(tolerance / next, rates_.work);
   }
@@ -101,14 +100,14 @@ class FallingTolerance {
  private:
   Rates rates_;
   double order_;
-  double change_ = 0.0, fall_ = 1.0;  ///< by the run before: of the history, and of the tolerance
+  double change_ = 0.0, fall_ = 1.0;  ///< of the previous run: change of the history, and of the tolerance
   double error_ = 0.0;
 };
 
-/// Modes per body with a choice; empty: all of all.
+/// Modes per body with a choice; empty: all modes of all bodies.
 using Modes = std::map<std::string, int>;
 
-/// The history of one channel; `judge` sees the report of a run that completed before it is stored.
+/// Recorder of the history of one channel. `judge` receives the report of a completed run before it is stored.
 class Recorder : public RunListener {
  public:
   Recorder(std::string channel, std::string where) : channel_(std::move(channel)), where_(std::move(where)) {}
@@ -162,14 +161,14 @@ bool is_place(const std::string& channel) {
          channel.starts_with("joints/coordinate/");
 }
 
-/// The method where the scene leaves it open: radau, but for friction, whose changes it does not end steps at.
+/// Method if the scene leaves it open: radau, except with friction, since its steps do not end where friction changes.
 formats::Method chosen_method(const formats::Scene& scene) {
   const bool rubs = std::ranges::any_of(scene.joints, [](const auto& joint) { return joint.friction.has_value(); });
   return rubs || scene.integrator.linear_solver == formats::LinearSolver::qr ? formats::Method::generalised_alpha
                                                                              : formats::Method::radau;
 }
 
-/// What `output.channels` must name for this channel: nodes alone, of other things the dataset ("joints/force").
+/// Entry of `output.channels` for this channel: the channel itself for nodes, else the dataset ("joints/force").
 std::string dataset_of(const std::string& channel) {
   if (channel.starts_with("nodes/")) return channel;
   const std::size_t group = channel.find('/');
@@ -212,18 +211,18 @@ class Search {
   }
 
  private:
-  /// What a run was, beside its report.
+  /// Data of a run besides its report.
   struct Trial {
     Series history;
     long steps = 0;
   };
-  /// What the search knows of the number of modes.
+  /// Data on the number of modes.
   struct Choice {
     Modes left;               ///< empty: all
-    Series half;              ///< history at the first tolerance with half of them; empty: all of them from the start
-    bool mixed = false;       ///< the run before has half of the modes, and its tolerance
-    double upper_half = 0.0;  ///< what the upper half of all modes adds
-    double left_out = 0.0;    ///< what modes that are left out would change
+    Series half;              ///< history at the first tolerance with half of them; empty: the run had all of them
+    bool mixed = false;       ///< the previous run had half of the modes, and its tolerance
+    double upper_half = 0.0;  ///< change by the upper half of all modes
+    double left_out = 0.0;    ///< change by omitted modes
   };
 
   void use(formats::Method method) {
@@ -234,7 +233,7 @@ class Search {
     tolerance_ = FallingTolerance(rates);
   }
 
-  /// At the first tolerance; another method, where the chosen one cannot. Nothing is stored, unless it fails.
+  /// Runs at the first tolerance. If the chosen method fails, it takes another one. Nothing is stored, unless it fails.
   RunEnd begin(const Modes& modes) {
     const bool replaceable =
         request_.scene.integrator.method == formats::Method::automatic && method_ == formats::Method::radau;
@@ -315,7 +314,7 @@ class Search {
     return any ? half : Modes{};
   }
 
-  /// After the second run, while halves of the modes change what it found by little: further runs go without them.
+  /// After the second run: halves the modes as long as this changes its history little. Further runs omit these modes.
   void leave_out_modes(double tolerance) {
     if (modes_.half.x.empty() || modes_.upper_half > modes_part * accuracy_.error) return;
     modes_.left_out = modes_.upper_half;
@@ -329,19 +328,19 @@ class Search {
     }
   }
 
-  /// Returns what modes that are missing may change.
+  /// Compares the last two runs. Returns the change that missing modes may cause.
   double compare(double fall, long steps) {
     const double change = error_of(previous_.history, recorder_.history, quantity_);
     tolerance_.observe(change, fall, static_cast<double>(steps) / static_cast<double>(std::max(1L, previous_.steps)));
     const double missing = modes_.mixed          ? modes_fall * change
                            : modes_.left.empty() ? modes_fall * modes_.upper_half
                                                  : modes_.left_out;
-    // What files do not hold is no matter of the tolerance; a doubt will say so.
+    // Modes missing in the files do not depend on the tolerance. A warning will report them.
     room_ = missing > most_missing * accuracy_.error ? accuracy_.error : accuracy_.error - missing;
     return missing;
   }
 
-  /// The run before with all of its modes, where it had half of them and differs by too much.
+  /// Repeats the previous run with all modes if it had half of them and differs too much.
   void separate(double tolerance) {
     modes_.mixed = false;
     tolerance_.forget();
@@ -422,13 +421,13 @@ class Search {
   formats::Method method_ = formats::Method::generalised_alpha;
   FallingTolerance tolerance_{shared};
   Choice modes_;
-  Trial previous_;                 ///< the run before
-  std::vector<std::string> cost_;  ///< of each run: tolerance and seconds
-  double began_ = 0.0;             ///< the present run
+  Trial previous_;                 ///< the previous run
+  std::vector<std::string> cost_;  ///< tolerance and seconds of each run
+  double began_ = 0.0;             ///< start of the present run
   double first_took_ = 0.0;
-  long most_steps_ = 0;    ///< of the present run; 0: any number
-  bool too_long_ = false;  ///< the next run would be
-  double room_ = 0.0;      ///< for the error that the tolerance leaves
+  long most_steps_ = 0;    ///< limit of the present run; 0: none
+  bool too_long_ = false;  ///< the next run would take too long
+  double room_ = 0.0;      ///< allowed error of the tolerance
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Files and sentences at the end of a study.
+// Files and messages at the end of a study.
 #include "mechanism/study/answer.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
   throw Error("no run completed inside the budget", study.file, "raise 'run_budget'");
 }
 
-/// The scene of a setting as a file beside the scene that it comes from.
+/// Writes the scene of a setting beside its original scene. Returns the path.
 std::string write_scene(const formats::Study& study, const Cell& cell, double tolerance) {
   const std::string& base = study.series[cell.series].scene;
   const fs::path folder = fs::path(base).parent_path();

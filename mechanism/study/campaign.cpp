@@ -1,4 +1,4 @@
-// `mechanism run` as a child process, over and over.
+// Calls of `mechanism run` as child processes, and their results.
 #include "mechanism/study/campaign.hpp"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ std::string results_path(const std::string& folder, const Cell& cell) {
   return folder + "/runs/" + cell.key.substr(0, 16) + ".results.h5";
 }
 
-/// The last line that says something, without the name of this program.
+/// Message of a failed run, without the name of this program.
 std::string reason_in(const std::string& complaint) {
   std::string text = complaint;
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -48,8 +48,8 @@ void read_counts(const std::string& results, RunRecord& record) {
     record.coordinates = mobility->value("coordinates", 0);
 }
 
-/// One run in a process of its own; what it stored is in results_path(), to be read by one thread at a time. False: it
-/// was stopped from outside.
+/// Runs a cell in a child process. Its results are in results_path(); one thread at a time may read them. Returns false
+/// if it was stopped from outside.
 bool run_once(const Campaign& campaign, const Cell& cell, RunRecord& record) {
   const formats::StudySeries& series = campaign.study.series[cell.series];
   const std::string results = results_path(campaign.folder, cell);
@@ -85,7 +85,7 @@ void remove_results(const Campaign& campaign, const Cell& cell) {
   for (const char* ending : {"", ".part"}) fs::remove(results_path(campaign.folder, cell) + ending, ignored);
 }
 
-/// Errors of what a run has stored; one that cannot be measured has failed.
+/// Measures the errors of a run. A run that cannot be measured counts as failed.
 void measure(const Campaign& campaign, const Cell& cell, const ReferenceHistories& reference, RunRecord& record) {
   const std::string results = results_path(campaign.folder, cell);
   try {
@@ -99,7 +99,7 @@ void measure(const Campaign& campaign, const Cell& cell, const ReferenceHistorie
   }
 }
 
-/// A run and its errors, written down. The lock is also that of HDF5.
+/// Runs a cell and records its errors. The lock also protects HDF5.
 void run_cell(Campaign& campaign, const Cell& cell, const ReferenceHistories& reference, std::mutex& lock,
               double& used) {
   RunRecord record;
@@ -113,7 +113,7 @@ void run_cell(Campaign& campaign, const Cell& cell, const ReferenceHistories& re
 
 bool is_interrupted(const Campaign& campaign) { return campaign.control.interrupted && campaign.control.interrupted(); }
 
-/// Each part once, several at a time.
+/// Makes each part once, several at a time.
 void make_parts(const Campaign& campaign, const std::vector<const Cell*>& cells) {
   std::set<std::string> known;
   std::vector<const PartRequest*> parts;
@@ -133,7 +133,7 @@ void make_parts(const Campaign& campaign, const std::vector<const Cell*>& cells)
   if (!is_interrupted(campaign)) progress.finish();
 }
 
-/// Time that a cell will take, from the cell most like it that has run; the axis along which lines go counts double.
+/// Expected time of a cell, from the most similar cell that has run. A difference on the last axis counts double.
 double expected_seconds(const Campaign& campaign, const std::vector<Cell>& cells, const Cell& cell) {
   double seconds = 0.0;
   int least = -1;
@@ -150,7 +150,7 @@ double expected_seconds(const Campaign& campaign, const std::vector<Cell>& cells
   return seconds;
 }
 
-/// By the clock: `slowness` is how much more of it passes than of the processor's.
+/// Message on the remaining wall clock time. `slowness`: wall clock time over processor time.
 std::string remaining_text(const Campaign& campaign, const std::vector<Cell>& cells, std::size_t done,
                            double slowness) {
   double seconds = 0.0, repeats = 0.0;
@@ -188,7 +188,7 @@ MedianTime median_of(std::vector<double> seconds) {
   std::ranges::sort(seconds);
   const int n = count_of(seconds);
   if (n == 0) return {};
-  // P(x_(k) <= median <= x_(n+1-k)) = 1 - 2 Σ_{i<k} C(n, i) / 2^n of any continuous distribution.
+  // For any continuous distribution P(x_(k) <= median <= x_(n+1-k)) = 1 - 2 Σ_{i<k} C(n, i) / 2^n.
   double binomial = 1.0, tail = 0.0;
   int k = 0;
   while (k + 1 <= (n + 1) / 2) {
@@ -259,7 +259,7 @@ void run_cells(Campaign& campaign, const std::vector<Cell>& cells, const Referen
   make_parts(campaign, left);
   const double begin = campaign.control.clock();
   Progress progress("study", 0.0);
-  double used = 0.0;  // seconds of the processor
+  double used = 0.0;  // processor time [s]
   std::mutex writing;
   std::atomic<std::size_t> next{0};
   on_threads(timed ? 1 : core_count(), [&](int) {

@@ -1,4 +1,4 @@
-// The runs of a study: each a child process, its errors measured and written down before the next begins.
+// Runs of a study: each is a child process. Its errors are measured and recorded before the next begins.
 #pragma once
 
 #include <functional>
@@ -12,11 +12,11 @@
 namespace tisserand::mechanism {
 
 struct StudyControl {
-  std::function<bool()> interrupted;  ///< asked ten times a second and between runs
+  std::function<bool()> interrupted;  ///< polled ten times a second and between runs
   std::function<double()> clock;      ///< [s]
 };
 
-/// What all runs of a campaign share.
+/// Data that all runs of a campaign share.
 struct Campaign {
   const formats::Study& study;
   const std::string& folder;
@@ -24,35 +24,35 @@ struct Campaign {
   const StudyControl& control;
 };
 
-/// Against what errors are measured.
+/// Reference histories of the errors.
 struct ReferenceHistories {
-  std::vector<Series> histories;  ///< of each quantity
-  std::vector<double> agreement;  ///< error of the second run against the first; empty: there is none
+  std::vector<Series> histories;  ///< one per quantity
+  std::vector<double> agreement;  ///< error of the second reference run against the first; empty: there is none
 };
 
-/// Runs the references, or reads their file. Throws Error: a run failed, two disagree (both values), a quantity is not
-/// stored.
+/// Runs the references, or reads their file. Throws Error: a run failed, two disagree (with both values), a quantity is
+/// not stored.
 ReferenceHistories make_reference(Campaign& campaign, const std::vector<Cell>& references);
 
-/// Median of the times of a cell and the interval in which it lies: order statistics with a confidence of at least 3/4
-/// (of 3 to 5 runs the least and the greatest, then the second of each end, ...).
+/// Median of the times of a cell and its confidence interval: order statistics with a confidence of at least 3/4 (of 3
+/// to 5 runs the least and the greatest, then the second of each end, ...).
 struct MedianTime {
   double median = 0.0, least = 0.0, greatest = 0.0;
 };
 MedianTime median_of(std::vector<double> seconds);
 
-/// Whether nothing is left to do for a cell: it failed, or its times are known as the study demands: after three runs
-/// at least, the interval of the median within ± `within`, or `repeats` runs.
+/// Whether a cell is complete: it failed, or its times are known as the study demands. That needs at least three runs
+/// with the interval of the median within ± `within`, or `repeats` runs.
 bool is_known(const formats::Study& study, const std::vector<RunRecord>& runs);
 
 /// Makes the superelement files of the cells, each once. Throws Error.
 void make_all_parts(const Campaign& campaign, const std::vector<Cell>& cells);
 
-/// Runs a cell once more and reads its quantities, for files that need its history. Throws Error.
+/// Histories of the quantities of a cell, which is run once more for them. Throws Error.
 std::vector<Series> histories_of(const Campaign& campaign, const Cell& cell);
 
-/// Runs what the journal lacks: one at a time where times count, else over the cores. Ends early when interrupted.
-/// Throws Error if a part cannot be made.
+/// Runs what the journal lacks: one at a time if times count, else in parallel on the cores. Ends early when
+/// interrupted. Throws Error if a part cannot be made.
 void run_cells(Campaign& campaign, const std::vector<Cell>& cells, const ReferenceHistories& reference);
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// Products of axes; keys from the content of files.
+// Cells as products of axes, with keys from the content of files.
 #include "mechanism/study/cells.hpp"
 
 #include <filesystem>
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_cells = 100'000;
 
-/// SHA-256 of files, each read once; "absent" of one that is not there.
+/// SHA-256 of files, each read once; "absent" for a missing file.
 class Digests {
  public:
   const std::string& of(const std::string& path) {
@@ -36,14 +36,14 @@ class Digests {
   std::map<std::string, std::string> known_;
 };
 
-/// Digests of the files that stand in a tree under the key `file`, relative to `folder`.
+/// Adds the digests of the files that a tree names under the key `file`, relative to `folder`.
 void add_named_files(const formats::YamlNode& node, const fs::path& folder, Digests& digests, std::string& text) {
   if (node.key == "file" && node.kind == formats::YamlKind::scalar)
     text += digests.of((folder / node.text).lexically_normal().string()) + "\n";
   for (const formats::YamlNode& child : node.children) add_named_files(child, folder, digests, text);
 }
 
-/// All that a tree of a file comes from: its text, what it includes, what it names.
+/// Key of everything from which a tree of a file is made: its text, included files, named files.
 std::string content_key(const formats::YamlDocument& document, const std::string& file, Digests& digests) {
   std::string text;
   for (const formats::YamlSource& source : document.sources)
@@ -74,7 +74,7 @@ struct Planner {
     return request;
   }
 
-  /// Reads the scene with all settings; the key of the cell comes from what was read.
+  /// Reads the scene with all settings. Sets the key of the cell from its content.
   void complete(const formats::StudySeries& series, const formats::StudyPoint& point,
                 const std::vector<formats::StudySetting>& extra, Cell& cell) {
     for (const formats::StudyQuantity& quantity : study.quantities)
@@ -88,7 +88,7 @@ struct Planner {
       for (const std::string& path : spec.as) cell.settings.push_back({path, cell.parts.back().superelement});
     }
     (void)formats::read_scene(series.scene, cell.settings);
-    // Parts are in the key by what they are made from, not by their file.
+    // The key contains the sources of parts, not the path of their files.
     std::vector<formats::Override> without_parts = cell.settings;
     for (const formats::StudyPart& spec : series.parts)
       for (const std::string& path : spec.as)

@@ -1,4 +1,4 @@
-// sbatch as a child process.
+// Job script, and sbatch as a child process.
 #include "mechanism/study/cluster.hpp"
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One word of a shell, whatever it holds.
+/// Text quoted as one word of a shell.
 std::string shell_quoted(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
@@ -46,7 +46,7 @@ void submit(Campaign& campaign, int tasks) {
   request.words = {"sbatch", "--wait", script};
   request.is_stopped = campaign.control.interrupted;
   const ChildReport report = run_child(request);
-  // With --wait the code is the greatest one of the tasks: what they did is in their journals.
+  // With --wait the code is the greatest one of the tasks. Their results are in their journals.
   if (report.ending == ChildEnding::left && report.text.find("Submitted batch job") == std::string::npos)
     throw Error(fmt::format("sbatch refuses: {}", printable_line(report.complaint, 500)), script,
                 "see the limits of the cluster");

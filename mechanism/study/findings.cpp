@@ -1,4 +1,4 @@
-// Lines, orders, fronts.
+// Lines of settings, observed orders, Pareto fronts.
 #include "mechanism/study/findings.hpp"
 
 #include <algorithm>
@@ -151,7 +151,7 @@ int cheapest(const std::vector<StudyRow>& rows, const std::vector<StudyLine>& li
              double tolerance) {
   int best = -1;
   for (const StudyLine& line : lines) {
-    // From the finest on, as long as all that has been measured stays within.
+    // From the finest setting on, as long as all measured errors are within the tolerance.
     for (auto row = line.rows.rbegin(); row != line.rows.rend(); ++row) {
       if (!rows[*row].is_measured()) continue;
       if (rows[*row].worst_error(quantities) > tolerance) break;

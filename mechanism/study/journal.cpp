@@ -1,4 +1,4 @@
-// JSON, one object per line; the first says what the others belong to.
+// Journal as JSON, one object per line. The first line identifies the study.
 #include "mechanism/study/journal.hpp"
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// What a study has run, on the disk: a line per run, so that none is repeated after an interruption.
+// Journal of a study on the disk: a line per run, so that none is repeated after an interruption.
 #pragma once
 
 #include <map>
@@ -9,31 +9,31 @@ namespace tisserand::mechanism {
 
 enum class CellOutcome { completed, failed, over_budget };
 
-/// One run that has ended.
+/// Record of one finished run.
 struct RunRecord {
   CellOutcome outcome = CellOutcome::completed;
-  std::string message;       ///< of one that did not complete
-  double cpu_seconds = 0.0;  ///< of the process: reading, building and writing included
-  double limit = 0.0;        ///< over_budget: seconds by the clock that it was given
+  std::string message;       ///< why it did not complete
+  double cpu_seconds = 0.0;  ///< of the process, with reading, building and writing
+  double limit = 0.0;        ///< over_budget: limit of wall clock time [s]
   int coordinates = 0;
   long steps = 0, iterations = 0;
-  std::vector<double> errors;  ///< of the quantities; empty of one that did not complete
+  std::vector<double> errors;  ///< one per quantity; empty if it did not complete
 };
 
-/// Runs by the key of their cell.
+/// Records of runs by the key of their cell.
 class Journal {
  public:
-  /// Reads <folder>/journal*.jsonl and appends to <folder>/journal<suffix>.jsonl. `measure` says what errors mean. A
-  /// last line that was cut off is dropped. Throws Error: damaged, or of another version or measure.
+  /// Reads <folder>/journal*.jsonl and appends to <folder>/journal<suffix>.jsonl. `measure`: key of the meaning of
+  /// errors. An incomplete last line is dropped. Throws Error: damaged, or of another version or measure.
   Journal(const std::string& folder, const std::string& suffix, const std::string& measure);
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
   const std::vector<RunRecord>& runs(const std::string& key) const;
-  /// On the disk when this returns.
+  /// Adds a record, which is on the disk on return.
   void add(const std::string& key, const RunRecord& record);
-  /// Keys that are recorded.
+  /// Keys with records.
   std::vector<std::string> keys() const;
 
  private:

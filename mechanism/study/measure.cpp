@@ -1,4 +1,4 @@
-// Norms of differences.
+// Norms of histories and of their differences.
 #include "mechanism/study/measure.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct Peak {
   double time = 0.0;
 };
 
-/// The part of a history that counts.
+/// Part of a history from `from` to `to`.
 Series clipped(const Series& series, const formats::StudyQuantity& quantity) {
   Series part = series;
   part.x.clear();
@@ -39,7 +39,7 @@ Series clipped(const Series& series, const formats::StudyQuantity& quantity) {
   return part;
 }
 
-/// Largest absolute value; inside of the history the vertex of the parabola through it and its neighbours.
+/// Largest absolute value; inside the history the vertex of the parabola through it and its neighbours.
 Peak peak_of(const Series& series) {
   std::size_t k = 0;
   for (std::size_t i = 1; i < series.y.size(); ++i)

@@ -1,4 +1,4 @@
-// Errors of a run: its channels against the histories of the reference, in the norms that the study names.
+// Errors of a run: its channels compared with the reference histories, in the norms of the study.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace tisserand::mechanism {
 
-/// The channel of each quantity. Throws Error with the nearest channels of the file.
+/// Histories of the channels of all quantities. Throws Error with the nearest channels of the file.
 std::vector<Series> read_quantities(const std::string& results, const std::vector<std::string>& channels);
 
-/// The same from the file that the study names as reference: columns of CSV, or channels of results.
+/// Histories from the reference file of the study: columns of CSV, or channels of results.
 std::vector<Series> read_reference_file(const formats::Study& study);
 
-/// What a norm makes of one history: its largest absolute value (max, final, peak), RMS, or the instant of its largest
-/// absolute value.
+/// Norm of one history: its largest absolute value (max, final, peak), RMS, or the instant of its largest absolute
+/// value.
 double size_of(const Series& series, const formats::StudyQuantity& quantity);
 
 /// Error of a history, over `scale` or the size of the reference:

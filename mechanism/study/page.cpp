@@ -1,4 +1,4 @@
-// Series for the plotter, and HTML around what it draws.
+// Series for the plotter, and HTML around its pictures.
 #include "mechanism/study/page.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-constexpr std::size_t most_lines = 7;  // as many as the plotter has colours
+constexpr std::size_t most_lines = 7;  // the plotter has as many colours
 
 constexpr const char* page_head = R"html(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width,initial-scale=1">
@@ -63,7 +63,7 @@ void add_point(Series& series, double x, double y) {
   series.y.push_back(y);
 }
 
-/// The page's own background shows through, which is dark where the reader's is.
+/// Picture without background, so that the light or dark background of the page shows through.
 std::string without_background(std::string svg) {
   const std::string_view fill = "fill=\"#ffffff\"";
   const std::size_t rectangle = svg.find("<rect"), at = svg.find(fill, std::min(rectangle, svg.size()));
@@ -71,7 +71,7 @@ std::string without_background(std::string svg) {
   return svg;
 }
 
-/// Values at the end of a line along an axis that leave an error as it is, in a sentence; empty: there are none.
+/// Sentence on values at the end of an axis that do not change an error; empty: there are none.
 std::string plateau_text(const formats::Study& study, const std::vector<StudyRow>& rows, const StudyLine& line, int q) {
   const std::optional<std::size_t> from = plateau(rows, line, q);
   if (!from) return {};
@@ -91,7 +91,7 @@ struct Book {
   const std::string& folder;
   std::string html;
 
-  /// The picture as part of the page, and as a file.
+  /// Draws a picture into the page and into a file.
   void draw(std::vector<Series> series, PlotOptions options, const std::string& name) {
     std::erase_if(series, [](const Series& one) { return one.x.empty(); });
     if (series.empty()) return;
@@ -109,7 +109,7 @@ struct Book {
     }
   }
 
-  /// Lines of one diagram over all other runs.
+  /// Draws lines of one diagram over all other runs.
   void work_precision(int q, const std::vector<const StudyLine*>& lines, const std::string& name) {
     Series front = named("least time", SeriesKind::front), others = named("other settings", SeriesKind::backdrop),
            failures = named("failed or over budget", SeriesKind::marks);
@@ -141,7 +141,7 @@ struct Book {
     draw(std::move(series), options, name);
   }
 
-  /// All lines in one diagram, or, if they are many, one for each value of the first other axis of each series.
+  /// Draws all lines in one diagram. Many lines get one for each value of the first other axis of each series.
   void work_precision(int q) {
     const std::vector<StudyLine> lines = lines_of(study, rows);
     std::map<std::pair<int, int>, std::vector<const StudyLine*>> groups;
@@ -163,7 +163,7 @@ struct Book {
       }
   }
 
-  /// The line along an axis with all other axes at their last value.
+  /// Lines along an axis with all other axes at their last value.
   std::vector<StudyLine> finest_lines(const std::string& axis) const {
     std::vector<StudyLine> finest;
     for (int s = 0; s < std::ssize(study.series); ++s)

@@ -1,4 +1,4 @@
-// The picture book of a study: one page that needs nothing else, and its pictures as files.
+// Page of a study, self-contained, with its pictures also as files.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace tisserand::mechanism {
 
-/// Writes <folder>/index.html with work-precision diagrams (error over CPU time, a line per setting, the Pareto front
-/// wide and grey beneath, failures as crosses above), error and time along each axis with the others at their finest,
-/// and a table with observed orders; the pictures also as <folder>/<name>.svg. Where gnuplot is missing the page says
-/// so. Throws Error.
+/// Writes <folder>/index.html: work-precision diagrams, error and time along each axis with the others at their finest,
+/// and a table with observed orders. Diagrams show error over CPU time, a line per setting, the Pareto front wide and
+/// grey beneath, failures as crosses above. Pictures are also <folder>/<name>.svg. Without gnuplot the page says so.
+/// Throws Error.
 void write_page(const formats::Study& study, const std::vector<StudyRow>& rows, const std::vector<double>& agreement,
                 const std::string& folder);
 

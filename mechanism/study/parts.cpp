@@ -1,4 +1,4 @@
-// `reducer run` as a child process.
+// Call of `reducer run` as a child process.
 #include "mechanism/study/parts.hpp"
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Beside this program, else on the PATH; empty: nowhere.
+/// Path of `reducer`: in the folder of this program, else on the PATH; empty: not found.
 std::string reducer_program() {
   const std::string beside = (std::filesystem::path(own_program()).parent_path() / "reducer").string();
   if (is_program(beside)) return beside;

@@ -1,4 +1,4 @@
-// Superelement files that a study makes, by the program of the other stage: the only place that names it.
+// Superelement files that a study makes with `reducer`. Only this file names that program.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,7 @@
 
 namespace tisserand::mechanism {
 
-/// Makes the superelement file of the part unless it is there. Throws Error: the program is missing, or with what it
-/// said.
+/// Makes the superelement file of the part unless it exists. Throws Error: the program is missing, or its message.
 void reduce_part(const PartRequest& part, const std::function<bool()>& is_stopped);
 
 }  // namespace tisserand::mechanism

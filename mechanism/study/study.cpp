@@ -1,4 +1,4 @@
-// The story of a study, as a page of calls.
+// Sequence of calls of a study.
 #include "mechanism/study/study.hpp"
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// CSV, JSON, text.
+// Tables of a study as CSV, JSON and text.
 #include "mechanism/study/tables.hpp"
 
 #include <algorithm>
