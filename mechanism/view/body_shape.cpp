@@ -1,4 +1,4 @@
-// One function per kind of shape.
+// Shapes of bodies, one function per kind.
 #include "mechanism/view/body_shape.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ using formats::thinned;
 constexpr std::size_t most_stations = 80;  // of a beam: its deformation has nine coordinates at each
 constexpr std::size_t most_nodes = 300;    // of a body that is shown by its nodes: three coordinates at each
 
-/// Keeps the vertices that thinning leaves.
+/// Reduces a shape to the vertices that thinning keeps.
 void thin(int most, BodyShape& shape) {
   shape.all_vertices = shape.surface.size();
   if (shape.all_vertices <= most) return;
@@ -66,7 +66,7 @@ BodyShape shape_in_scene(const ViewedBody& body, const std::vector<formats::Shap
   return shape;
 }
 
-/// Nodes as points, joined by straight lines, that move as the results say.
+/// Shape of nodes as points, joined by straight lines, which move as in the results.
 BodyShape nodes_of_body(const ViewedRun& run, const ViewedBody& body) {
   BodyShape shape;
   shape.source = "nodes";
@@ -91,8 +91,8 @@ BodyShape nodes_of_body(const ViewedRun& run, const ViewedBody& body) {
   return shape;
 }
 
-/// The homogeneous ball of the mass and the mean moment of inertia, radius sqrt(5/2) of that of gyration, at the centre
-/// of mass, and lines from there to the nodes.
+/// Homogeneous ball of the mass and the mean moment of inertia at the centre of mass, with lines to the nodes. Its
+/// radius is sqrt(5/2) times the radius of gyration.
 BodyShape ball_of_inertia(const ViewedRun& run, const ViewedBody& body) {
   BodyShape shape;
   const Vector3d center = body.file.center_of_mass;
@@ -111,7 +111,7 @@ BodyShape ball_of_inertia(const ViewedRun& run, const ViewedBody& body) {
   return shape;
 }
 
-/// Stored nodes 0, 1, ... of a beam, each with its number; empty unless all turn.
+/// Stored nodes 0, 1, ... of a beam, each with its number, limited to nodes that turn.
 std::vector<std::pair<int, int>> stations_of(const ViewedRun& run, const ViewedBody& body, int all) {
   std::map<std::string, int> numbers;
   for (int i = 0; i < all; ++i) numbers[fmt::format("{}/{}", body.name, i)] = i;
@@ -126,8 +126,8 @@ std::vector<std::pair<int, int>> stations_of(const ViewedRun& run, const ViewedB
   return chosen;
 }
 
-/// The section at each node. A corner (y, z) is at d + y b + z c with the place d and the axes b, c of the section:
-/// nine coordinates per station, of which the deformation is linear.
+/// Section swept along a beam. A corner (y, z) is at d + y b + z c with the place d and the axes b, c of the section.
+/// These are nine coordinates per station, in which the deformation is linear.
 BodyShape swept_section(const ViewedRun& run, const ViewedBody& body, const formats::BeamBodySpec& spec) {
   const BeamMesh mesh = mesh_beam(spec, 0);
   const auto stations = stations_of(run, body, count_of(mesh.position));

@@ -1,4 +1,4 @@
-// The protocol of Chromium's developer tools, over its debugging pipe: messages in JSON, each ended by a zero byte.
+// Protocol of Chromium's developer tools over its debugging pipe: JSON messages, each ended by a zero byte.
 #include "mechanism/view/browser.hpp"
 
 #include <poll.h>
@@ -23,7 +23,7 @@ using formats::Json;
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds patience{180};  // without a graphics card a large page takes its time
+constexpr std::chrono::seconds patience{180};  // without a graphics card a large page takes time
 constexpr double seconds_to_end = 10.0;
 
 std::string browser_program() {
@@ -34,7 +34,7 @@ std::string browser_program() {
       "install it (Debian: apt-get install chromium), or make a page with `mechanism view` and save its picture");
 }
 
-/// A folder of its own, gone with the object.
+/// Temporary folder, removed with the object.
 class ProfileFolder {
  public:
   ProfileFolder() : path_((fs::temp_directory_path() / "tisserand-browser-XXXXXX").string()) {
@@ -53,14 +53,14 @@ class ProfileFolder {
   std::string path_;
 };
 
-/// The browser fell silent: why is in what it wrote on its error stream.
+/// Thrown if the browser does not answer. Its error stream says why.
 struct Silence {};
 
 class Conversation {
  public:
   explicit Conversation(int socket) : socket_(socket) {}
 
-  /// The result of a method; `session` may be empty. Events in between are passed over.
+  /// Result of a method. `session` may be empty. Events in between are ignored.
   Json ask(const std::string& method, const Json& parameters, const std::string& session) {
     Json message{{"id", ++last_}, {"method", method}, {"params", parameters}};
     if (!session.empty()) message["sessionId"] = session;
@@ -101,7 +101,7 @@ class Conversation {
   Clock::time_point end_ = Clock::now() + patience;
 };
 
-/// file:///a%20b.html: letters, digits and - . _ ~ / as they are (RFC 3986).
+/// URL of a file: file:///a%20b.html. Letters, digits and - . _ ~ / stay (RFC 3986).
 std::string file_url(const std::string& path) {
   std::string url = "file://";
   for (const char c : fs::absolute(path).lexically_normal().string()) {
@@ -112,7 +112,7 @@ std::string file_url(const std::string& path) {
   return url;
 }
 
-/// What an evaluation gave: a text, or its failure.
+/// Result of an evaluation: a text, or its failure.
 struct Answer {
   std::string text, failure;
 };
@@ -151,7 +151,7 @@ Answer converse(Conversation& conversation, const std::string& page, const std::
 
 ChildRequest browser_request(const std::string& profile, Sandbox sandbox) {
   ChildRequest request;
-  // Drawn by software, alike on every machine; no traffic of the browser's own.
+  // Drawn by software, so equal on every machine. No network traffic of the browser itself.
   request.words = {browser_program(),
                    "--headless",
                    "--disable-gpu",

@@ -1,4 +1,4 @@
-// Products of the stress per amplitude with the amplitudes, a few instants at once.
+// Largest stress from products of stress per amplitude and amplitudes, a few instants at once.
 #include "mechanism/view/largest_stress.hpp"
 
 #include <algorithm>
@@ -9,9 +9,9 @@ namespace {
 
 using Eigen::Index;
 
-constexpr Index most_products = 4'000'000;  // of one product
+constexpr Index most_products = 4'000'000;  // size of one product
 
-/// Square of the equivalent stress of [xx yy zz xy yz zx].
+/// Square of the equivalent stress (von Mises) of [xx yy zz xy yz zx].
 double squared_mises(const double* s) {
   const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
   return 0.5 * (a * a + b * b + c * c) + 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);

@@ -1,4 +1,4 @@
-// The largest stress of a body over a run, as pages tell it beside their scale of colours.
+// Largest stress of a body over a run, which pages show at their colour scale.
 #pragma once
 
 #include "formats/page/page_blocks.hpp"
@@ -7,8 +7,8 @@
 
 namespace tisserand::mechanism {
 
-/// {"value", "place", "time"}: the largest equivalent stress (von Mises) of any vertex at any instant of the page, and
-/// the vertex of the undeformed body in its part frame. null: the shape has no stress.
+/// JSON {"value", "place", "time"}: the largest equivalent stress (von Mises) of any vertex at any instant of the page,
+/// and the vertex of the undeformed body in its part frame. null: the shape has no stress.
 formats::Json largest_stress(const ViewedRun& run, const ViewedBody& body, const BodyShape& shape);
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// Boxes over time.
+// Boxes of moving objects over time.
 #include "mechanism/view/motion_extent.hpp"
 
 #include <algorithm>
@@ -11,10 +11,10 @@ using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
 constexpr std::size_t most_instants = 50;
-/// Limit, in sizes at one instant: a rod that turns about its end fills 2.83 times its own diagonal.
+/// Limit in sizes at one instant. A rod that turns about its end fills 2.83 times its own diagonal.
 constexpr double leaves_its_place = 3.0;
 
-/// Row of a track at row `t` of the run; of one that stands its only row.
+/// Row of a track at row `t` of the run; the only row of a track at rest.
 Eigen::Index row_at(const Track& track, std::size_t t) {
   return std::min(static_cast<Eigen::Index>(t), track.position.rows() - 1);
 }

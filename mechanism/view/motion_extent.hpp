@@ -1,4 +1,4 @@
-// How large what moves is, and which body a camera follows.
+// Size of the moving objects, and the body that a camera follows.
 #pragma once
 
 #include <vector>
@@ -10,28 +10,28 @@
 
 namespace tisserand::mechanism {
 
-/// Boxes about nodes, frames, shapes and what is held on the ground: over all instants, and at some of them. Ground
-/// that is rolled on is no part of it.
+/// Boxes around nodes, frames, shapes and markers on the ground: over all instants, and at some of them. Roads are not
+/// included.
 class MotionExtent {
  public:
-  /// Nodes, frames of bodies, and markers on the ground.
+  /// Boxes of nodes, frames of bodies, and markers on the ground.
   explicit MotionExtent(const ViewedRun& run);
 
-  /// An undeformed shape at some of the instants.
+  /// Adds an undeformed shape at some of the instants.
   void add(const formats::Surface& surface, const Track& frame);
 
   const Eigen::AlignedBox3d& box() const { return box_; }
-  /// The largest diagonal at one instant.
+  /// Largest diagonal at one instant.
   double size() const;
-  /// Where all bodies leave their place, so that the whole way is several times `size()`: the heaviest body that moves
-  /// so far. -1: a camera may stand.
+  /// Body to follow if all bodies leave their place, so that the whole path is several times `size()`: the heaviest
+  /// body that moves as far. -1: the camera may stand still.
   int followed() const;
 
  private:
   const ViewedRun& run_;
   std::vector<std::size_t> rows_;
   Eigen::AlignedBox3d box_;
-  std::vector<Eigen::AlignedBox3d> at_;  ///< of rows_
+  std::vector<Eigen::AlignedBox3d> at_;  ///< boxes at rows_
 };
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// From channels of a results file to curves of a page.
+// Curves of a page from channels of a results file.
 #include "mechanism/view/page_channels.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::vector<Dataset> datasets_of(const formats::ResultsReader& reader) {
   return datasets;
 }
 
-/// What people look at first.
+/// Rank of a dataset: users look first at those of low rank.
 std::size_t rank_of(const std::string& dataset) {
   constexpr std::array<std::string_view, 13> first{"channels",       "energy",
                                                    "solver",         "joints/coordinate",
@@ -51,7 +51,7 @@ std::size_t rank_of(const std::string& dataset) {
   return static_cast<std::size_t>(found - first.begin());
 }
 
-/// Whole datasets that fit, by rank.
+/// Names of whole datasets that fit, chosen by rank.
 std::set<std::string> datasets_that_fit(const std::vector<Dataset>& datasets, std::size_t rows, std::size_t most) {
   std::vector<const Dataset*> order;
   for (const Dataset& dataset : datasets) order.push_back(&dataset);

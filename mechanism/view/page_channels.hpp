@@ -1,4 +1,4 @@
-// Which curves a page holds.
+// Choice of the curves of a page.
 #pragma once
 
 #include <map>
@@ -13,14 +13,14 @@ namespace tisserand::mechanism {
 struct PageChannels {
   formats::Json list = formats::Json::array();
   formats::Json left_out;            ///< {"count", "why"}, or null
-  std::map<std::string, int> index;  ///< of `list`, by path
+  std::map<std::string, int> index;  ///< index in `list` by path
 
-  /// −1: the page does not hold it.
+  /// Index of a path in `list`; −1: the page does not hold it.
   int find(const std::string& path) const;
 };
 
-/// Channels that the selection means, as formats::select_channels(); of an empty one whole datasets, energies and
-/// joints first, until the page would hold more than `most_values` numbers. One block per group.
+/// Adds the selected channels, as formats::select_channels(). For an empty selection whole datasets, energies and
+/// joints first, as long as the page holds at most `most_values` numbers. One block per group.
 PageChannels add_channels(const ViewedRun& run, const std::vector<std::string>& selection, std::size_t most_values,
                           formats::PageBlocks& blocks);
 

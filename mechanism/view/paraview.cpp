@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using Eigen::Index;
 using Eigen::Vector3d;
 
-/// What does not change from instant to instant, all bodies in one.
+/// Data that are equal at all instants, for all bodies together.
 struct Grid {
   formats::VtuCells cells;
   formats::VtuArray body{"body", 1, {}};
@@ -75,7 +75,7 @@ Moved moved_to(const ViewedRun& run, const std::vector<BodyShape>& shapes, Index
   return moved;
 }
 
-/// `name` without what XML and file systems would take for something else.
+/// `name` without characters that have a meaning in XML or in file systems.
 std::string plain_name(const std::string& name) {
   std::string plain;
   for (const char c : name) plain += std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' ? c : '_';

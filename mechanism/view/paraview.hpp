@@ -1,4 +1,4 @@
-// The same bodies in motion for ParaView: one unstructured grid (.vtu) per instant, listed in a collection (.pvd).
+// Bodies in motion for ParaView: one unstructured grid (.vtu) per instant, listed in a collection (.pvd).
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace tisserand::mechanism {
 
-/// Writes into `folder` <run>.pvd and <run>/<run>_0.vtu ... per results file: points in the world, triangles, lines and
-/// points as cells, the number of the body at each cell and the displacement by deformation (world axes) at each point.
-/// The collection comes last, so that what it lists is whole. Returns its names, one per line. Throws Error.
+/// Writes <run>.pvd and <run>/<run>_0.vtu ... per results file into `folder`: points in the world, triangles, lines and
+/// points as cells, the number of the body per cell, and the displacement by deformation (world axes) per point. The
+/// collection is written last, after all files that it lists. Returns its names, one per line. Throws Error.
 std::string write_paraview(const ViewRequest& request, const std::string& folder);
 
 }  // namespace tisserand::mechanism

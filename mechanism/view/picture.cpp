@@ -1,4 +1,4 @@
-// From what is asked to the call of the page that draws it.
+// Conversion of a request to the call of the page that draws it.
 #include "mechanism/view/picture.hpp"
 
 #include <algorithm>
@@ -23,13 +23,13 @@ using formats::Json;
 constexpr double radian = std::numbers::pi / 180.0;
 constexpr int smallest_side = 32, largest_side = 8192;
 
-/// What users call it, and the setting of the page.
+/// Names for users, and the settings of the page.
 const std::map<std::string, std::string> settings_of_things{
     {"arrows", "arrows"}, {"axes", "worldAxes"},    {"body-axes", "bodyAxes"},
     {"edges", "edges"},   {"elements", "elements"}, {"grid", "grid"},
     {"joints", "joints"}, {"nodes", "nodes"},       {"springs", "springs"}};
 
-/// "-30,20" -> azimuth and elevation [rad]; a name stays one.
+/// Azimuth and elevation [rad] from "-30,20"; a name is kept.
 Json view_of(const std::string& text) {
   if (std::ranges::find(picture_views, text) != picture_views.end()) return text;
   double azimuth = 0.0, elevation = 0.0;
@@ -46,7 +46,7 @@ Json view_of(const std::string& text) {
 
 /// Times of the states, each within the first run.
 std::vector<double> times_of(const PictureRequest& request, const formats::ResultsReader& run) {
-  if (run.rows() == 0) return {0.0};  // the page tells
+  if (run.rows() == 0) return {0.0};  // the page reports it
   const Eigen::MatrixXd ends = run.read_dataset("time", {0, run.rows() - 1});
   if (request.times.empty()) return {ends(1, 0)};
   for (const double time : request.times)
@@ -65,7 +65,7 @@ void require_nodes(const std::vector<std::string>& names, const formats::Results
                   "nodes are, for example: " + listed(nearest_names(name, known)));
 }
 
-/// Name of the body that the camera follows, "": it stands.
+/// Name of the body that the camera follows; "": it stands still.
 std::string followed_of(const std::string& name, const formats::ResultsReader& run) {
   if (name == "none") return "";
   std::vector<std::string> known;
@@ -114,7 +114,7 @@ Json still_of(const PictureRequest& request, const formats::ResultsReader& run) 
   return still;
 }
 
-/// The page beside the picture while it is drawn.
+/// Page file beside the picture, removed after drawing.
 class PageFile {
  public:
   PageFile(const std::string& beside, const std::string& text)

@@ -1,4 +1,4 @@
-// `mechanism picture`: states of runs as one PNG, drawn by the page of `mechanism view` in a browser without window.
+// `mechanism picture`: states of runs as one PNG, drawn by the page of `mechanism view` in a browser without a window.
 #pragma once
 
 #include <array>
@@ -21,26 +21,26 @@ struct PictureRequest {
   ViewRequest page;                    ///< runs and shapes; its own output is not written
   std::string output;                  ///< .png
   std::vector<double> times;           ///< states from left to right, in units of the runs; empty: the last instant
-  int mode = 0;                        ///< from 1: this mode in place of times; 0: none
-  std::vector<double> phases_deg;      ///< of the mode, states from left to right; empty: 0
+  int mode = 0;                        ///< from 1: this mode instead of times; 0: none
+  std::vector<double> phases_deg;      ///< phases of the mode, states from left to right; empty: 0
   std::array<int, 2> size{1200, 700};  ///< pixels, width and height
   std::string view = "iso";            ///< a name of picture_views, or "azimuth,elevation" of the camera in degrees
-  double zoom = 1.0;                   ///< 1: what is shown fills the picture
-  std::optional<double> exaggeration;  ///< of deformations; none: 1, or a round factor where motion is invisible
-  std::optional<std::string> follow;   ///< body that the camera follows, "none"; none: one, where all leave their place
-  std::string stress_unit;             ///< one of picture_stress_units; empty: of the scene, MPa where lengths are mm
+  double zoom = 1.0;                   ///< 1: the shown objects fill the picture
+  std::optional<double> exaggeration;  ///< of deformations; absent: 1, or a round factor if motion is invisible
+  std::optional<std::string> follow;   ///< body to follow, or "none"; absent: one, if all leave their place
+  std::string stress_unit;             ///< one of picture_stress_units; empty: that of the scene, MPa if lengths are mm
   std::string colouring = "body";      ///< one of picture_colourings
   std::vector<std::string> traces;     ///< nodes whose paths are drawn
-  std::vector<std::string> shown, hidden;  ///< of picture_things()
+  std::vector<std::string> shown, hidden;  ///< names of picture_things()
   Captions captions = Captions::written;
   Sandbox sandbox = Sandbox::on;
 };
 
-/// What can be shown or hidden: edges, grid, axes, ...
+/// Objects that can be shown or hidden: edges, grid, axes, ...
 const std::vector<std::string>& picture_things();
 
-/// Writes it: whole or not at all. Same page, same browser: same bytes. Returns one line about it. Throws Error: no
-/// such time, mode, node or body, nothing to be seen, no browser (asked_of_page()).
+/// Writes the picture, completely or not at all. The same page and browser give the same bytes. Returns one line about
+/// it. Throws Error: no such time, mode, node or body, nothing visible, no browser (asked_of_page()).
 std::string picture(const PictureRequest& request);
 
 }  // namespace tisserand::mechanism

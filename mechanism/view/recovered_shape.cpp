@@ -1,4 +1,4 @@
-// From meshes and shapes of recovery files to surfaces.
+// Surfaces from meshes and shapes of recovery files.
 #include "mechanism/view/recovered_shape.hpp"
 
 #include <algorithm>
@@ -26,13 +26,13 @@ std::string content_id_of(const ViewedRun& run, const ViewedBody& body) {
   return body.superelement >= 0 && body.superelement < count_of(ids) ? ids[body.superelement] : "";
 }
 
-/// A recovery file and the mirror image of it that a body is.
+/// A recovery file, and the mirror axes of the body relative to it.
 struct Found {
   std::unique_ptr<formats::RecoveryReader> reader;
   Vector3d axes = Vector3d::Ones();
 };
 
-/// Nothing, and what is wrong, if the file is of another superelement.
+/// Recovery file of this superelement; absent with a `fault` if it belongs to another one.
 std::optional<Found> matching(const std::string& path, const std::string& content_id, const std::string& body,
                               std::string& fault) {
   Found found{std::make_unique<formats::RecoveryReader>(path), Vector3d::Ones()};
@@ -62,8 +62,8 @@ std::optional<Found> find_recovery(ViewedRun& run, const ViewedBody& body, const
   return {};
 }
 
-/// Columns for coordinates in units of the scene and of the image: translations of nodes are lengths of the scene, all
-/// others take displacements in lengths of the file to those of the scene.
+/// Converts columns to coordinates in units of the scene and of the mirror image. Translations of nodes are lengths of
+/// the scene. All others give displacements in lengths of the file, which become those of the scene.
 void convert_columns(const Recovery& recovery, double length, const Vector3d& axes, MatrixXd& shapes) {
   for (Index k = 0; k < shapes.cols(); ++k) {
     const int component = recovery.dof_component[k];
@@ -75,14 +75,14 @@ void convert_columns(const Recovery& recovery, double length, const Vector3d& ax
     shapes.middleRows(v, 3) = (axes.asDiagonal() * shapes.middleRows(v, 3)).eval();
 }
 
-/// Stresses [xx yy zz xy yz zx] per vertex in units of the scene and axes of the image.
+/// Converts stresses [xx yy zz xy yz zx] per vertex to units of the scene and axes of the mirror image.
 void convert_tensors(const UnitConversion& to_scene, const Vector3d& axes, MatrixXd& stresses) {
   stresses *= to_scene.force() / (to_scene.length * to_scene.length);
   const double sign[] = {1.0, 1.0, 1.0, axes.x() * axes.y(), axes.y() * axes.z(), axes.z() * axes.x()};
   for (Index row = 0; row < stresses.rows(); ++row) stresses.row(row) *= sign[row % 6];
 }
 
-/// The same, for coordinates as convert_columns().
+/// Converts stresses per coordinate, for coordinates as in convert_columns().
 void convert_stresses(const Recovery& recovery, const UnitConversion& to_scene, const Vector3d& axes,
                       MatrixXd& stresses) {
   convert_tensors(to_scene, axes, stresses);
@@ -99,7 +99,7 @@ MatrixXd beside(const MatrixXd& A, const MatrixXd& B) {
   return both;
 }
 
-/// What the shape of a deformable body is made of: its run and body, the recovery file, what carries the vertices.
+/// Sources of the shape of a deformable body: its run and body, the recovery file, the carriers of the vertices.
 struct Sources {
   ViewedRun& run;
   const ViewedBody& body;
@@ -108,7 +108,7 @@ struct Sources {
   std::vector<formats::SkinCarrier> carriers;
 };
 
-/// Columns behind those of the coordinates, each with its displacement, stress and amplitudes.
+/// Appends columns after those of the coordinates, each with its displacement, stress and amplitudes.
 void add_columns(const MatrixXd& modes, const MatrixXd& stress, const MatrixXd& amplitudes, BodyShape& shape) {
   formats::Deformation& d = shape.deformation;
   d.modes = beside(d.modes, modes);
@@ -118,9 +118,9 @@ void add_columns(const MatrixXd& modes, const MatrixXd& stress, const MatrixXd& 
   shape.coordinate_component.resize(static_cast<std::size_t>(d.modes.cols()), 0);
 }
 
-/// Columns that move vertices by lengths of the file, and stress them: factors and columns change places so that
-/// amplitudes are up to 1, for a page keeps what is large beside the largest column (formats/page/deformation.hpp).
-/// `stress`: without columns if there is none.
+/// Appends columns that move vertices by lengths of the file, and stress them. They are scaled so that amplitudes are
+/// up to 1, since a page keeps what is large relative to the largest column (formats/page/deformation.hpp). `stress`:
+/// without columns if there is none.
 void add_answers(const Sources& from, MatrixXd modes, MatrixXd stress, MatrixXd factor, BodyShape& shape) {
   modes *= from.to_scene.length;
   for (Index v = 0; v < modes.rows(); v += 3)
@@ -139,7 +139,7 @@ void add_answers(const Sources& from, MatrixXd modes, MatrixXd stress, MatrixXd 
   add_columns(modes, stress, factor, shape);
 }
 
-/// What moves vertices inside beyond y where the body is bent and stiffened: displacement of second order.
+/// Adds the displacement of second order, which moves interior vertices beyond y if the body is bent and stiffened.
 void add_second_order(const Sources& from, const Eigen::RowVectorXd& stiffened, const std::vector<Index>& dropped,
                       BodyShape& shape) {
   if (!(stiffened.maxCoeff() > 0.0)) return;
@@ -158,8 +158,8 @@ void add_second_order(const Sources& from, const Eigen::RowVectorXd& stiffened, 
                 amplitudes.transpose(), shape);
 }
 
-/// What there is beyond y: the second-order strain of stress, its displacement, and the answers to inertia loads, which
-/// move vertices and stress them.
+/// Adds what y does not contain: the second-order strain of stress, its displacement, and the static answers to inertia
+/// loads, which move vertices and stress them.
 void add_strain_and_loads(const Sources& from, BodyShape& shape) {
   const auto& [run, body, found, to_scene, carriers] = from;
   const Recovery& recovery = found.reader->recovery();

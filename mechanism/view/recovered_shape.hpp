@@ -1,4 +1,4 @@
-// The surface of a part from its recovery file, deformed by the coordinates of its superelement.
+// Surface of a part from its recovery file, deformed by the coordinates of its superelement.
 #pragma once
 
 #include <optional>
@@ -7,9 +7,9 @@
 
 namespace tisserand::mechanism {
 
-/// Of a superelement, or of a rigid body made of one. Nothing where no recovery file is found: named in the options, or
-/// beside the superelement or the results. A file beside them that belongs to another superelement is told in a note of
-/// the run. Thinned before shapes are read.
+/// Shape of a superelement, or of a rigid body made of one. Absent if no recovery file is found: in the options, or
+/// beside the superelement or the results. A note of the run reports a file beside them that belongs to another
+/// superelement. The surface is thinned before shapes are read.
 std::optional<BodyShape> recovered_shape(ViewedRun& run, const ViewedBody& body, const ShapeOptions& options);
 
 /// Throws Error for a file of the options that belongs to none of the bodies.

@@ -30,7 +30,7 @@ using formats::Surface;
 
 constexpr double relative_error = 1e-3;                 // of the largest displacement of a body
 constexpr std::size_t most_channel_values = 4'000'000;  // of all curves together
-constexpr std::size_t most_node_values = 1'000'000;     // instants x nodes with places of their own
+constexpr std::size_t most_node_values = 1'000'000;     // instants x nodes outside of rigid bodies
 
 Json list_of(const Eigen::Ref<const Eigen::VectorXd>& values) {
   Json list = Json::array();
@@ -66,7 +66,7 @@ class Places {
   Json at(int node) { return at(node, Vector3d::Zero(), Quaterniond::Identity()); }
   Json at(const formats::SimulatedMarker& marker) { return at(marker.node, marker.position, marker.orientation); }
 
-  /// Whether the motion of the node is there.
+  /// Whether the file holds the motion of the node.
   bool has(const formats::SimulatedMarker& marker) const {
     return marker.node == formats::SimulatedMarker::ground ||
            (marker.node >= 0 && run_.nodes[marker.node].has_position());
@@ -81,8 +81,8 @@ class Places {
   PageBlocks& blocks_;
 };
 
-/// Puts the stress under the displacement of the modes, in a scale in which the largest of both count the same; 0:
-/// there is none.
+/// Appends the stress to the displacement of the modes, scaled so that the largest of both are equal. Returns the
+/// scale; 0: there is no stress.
 double stack_stress(BodyShape& shape) {
   formats::Deformation& d = shape.deformation;
   if (shape.stress.size() == 0 || d.modes.cols() == 0) return 0.0;
@@ -96,7 +96,7 @@ double stack_stress(BodyShape& shape) {
   return scale;
 }
 
-/// Bodies and their shapes; bodies of one rigid shape share it.
+/// Adds bodies with their shapes, roads and tyres, and the extent of the motion.
 void add_bodies(ViewedRun& run, const ShapeOptions& options, ModesOfBodies& modes, PageBlocks& blocks, Json& json) {
   MotionExtent extent(run);
   json["bodies"] = json["shapes"] = Json::array();
@@ -173,7 +173,7 @@ void add_nodes(const ViewedRun& run, Places& places, PageBlocks& blocks, Json& j
   blocks.next();
 }
 
-/// Indices of "forces/spring/strut" and the like that the page holds.
+/// Indices of the paths ("forces/spring/strut") that the page holds.
 Json held(const PageChannels& channels, const std::vector<std::string>& paths) {
   Json list = Json::array();
   for (const std::string& path : paths)
@@ -228,7 +228,7 @@ void add_load(const formats::SimulatedLink& link, Places& places, const PageChan
             components("forces/load/" + link.name, "/"), follows ? "place" : "world", channels, json);
 }
 
-/// What the road exerts, at the contact centre.
+/// Adds the forces of the road on a tyre, at the contact centre.
 void add_tyre(const Track& contact, const formats::SimulatedLink& link, const PageChannels& channels,
               PageBlocks& blocks, Json& json) {
   if (!contact.has_position()) return;

@@ -11,11 +11,11 @@
 namespace tisserand::mechanism {
 
 struct RunOptions {
-  std::vector<std::string> channels;  ///< selection; empty: what fits
+  std::vector<std::string> channels;  ///< selection; empty: as many as fit
   ShapeOptions shapes;
 };
 
-/// Throws Error: names of channels, files of shapes.
+/// Object of a run. Its numbers go to `blocks`. Throws Error: unknown channels, wrong shape files.
 formats::Json run_header(ViewedRun& run, const RunOptions& options, formats::PageBlocks& blocks);
 
 }  // namespace tisserand::mechanism

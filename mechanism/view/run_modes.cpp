@@ -1,4 +1,4 @@
-// Small motions: x = x_0 + Re(shape e^(i phase)).
+// Modes as small motions: x = x_0 + Re(shape e^(i phase)).
 #include "mechanism/view/run_modes.hpp"
 
 namespace tisserand::mechanism {
@@ -84,7 +84,7 @@ ModesOfBodies::Small ModesOfBodies::relative_motion(const ViewedRun& run, int bo
           back * (small.rotation - frame.rotation)};
 }
 
-/// Places, and axes of sections, of the stations.
+/// Motions of the stations: displacements, and changes of the axes of sections.
 Eigen::VectorXd ModesOfBodies::stations_motion(const ViewedRun& run, int body, const BodyShape& shape, Index mode,
                                                int part) const {
   const Index count = static_cast<Index>(shape.stations.size()), width = shape.deformation.modes.cols() / count;
@@ -101,7 +101,7 @@ Eigen::VectorXd ModesOfBodies::stations_motion(const ViewedRun& run, int body, c
   return motion;
 }
 
-/// Boundary rows relative to the frame that is taken here, which boundary modes carry along; internal ones as stored.
+/// Motions of the coordinates: boundary rows relative to the frame chosen here, internal ones as stored.
 Eigen::VectorXd ModesOfBodies::coordinates_motion(const ViewedRun& run, int body, const BodyShape& shape, Index mode,
                                                   int part) const {
   const int first = run.layout().modes_offset[run.bodies[body].superelement];

@@ -12,27 +12,27 @@
 
 namespace tisserand::mechanism {
 
-/// Motion of the nodes in each mode, split into that of the frames of the bodies and their deformation. Which part of
-/// it is the frame's does not matter to the sum; here the frame follows the first node that turns.
+/// Motion of the nodes in each mode, split into that of the frames of the bodies and their deformation. The sum does
+/// not depend on the choice of the frame. Here the frame follows the first node that turns.
 class ModesOfBodies {
  public:
   explicit ModesOfBodies(const formats::ResultsReader& reader);
 
-  /// Appends to the amplitudes of the shape two rows per mode, real and imaginary.
+  /// Appends two rows per mode, real and imaginary, to the amplitudes of the shape.
   void take(const ViewedRun& run, int body, BodyShape& shape);
-  /// Takes the amplitudes of the modes back from behind those of `instants` rows.
+  /// Reads the reduced amplitudes of the modes, which follow those of `instants` rows.
   void reduce(int body, const formats::FewModes& few, Eigen::Index instants);
-  /// null: the file holds no modes.
+  /// JSON of all modes; null: the file holds none.
   formats::Json json() const;
 
  private:
   struct Small {
     Eigen::Vector3d translation = Eigen::Vector3d::Zero(), rotation = Eigen::Vector3d::Zero();
   };
-  /// `part`: 0 real, 1 imaginary.
+  /// Small motion of a node. `part`: 0 real, 1 imaginary.
   Small motion_of(int node, Eigen::Index mode, int part) const;
   Small frame_motion(const ViewedRun& run, int body, Eigen::Index mode, int part) const;
-  /// Motion of a node relative to the frame, in its axes.
+  /// Motion of a node relative to the frame, in axes of the frame.
   Small relative_motion(const ViewedRun& run, int body, int node, Eigen::Index mode, int part) const;
   Eigen::VectorXd stations_motion(const ViewedRun& run, int body, const BodyShape& shape, Eigen::Index mode,
                                   int part) const;

@@ -1,4 +1,4 @@
-// From the stored report to lists of texts.
+// Lists of texts from the stored report.
 #include "mechanism/view/run_report.hpp"
 
 #include <fmt/format.h>
@@ -15,13 +15,13 @@ Json texts_of(const Json& report, const char* key) {
   return texts;
 }
 
-/// A number or a text in words.
+/// Text of a number or a string.
 std::string word_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   return value.is_number_float() ? fmt::format("{:.4g}", value.get<double>()) : value.dump();
 }
 
-/// Numbers of `report[group]`, "largest backward error": 1e-16.
+/// Adds numbers and texts of a report as lines, such as "largest backward error": 1e-16.
 void add_lines(const Json& report, const char* before, Json& lines) {
   for (const auto& [key, value] : report.items()) {
     if (!value.is_number() && !value.is_string()) continue;

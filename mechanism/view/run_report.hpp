@@ -1,4 +1,4 @@
-// The report of a run as pages show it.
+// Report of a run as pages show it.
 #pragma once
 
 #include "formats/page/page_blocks.hpp"
@@ -6,8 +6,8 @@
 
 namespace tisserand::mechanism {
 
-/// {"notes", "doubts", "lines", "phases", "energy", "effects"}; empty lists where the file holds no report or a damaged
-/// one.
+/// JSON {"notes", "doubts", "lines", "phases", "energy", "effects"}; empty lists if the file holds no report or a
+/// damaged one.
 formats::Json report_of_run(const formats::ResultsReader& reader);
 
 }  // namespace tisserand::mechanism

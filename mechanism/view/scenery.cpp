@@ -1,4 +1,4 @@
-// Rings and strips of ground.
+// Tyres as rings, and roads as strips.
 #include "mechanism/view/scenery.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using formats::PageRows;
 using formats::SimulatedLink;
 using formats::Surface;
 
-/// Of the radius: half of the width of a ring, its inner radius, the margin of the road, and its spacing.
+/// Fractions of the radius: half width of a ring, its inner radius, margin of the road, spacing of the road.
 constexpr double half_width = 0.3, rim = 0.6, margin = 4.0, spacing = 0.15;
 constexpr int most_along = 4000, most_tracks = 40;
 constexpr int spokes = 40;
@@ -30,8 +30,8 @@ Track wheel_of(const ViewedRun& run, const SimulatedLink& tyre) {
   return carried(run.nodes[wheel.node], wheel.position, wheel.orientation);
 }
 
-/// A ring about y: outer face, inner face and both sides. It lies a little outside of the circle, so that a wheel that
-/// is drawn with the same radius is inside.
+/// Ring about y: outer face, inner face and both sides. It is slightly larger than the circle, so that a wheel drawn
+/// with the same radius is inside.
 Surface ring(double radius) {
   Surface surface;
   const double outer = larger * radius / std::cos(std::numbers::pi / spokes);
@@ -52,7 +52,7 @@ Surface ring(double radius) {
   return surface;
 }
 
-/// Evenly from first to last, at most so far apart, or so many.
+/// Even stations from first to last, at most `apart` from each other and at most `most` intervals.
 std::vector<double> stations(double first, double last, double apart, int most) {
   const int count = std::clamp(static_cast<int>(std::ceil((last - first) / apart)), 1, most);
   std::vector<double> places;
@@ -60,12 +60,12 @@ std::vector<double> stations(double first, double last, double apart, int most) 
   return places;
 }
 
-/// Stations along and across the part of a road that is drawn.
+/// Stations along and across the drawn part of a road.
 struct StripStations {
   std::vector<double> along, across;
 };
 
-/// Of the part in a box of the road's axes; of a road along a line all of it.
+/// Stations of the part in a box in axes of the road; for a road along a line of all of it.
 StripStations stations_of(const Road& road, const Eigen::AlignedBox2d& box, double radius) {
   const double apart = spacing * radius;
   if (!road.surface)
@@ -81,7 +81,7 @@ StripStations stations_of(const Road& road, const Eigen::AlignedBox2d& box, doub
           stations(there.min().y(), there.max().y(), apart, most_tracks)};
 }
 
-/// A point of the strip, and whether the road is there.
+/// Point of the strip, and whether the road exists there.
 std::pair<Vector3d, bool> strip_point(const Road& road, double s, double t) {
   Eigen::Vector2d at(s, t);
   if (road.surface && road.surface->line) at = road.surface->line->point(s, t);
@@ -89,7 +89,7 @@ std::pair<Vector3d, bool> strip_point(const Road& road, double s, double t) {
   return {{at.x(), at.y(), road.surface ? road.surface->grid.at(s, t).value : road.at(s, t).value}, !hole};
 }
 
-/// The drawn part of the road, without its holes.
+/// Surface of the drawn part of the road, without its holes.
 Surface strip(const Road& road, const Eigen::AlignedBox2d& box, double radius) {
   const StripStations at = stations_of(road, box, radius);
   Surface surface;

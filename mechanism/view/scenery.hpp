@@ -1,4 +1,4 @@
-// What is drawn besides bodies: tyres, and the roads that they roll on.
+// Objects drawn besides bodies: tyres, and the roads on which they roll.
 #pragma once
 
 #include <string>
@@ -14,20 +14,20 @@ struct Scenery {
   std::string kind;    ///< tyre, road
   std::string colour;  ///< #rrggbb
   Track frame;
-  formats::Surface surface;  ///< axes of the frame
+  formats::Surface surface;  ///< surface in axes of the frame
 };
 
-/// Tyres as rings of their unloaded radius on their wheels; of each road the strip that its tyres pass, a few radii
-/// beyond their way on every side. None where the text of the scene or the motion of the wheels is not stored.
+/// Tyres as rings of their unloaded radius on their wheels, and the strip of each road that its tyres pass, with a
+/// margin of a few radii. Empty if the text of the scene or the motion of the wheels is not stored.
 std::vector<Scenery> scenery_of(const ViewedRun& run);
 
-/// Contact centres and normals of all tyres, T x 3 tyres; of a file without them 0 columns.
+/// Contact centres and normals of all tyres, T x 3 tyres; 0 columns if the file has none.
 struct TyreContacts {
   Eigen::MatrixXd centre, normal;
 };
 TyreContacts tyre_contacts(const ViewedRun& run);
 
-/// Contact centre and tyre axes (ISO-W) of a tyre over time; in the air its wheel's centre. Without position: not
+/// Contact centre and tyre axes (ISO-W) of a tyre over time; in the air the centre of its wheel. No position: not
 /// stored.
 Track contact_of(const ViewedRun& run, const TyreContacts& contacts, const formats::SimulatedLink& tyre);
 

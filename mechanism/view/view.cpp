@@ -1,4 +1,4 @@
-// results -> bodies in motion -> shapes -> blocks -> page, as a page of calls.
+// Sequence of calls of a page: results -> bodies in motion -> shapes -> blocks -> page.
 #include "mechanism/view/view.hpp"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ Json header_of(const ViewRequest& request, PageBlocks& blocks) {
   return header;
 }
 
-/// What the page does not show as the file has it.
+/// Messages on what the page does not show as the file has it.
 std::string told(const Json& header) {
   std::string text;
   for (const Json& run : header["runs"]) {

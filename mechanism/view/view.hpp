@@ -1,4 +1,4 @@
-// `mechanism view`: from results files to one page that any browser opens.
+// `mechanism view`: one page from results files that any browser opens.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 namespace tisserand::mechanism {
 
 struct ViewRequest {
-  SeriesRequest shown;  ///< results files, labels of the runs, curves (empty: what fits), references
+  SeriesRequest shown;  ///< results files, labels of the runs, curves (empty: as many as fit), references
   std::string output;   ///< .html
   std::string title;    ///< empty: names of the scenes
-  int instants = 2001;  ///< the most per run: 2000 steps
+  int instants = 2001;  ///< largest number per run: 2000 steps
   ShapeOptions shapes;
 };
 
-/// The page as text.
+/// Page as text. Throws Error.
 std::string page_of(const ViewRequest& request);
 
-/// Writes it: whole or not at all. Returns what a user should know, one sentence per line: size, what was thinned or
-/// left out. Throws Error.
+/// Writes the page, completely or not at all. Returns messages for the user, one sentence per line: size, what was
+/// thinned or omitted. Throws Error.
 std::string view(const ViewRequest& request);
 
 }  // namespace tisserand::mechanism

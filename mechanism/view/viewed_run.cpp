@@ -1,4 +1,4 @@
-// Reading the motion of nodes and bodies from a results file.
+// Reading of the motion of nodes and bodies from a results file.
 #include "mechanism/view/viewed_run.hpp"
 
 #include <cmath>
@@ -13,8 +13,8 @@ namespace tisserand::mechanism {
 namespace {
 
 using formats::PageRows;
-/// Three or four columns of one item. None of them may be a number everywhere and not-a-number at some instant; items
-/// without numbers have none of the quantity.
+/// Three or four columns of one item. An item that is not-a-number everywhere lacks the quantity. Throws Error if it is
+/// not-a-number at some instants only.
 PageRows columns_of(const Eigen::MatrixXd& all, int item, int width, const std::string& name, const ViewedRun& run) {
   if (all.cols() == 0) return {};
   PageRows values = all.middleCols(static_cast<Eigen::Index>(item) * width, width);
@@ -43,7 +43,7 @@ void read_nodes(ViewedRun& run) {
   }
 }
 
-/// Older files: bodies by the names of their nodes.
+/// Bodies of older files, from the names of their nodes.
 void name_bodies(ViewedRun& run) {
   std::map<std::string, int> index;
   for (const std::string& node : run.layout().nodes) {
@@ -79,7 +79,7 @@ void take_bodies(ViewedRun& run) {
   run.body_of_node = scene.body_of_node;
 }
 
-/// The pose of a node in the part frame of a body that keeps its shape, if the scene tells it.
+/// Pose of a node in the part frame of a body that keeps its shape, if the scene contains it.
 std::optional<formats::Pose> pose_in_part(const ViewedBody& body, const std::string& node) {
   if (node == body.name) return formats::Pose{};
   if (body.spec == nullptr) return {};
@@ -93,13 +93,13 @@ std::optional<formats::Pose> pose_in_part(const ViewedBody& body, const std::str
   return {};
 }
 
-/// Of a frame that is a node.
+/// Sets the origin of a frame that is a node.
 void set_origin(const ViewedRun& run, int node, ViewedBody& body) {
   const Eigen::Matrix3Xd& reference = run.layout().simulated.node_reference;
   if (node < reference.cols()) body.origin = reference.col(node);
 }
 
-/// The part frame of a body that keeps its shape, from any of its nodes; of others the node of the body's name.
+/// Finds the part frame of a body that keeps its shape, from any of its nodes; for others the node of the body's name.
 bool find_part_frame(const ViewedRun& run, ViewedBody& body) {
   for (const int node : body.nodes) {
     const Track& track = run.nodes[node];
@@ -113,7 +113,7 @@ bool find_part_frame(const ViewedRun& run, ViewedBody& body) {
   return false;
 }
 
-/// A frame where the file holds none: the first node that turns, or the first that moves, without turning.
+/// Takes a node as frame if the file holds none: the first node that turns, or the first that moves, without turning.
 void take_node_as_frame(const ViewedRun& run, ViewedBody& body) {
   for (const bool must_turn : {true, false})
     for (const int node : body.nodes) {
@@ -150,7 +150,7 @@ void find_frames(ViewedRun& run) {
   }
 }
 
-/// Bodies of which the file holds no motion.
+/// Removes bodies whose motion the file does not hold.
 void drop_unseen(ViewedRun& run) {
   std::vector<ViewedBody> seen;
   std::vector<int> number(run.bodies.size(), -1);

@@ -1,4 +1,4 @@
-// A results file as a picture sees it: instants, nodes in motion, bodies with a frame each.
+// Results file for pictures: instants, nodes in motion, bodies with a frame each.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace tisserand::mechanism {
 
-/// Poses over the instants that are shown: T x 3 and T x 4 [w x y z]; without rows: it has none.
+/// Poses over the shown instants: T x 3 and T x 4 [w x y z]. Without rows there is none.
 struct Track {
   formats::PageRows position;
   formats::PageRows rotation;
@@ -33,38 +33,38 @@ struct ViewedBody {
   formats::SimulatedBody file;
   const formats::BodySpec* spec = nullptr;           ///< null: the file does not hold the text of the scene
   std::vector<int> nodes;                            ///< stored nodes on it
-  Track frame;                                       ///< of its shapes: floating frame, part frame, or a node
+  Track frame;                                       ///< frame of its shapes: floating frame, part frame, or a node
   bool is_part_frame = false;                        ///< the frame is the part frame of a body that keeps its shape
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the frame of the undeformed body, in the part frame
-  int superelement = -1;                             ///< of the layout, -1: none
+  int superelement = -1;                             ///< index in the layout; -1: none
 };
 
 struct ViewedRun {
   std::unique_ptr<formats::ResultsReader> reader;
-  std::vector<std::size_t> rows;  ///< the instants that are shown
+  std::vector<std::size_t> rows;  ///< rows of the shown instants
   Eigen::VectorXd times;
-  std::vector<Track> nodes;  ///< of the layout
+  std::vector<Track> nodes;  ///< nodes of the layout
   std::vector<ViewedBody> bodies;
   std::vector<int> body_of_node;
-  formats::DrawnScene drawn;       ///< of the text of the scene
-  std::vector<std::string> notes;  ///< what could not be shown, and why: whole sentences
+  formats::DrawnScene drawn;       ///< from the text of the scene
+  std::vector<std::string> notes;  ///< whole sentences on what could not be shown, and why
 
   const formats::ResultsLayout& layout() const { return reader->layout(); }
 };
 
-/// `instants`: the most that are shown. Throws Error: no nodes, no instants, positions that are no numbers.
+/// Reads a run with at most `instants` rows. Throws Error: no nodes, no instants, positions not finite.
 ViewedRun read_viewed_run(const std::string& file, std::size_t instants);
 
-/// `count` of the rows 0 .. all - 1, evenly, first and last among them.
+/// `count` evenly spaced rows of 0 .. all - 1, with the first and the last.
 std::vector<std::size_t> even_rows(std::size_t all, std::size_t count);
 
-/// R^T (x - x_0) of a place in the axes of a frame, T x 3.
+/// Positions R^T (x - x_0) of a place in the axes of a frame, T x 3.
 formats::PageRows local_positions(const Track& frame, const formats::PageRows& position);
 
-/// Place of a stored node in the axes of the frame of its body, undeformed; of older files at the first instant.
+/// Position of a stored node in the axes of the frame of its undeformed body; in older files at the first instant.
 Eigen::Vector3d place_at_rest(const ViewedRun& run, const ViewedBody& body, int node);
 
-/// The pose of a marker on a carrier.
+/// Pose of a marker on a carrier.
 Track carried(const Track& carrier, const Eigen::Vector3d& position, const Eigen::Quaterniond& orientation);
 
 }  // namespace tisserand::mechanism
