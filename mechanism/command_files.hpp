@@ -10,10 +10,10 @@
 
 namespace tisserand::mechanism {
 
-/// Default results file beside the scene: "dir/pendulum.scene.yaml" -> "dir/pendulum.results.h5".
+/// Default results file in the folder of the scene: "dir/pendulum.scene.yaml" -> "dir/pendulum.results.h5".
 std::string default_results(const std::string& scene);
 
-/// Default page or picture beside the first results file: "dir/pendulum.results.h5" -> "dir/pendulum.html".
+/// Default page or picture in the folder of the first results: "dir/pendulum.results.h5" -> "dir/pendulum.html".
 std::string default_page(const std::vector<std::string>& results, const char* ending);
 
 /// Files that a run reads and must not replace.

@@ -51,7 +51,7 @@ struct Ledger {
   double window = 0.0;                ///< length of one window [time]
   double seconds_per_step = 0.0;      ///< processor time of the scene as given [s]
   double scatter = 0.0;               ///< scatter of seconds_per_step: (largest − least)/least of the repetitions
-  std::vector<LedgerLine> lines;      ///< in descending order of the largest change
+  std::vector<LedgerLine> lines;      ///< one per effect, in descending order of the largest change
   bool interrupted = false;           ///< lines are missing
   std::vector<std::string> verdicts;  ///< whole sentences on the inertia of superelements
   std::string doubt;                  ///< warning that the stored results may belong to another scene; empty: none

@@ -12,8 +12,8 @@
 
 namespace tisserand::mechanism {
 
-/// Kinds of measures: position of a place, deflection of a node against the first node of its body (in axes of that
-/// node), direction of an axis of a body, reaction force of a joint, and value of a channel.
+/// Kinds of measures: position of a place, direction of an axis of a body, reaction force of a joint, value of a
+/// channel. A deflection is that of a node against the first node of its body, in axes of this first node.
 enum class MeasureKind { position, deflection, direction, force, channel };
 struct Measured {
   MeasureKind kind = MeasureKind::position;

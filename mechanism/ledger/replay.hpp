@@ -16,6 +16,7 @@ struct LedgerWindow {
   State begin;
 };
 
+/// Number and total length of the windows.
 struct WindowChoice {
   int windows = 5;
   double share = 0.25;  ///< fraction of the time of the run that all windows together take
@@ -40,14 +41,15 @@ struct LedgerStage {
   const std::vector<std::string>& channels;
 };
 
-/// Run of the scene from `begin` (absent: its poses) that writes no results. It keeps the states at which windows begin
-/// and the sizes of the measures. Throws Error if the run ends early. An interrupted run returns what it has.
+/// Reference of a ledger: the states at which windows begin, and the sizes of the measures.
 struct ReferenceRun {
   std::vector<LedgerWindow> windows;
   std::optional<Measures> measures;
   std::optional<MeasureSizes> sizes;
   std::string doubt;  ///< warning that stored results belong to another scene; empty: none
 };
+/// Runs the scene from `begin` (absent: its poses) without results. Throws Error if the run ends early. An interrupted
+/// run returns what it has.
 ReferenceRun run_reference(const formats::Scene& scene, const std::optional<State>& begin, const LedgerStage& stage);
 
 /// Windows from `file`, results of the same scene. Each begins at the first stored instant at or after its time.

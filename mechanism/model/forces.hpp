@@ -10,9 +10,8 @@
 
 namespace tisserand::mechanism {
 
-/// Traits of a force type. kind: the word in messages. markers: the members at which it acts; none if it acts on a
-/// whole body. connects: whether it connects its nodes with each other, or its only node with the ground. A load does
-/// not.
+/// Traits of a force type. kind: the word in messages. markers: the members at which it acts, none if it acts on a
+/// whole body. connects: whether it connects its nodes with each other or with the ground, unlike a load.
 template <class T>
 struct ForceTraits;
 template <>

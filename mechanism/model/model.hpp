@@ -84,7 +84,7 @@ struct Model {
   std::vector<Place> places;
   std::vector<PlaceAlias> place_aliases;
   int virtual_nodes = 0;  ///< nodes of virtual bodies
-  std::vector<Tie> ties;  ///< of eliminated virtual bodies: row i holds follower i, rows that close loops at the end
+  std::vector<Tie> ties;  ///< ties of eliminated virtual bodies: row i holds follower i, loop closing rows come last
 
   std::vector<SuperelementBody> superelement_bodies;  ///< each has one or more uses
   Pool<SuperelementUse> superelements;
@@ -112,8 +112,8 @@ struct Model {
   Pool<Tyre> tyres;
   Pool<Load> loads;
   Pool<PartLoad> part_loads;        ///< maps: of their node if the body is rigid, else of the superelement
-  std::vector<double> breakpoints;  ///< of all loads, ascending
-  /// World position from which positions of nodes and ground count. It is zero unless the scene lies so far away that
+  std::vector<double> breakpoints;  ///< breakpoints of all loads, ascending
+  /// World position from which positions of nodes and ground count. It is zero unless the scene is so far away that
   /// positions would lose digits. Added to positions in the output.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
 
@@ -123,7 +123,7 @@ struct Model {
   std::vector<bool> length_row;  ///< per constraint: true for a length, false for a number of order one
   Eigen::ArrayXd equation_scale;
   Eigen::ArrayXd value_scale;
-  std::unique_ptr<SparsePattern> pattern;  ///< of [A Bᵀ; B 0], boundary coordinates then multipliers
+  std::unique_ptr<SparsePattern> pattern;  ///< pattern of [A Bᵀ; B 0], boundary coordinates then multipliers
   SolverChoice solver;
 };
 

@@ -7,8 +7,8 @@
 
 namespace tisserand::mechanism {
 
-/// Global coordinates of the local rows and columns of an element; −1: absent (ground, or not owned by the node).
-/// slots[i + j n]: index of entry (i, j) in the values of the iteration matrix, −1 if absent.
+/// Global coordinates of the local rows and columns of an element. −1: absent (ground, or not owned by the node).
+/// slots[i + j n] is the index of entry (i, j) in the values of the iteration matrix, −1 if absent.
 struct ElementMap {
   std::vector<int> coordinates;
   std::vector<int> slots;

@@ -22,8 +22,8 @@ using Eigen::Vector3d;
 
 /// Largest rotation of a node to a stage [rad]. Beyond it rotation vectors are poor unknowns.
 constexpr double farthest_turn = 3.0;
-/// With fresh parts the multipliers of a body that turns by θ contract by 2 sin(θ/2). Below half a radian multipliers
-/// that stall have reached round-off; beyond it the step turns too far.
+/// Largest turn [rad] at which stalled multipliers are accepted. With fresh parts they contract by 2 sin(θ/2) for a
+/// turn θ. Below half a radian a stall shows round-off, beyond it the step turns too far.
 constexpr double safe_turn = 0.5;
 
 /// Rotation of a node from its axes in the parts to its axes in the state.
@@ -171,10 +171,10 @@ void Newton::solve(const State& begin, Stages& stages) {
   }
 }
 
-/// Largest increment of the multipliers relative to the allowed one. Rows that move no body appear in no other test: if
-/// a plane mechanism has turned by more than 60 degrees since the parts were made, the multipliers across the plane
-/// would grow from step to step. `share`: allowed increment relative to the forces; near singular positions, relative
-/// to the multipliers themselves.
+/// Largest increment of the multipliers relative to the allowed one. No other test contains rows that move no body.
+/// Without this test, multipliers across the plane of a plane mechanism would grow from step to step after a turn of 60
+/// degrees since the parts were made. `share`: allowed increment relative to the forces, or near singular positions to
+/// the multipliers.
 double Newton::measure_multipliers(const State& begin, const Evaluation& evaluation, double share,
                                    const Stages::Columns& lambda) const {
   const auto scale = [&](int kind) { return std::max(begin.force_scale(kind), evaluation.force_scale[kind]); };

@@ -60,7 +60,7 @@ class Radau {
   radau::Tuning tuning_;
   radau::Newton newton_;
   radau::StepSize size_;
-  radau::Stages stages_, last_;  ///< of this step, and of the last accepted one
+  radau::Stages stages_, last_;  ///< stages of this step, and of the last accepted one
   long parts_age_ = 0;           ///< steps since the tangents were renewed; −1: renewed at the end of this step
 };
 

@@ -16,7 +16,7 @@ namespace tisserand::mechanism {
 
 /// Request to run one analysis: its input, its start, and the destination of its rows.
 struct RunRequest {
-  const formats::Scene& scene;  ///< with the kind and the settings of this analysis (formats::scene_of)
+  const formats::Scene& scene;  ///< scene with the kind and settings of this analysis (formats::scene_of)
   const BodyFiles& files;
   std::optional<State> begin = {};   ///< end of another analysis of the same scene, instead of the poses of the bodies
   std::string path = {};             ///< path of the results; empty: none are stored

@@ -71,7 +71,7 @@ class AutomaticEffects {
   struct Watch {
     Watch(const Model& running, const Model& whole, const std::vector<EffectUse>& uses, const formats::Scene& scene);
     Evaluation now;      ///< evaluation of the running model
-    StateTransfer lift;  ///< from the running model to the whole one
+    StateTransfer lift;  ///< transfer from the running model to the whole one
     CarriedInertia inertia;
     Demand demand;
     double force = 0.0;  ///< largest so far

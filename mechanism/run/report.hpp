@@ -39,7 +39,7 @@ struct RunReport {
   long factorisations = 0;
   long row_choices = 0;  ///< steps at which the active constraint rows were chosen again
   long rejected = 0;     ///< steps repeated with a smaller size
-  long inaccurate = 0;   ///< of these, steps with a too large local error
+  long inaccurate = 0;   ///< among them: steps with a too large local error
   double least_step = 0.0, greatest_step = 0.0;
   std::vector<std::string> rejections;  ///< time and reason of the first ones
   double largest_constraint = 0.0;      ///< largest violation over all steps

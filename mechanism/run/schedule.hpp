@@ -25,7 +25,7 @@ class Schedule {
 
   bool output_at_start() const;
   bool finished(double time) const;
-  /// With error control: limits the next step. The step after it is chosen as if this one had not been cut.
+  /// Limits the next step (error control only). The step after it is chosen as if this one had not been cut.
   void bound(double step) { bound_ = step; }
   double proposal() const { return proposal_; }
   /// End of the step that starts at `time`.
@@ -35,7 +35,7 @@ class Schedule {
   bool retry(double time, const StepReport& report);
   /// Limit that prevents a shorter step: "after 10 halvings of the step".
   std::string limit() const;
-  /// With error control: chooses the next step from the error of the accepted step of the given size.
+  /// Chooses the next step from the error of the accepted step of this size (error control only).
   void adapt(const StepReport& report, double size);
 
   /// Next instant of output that a step to `time` passes without ending there, which then counts as stored. Exists only

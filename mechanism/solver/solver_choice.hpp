@@ -11,7 +11,7 @@ namespace tisserand::mechanism {
 struct SolverChoice {
   SolverKind kind = SolverKind::klu;
   bool automatic = false;
-  double flops = 0.0;  ///< of one factorisation by this solver (UMFPACK: upper bound; QR: not counted)
+  double flops = 0.0;  ///< flops of one factorisation (UMFPACK: upper bound; QR: not counted)
   double fill = 1.0;   ///< entries of the factors relative to those of the matrix
 };
 

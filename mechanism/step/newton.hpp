@@ -25,7 +25,7 @@ struct Iteration {
   /// Sizes of the last two increments, infinite if there was none.
   double increment = std::numeric_limits<double>::infinity();
   double last_increment = std::numeric_limits<double>::infinity();
-  double last_residual = 0.0, last_constraint_ratio = 0.0;  ///< at the last check of the factors
+  double last_residual = 0.0, last_constraint_ratio = 0.0;  ///< values at the last check of the factors
 };
 
 /// Prepares the last accepted state for another step size by a new algorithmic acceleration. With index 3 it also

@@ -33,7 +33,7 @@ struct PositionProjection {
   Eigen::VectorXd open;    ///< rows that are still to be closed
   Eigen::VectorXd closed;  ///< rows that the latest change closes
   // μ divided by the scale of the matrix.
-  Eigen::VectorXd multipliers;  ///< of this step so far
+  Eigen::VectorXd multipliers;  ///< μ of this step so far
   Eigen::VectorXd expected;     ///< μ₁
   Eigen::VectorXd old;          ///< B₀ᵀ μ₁
   Eigen::VectorXd turned;       ///< buffer: (B₀ − B_m)ᵀ μ₁
@@ -47,10 +47,10 @@ struct PositionProjection {
   bool renewed = false;         ///< factors belong to an iterate of this step, and end with it
 };
 
-/// Prepares μ₁ and [W Bᵀ; B 0] for a step from `state`, W = c_m M + c_k K of the bodies alone. The matrix is made
-/// again, at `state`, in three cases: bodies have turned too far, too many steps have passed, or the step is more than
-/// twice or less than half of the former one. The decision depends on motions of bodies with mass and numbers of steps,
-/// not on iterations.
+/// Prepares μ₁ and [W Bᵀ; B 0] for a step from `state`, W = c_m M + c_k K of the bodies alone. The matrix is made again
+/// at `state` if bodies have turned too far or too many steps have passed. It is also made again if the step is more
+/// than twice or less than half of the former one. Motions of bodies with mass and numbers of steps decide, not
+/// iterations.
 [[nodiscard]] FactorReport prepare_projection(const Model& model, const State& state, const StepScheme& scheme,
                                               Evaluation& evaluation, PositionProjection& projection);
 

@@ -16,7 +16,7 @@ struct Predictor {
       : acceleration(Eigen::VectorXd::Zero(sizes.velocities())),
         multipliers(Eigen::VectorXd::Zero(sizes.constraints)) {}
   void forget() { known = smooth = false; }
-  /// Learns from the step just solved, from `last` to `state`. smooth_rate: StepTuning.
+  /// Updates the prediction from the step just solved, from `last` to `state`. smooth_rate: StepTuning.
   void learn(const Model& model, double step, double smooth_rate, const State& last, const State& state);
 
   Eigen::VectorXd acceleration, multipliers;

@@ -19,8 +19,8 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Weights μ = U λ with |μ|² = Σ |f|² + |m|²/L²: one upper triangle per joint (its wrenches are independent), a number
-/// per coupling; and A = Bᵀ U⁻¹, rotations scaled with 1/L.
+/// Weighted multipliers μ = U λ with |μ|² = Σ |f|² + |m|²/L². U has one upper triangle per joint (its wrenches are
+/// independent) and a number per coupling. A = Bᵀ U⁻¹, rotations scaled with 1/L.
 struct WeightedJacobian {
   std::vector<Eigen::MatrixXd> triangle;
   Eigen::VectorXd coupling_weight;

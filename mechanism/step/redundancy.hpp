@@ -46,10 +46,9 @@ class RowWatch {
   Eigen::VectorXd factors_, row_, rest_;
 };
 
-/// Multipliers λ with the same Bᵀλ and least Σ |f|² + |m|²/L² over all joints and couplings, at the state of the last
-/// evaluate(). f, m: wrench of each on its body B at the origin of its marker. L: characteristic length. Up to 400
-/// constraints by a complete orthogonal decomposition, above by conjugate gradients on the normal equations, which
-/// converge to least norm from zero.
+/// Multipliers λ with the same Bᵀλ and least Σ |f|² + |m|²/L² over all joints and couplings, at the last evaluate(). f,
+/// m: wrench of each on its body B at the origin of its marker. L: characteristic length. Up to 400 constraints use a
+/// complete orthogonal decomposition. Above, conjugate gradients on the normal equations start at zero.
 Eigen::VectorXd least_norm_multipliers(const Model& model, const Evaluation& evaluation, const Eigen::VectorXd& lambda);
 
 /// Names of joints and couplings whose reactions could change without changing the motion, at the state of the last

@@ -20,8 +20,8 @@ struct StepReport {
   double proposed = 0.0;      ///< next step, or the one to try instead, if the method controls its steps itself
   double residual = 0.0;      ///< largest |r| of force rows, and of moment rows / length
   double constraint = 0.0;    ///< largest |Φ| (positions, and angles times length)
-  int worst_coordinate = -1;  ///< of the largest residual, when not accepted
-  int worst_constraint = -1;  ///< of the largest violation, when not accepted and larger in ratio
+  int worst_coordinate = -1;  ///< coordinate of the largest residual, when not accepted
+  int worst_constraint = -1;  ///< row of the largest violation, when not accepted and larger in ratio
   int singular_column = -1;
   /// Adds the counts of a previous attempt.
   void count(const StepReport& before) {

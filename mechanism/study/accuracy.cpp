@@ -35,7 +35,7 @@ struct Rates {
 /// Errors of generalised alpha that distribute the tolerance over the time have p = 1. Its steps end at instants of
 /// output. Runs whose steps these instants determine do not differ.
 constexpr Rates shared{10.0, 8.0, 0.7, 2.0, 1.3, 0.5};
-/// With a tenth of its tolerance radau needs 1.5 times the steps. Its errors fall less evenly, since an estimate of
+/// Radau needs 1.5 times the steps for a tenth of the tolerance. Its errors fall less evenly, since an estimate of
 /// lower order controls the steps. On smooth motion errors of 10 to 100 times the tolerance add up.
 constexpr Rates of_radau{0.03, 10.0, 0.5, 5.0, 1.05, 0.2};
 
@@ -46,7 +46,7 @@ constexpr double first_of_rates = 1e-6, second_of_rates = 30.0;
 /// Largest number of steps of the first run of an automatic method. Beyond it another method is taken.
 constexpr long most_first_steps = 50000;
 constexpr double aim = 0.4;                              ///< fraction of the error at which a further tolerance aims
-constexpr double least_part = 1e-3, most_part = 0.5;     ///< of the previous tolerance
+constexpr double least_part = 1e-3, most_part = 0.5;     ///< bounds of a tolerance over the previous one
 constexpr double least_order = 0.3, trusted_part = 0.9;  ///< bound and fraction of measured orders
 /// No further run begins if its predicted time exceeds both this [s] and this multiple of the first run.
 constexpr double longest_run = 600.0, longest_of_first = 20.0;
@@ -100,7 +100,7 @@ class FallingTolerance {
  private:
   Rates rates_;
   double order_;
-  double change_ = 0.0, fall_ = 1.0;  ///< of the previous run: change of the history, and of the tolerance
+  double change_ = 0.0, fall_ = 1.0;  ///< previous run: change of the history, and of the tolerance
   double error_ = 0.0;
 };
 
@@ -314,7 +314,7 @@ class Search {
     return any ? half : Modes{};
   }
 
-  /// After the second run: halves the modes as long as this changes its history little. Further runs omit these modes.
+  /// Halves the modes after the second run, as long as this changes its history little. Further runs omit these modes.
   void leave_out_modes(double tolerance) {
     if (modes_.half.x.empty() || modes_.upper_half > modes_part * accuracy_.error) return;
     modes_.left_out = modes_.upper_half;

@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
   throw Error("no run completed inside the budget", study.file, "raise 'run_budget'");
 }
 
-/// Writes the scene of a setting beside its original scene. Returns the path.
+/// Writes the scene of a setting into the folder of its original scene. Returns the path.
 std::string write_scene(const formats::Study& study, const Cell& cell, double tolerance) {
   const std::string& base = study.series[cell.series].scene;
   const fs::path folder = fs::path(base).parent_path();

@@ -34,8 +34,8 @@ struct ReferenceHistories {
 /// not stored.
 ReferenceHistories make_reference(Campaign& campaign, const std::vector<Cell>& references);
 
-/// Median of the times of a cell and its confidence interval: order statistics with a confidence of at least 3/4 (of 3
-/// to 5 runs the least and the greatest, then the second of each end, ...).
+/// Median of the times of a cell and its confidence interval by order statistics, with a confidence of at least 3/4. Of
+/// 3 to 5 runs it takes the least and the greatest, then the second of each end, and so on.
 struct MedianTime {
   double median = 0.0, least = 0.0, greatest = 0.0;
 };

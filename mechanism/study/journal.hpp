@@ -13,7 +13,7 @@ enum class CellOutcome { completed, failed, over_budget };
 struct RunRecord {
   CellOutcome outcome = CellOutcome::completed;
   std::string message;       ///< why it did not complete
-  double cpu_seconds = 0.0;  ///< of the process, with reading, building and writing
+  double cpu_seconds = 0.0;  ///< time of the process, with reading, building and writing
   double limit = 0.0;        ///< over_budget: limit of wall clock time [s]
   int coordinates = 0;
   long steps = 0, iterations = 0;

@@ -26,9 +26,9 @@ class Compliance {
   /// Product M y.
   virtual Eigen::VectorXd mass(const Eigen::VectorXd& y) const = 0;
 
-  /// Size of the bending: the largest displacement of a node, also relative to any node where the scene may hold it, or
-  /// √2 times the root mean square over its mass. The latter is the amplitude of a sine, and includes internal
-  /// coordinates, which move no node.
+  /// Size of the bending: the larger of two values. One is the largest displacement of a node, also relative to any
+  /// node where the scene may hold it. The other is √2 times the root mean square over the mass, the amplitude of a
+  /// sine, since internal coordinates move no node.
   virtual double displacement(const Eigen::VectorXd& y) const = 0;
   /// Largest nodal force that deforms the body by y.
   virtual double force(const Eigen::VectorXd& y) const = 0;

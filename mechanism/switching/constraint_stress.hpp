@@ -12,8 +12,8 @@ namespace tisserand::mechanism {
 /// the body.
 ///
 /// Rigid bodies do not determine the size of such a λ. If it does work on a drive or on the gap of a loop, rigid bodies
-/// cannot move: a four-bar with one axis out of line moves only because its bodies deform. There are as many such λ as
-/// rows beyond the rank of Tᵀ Bᵀ. So a loop of hinges has them if its axes are parallel, nearly parallel or not.
+/// cannot move. A four-bar with one axis out of line moves only because its bodies deform. There are as many such λ as
+/// rows beyond the rank of Tᵀ Bᵀ. A loop of hinges has them for any axes, parallel or not, independent of round-off.
 ///
 /// Call it after evaluate(). λ is one random vector without its component along the rows. It has a component along
 /// every such λ.

@@ -32,6 +32,7 @@
 
 namespace tisserand::mechanism {
 
+/// Judges the effects that are off, from samples of a run in windows.
 class Demand {
  public:
   /// `uses`: effects of deforming bodies of the whole model (deformation.hpp). Those that are off are judged. The model
@@ -45,13 +46,12 @@ class Demand {
   /// Whether the next sample is the second of a window, the first after its beginning.
   bool begins_window() const { return samples_ % window_samples == 1; }
 
-  /// Largest force in this window that deforms a modal body, which no node bears.
+  /// Largest force in this window that deforms a modal body, also one that nothing holds.
   double modal_force() const;
   /// Largest elastic force of a body in this window.
   double force(std::size_t index) const { return bodies_[index].f; }
   /// Largest D of a use so far, with F of the latest sample. During the run it counts positions alone while F grows
-  /// faster than in proportion to time, as after a start from rest: forces that matter now may be small against later
-  /// ones.
+  /// faster than in proportion to time, as after a start from rest. Forces that matter now may be small later.
   double of(std::size_t use, bool ended) const;
   /// Time at which D of a use was largest.
   double time_of(std::size_t use) const { return judged_[use].time; }
@@ -102,9 +102,9 @@ class Demand {
 
   const Model& whole_;
   double tolerance_;
-  std::map<int, SuperelementCompliance> compliances_;  ///< by index of the body of the uses
-  std::map<int, Buckling> buckling_;                   ///< by the same index, for bodies with stiffening
-  std::map<int, ModalCompliance> modal_compliances_;   ///< by index of the modal body
+  std::map<int, SuperelementCompliance> compliances_;  ///< keys: index of the body of the uses
+  std::map<int, Buckling> buckling_;                   ///< the same keys, for bodies with stiffening
+  std::map<int, ModalCompliance> modal_compliances_;   ///< keys: index of the modal body
   std::vector<Body> bodies_;                           ///< the deforming bodies
   std::vector<Judged> judged_;                         ///< one per use
   double largest_force_ = 0.0;                         ///< F at the latest sample

@@ -49,7 +49,7 @@ class StateTransfer {
   std::vector<Source> sources_;     ///< one per node of `to`
   std::vector<int> superelements_;  ///< per superelement of `to`: the one of `from`; -1: it was rigid
   std::vector<int> frames_;         ///< per superelement of `to` that was rigid: the node of the rigid body
-  std::vector<int> modal_bodies_;   ///< of each of `to`: the one of `from`
+  std::vector<int> modal_bodies_;   ///< per modal body of `to`: the one of `from`
   std::vector<int> turns_;          ///< per angle of `to`: the one of `from`; -1: it has none
 };
 

@@ -17,6 +17,7 @@ inline constexpr double lag_share = 1e-6;
 /// Fraction of the slip velocity that damps deflections at standstill, and the speed over v₀ at which it vanishes.
 inline constexpr double rocking_share = 0.01, rocking_speed = 10.0;
 
+/// Absolute value.
 template <class T>
 T magnitude(const T& a) {
   return real_part(a) < 0.0 ? T(-a) : a;

@@ -26,11 +26,11 @@ struct DiscContact {
   using Vector3 = Eigen::Matrix<T, 3, 1>;
   bool exists = false;  ///< the contact is defined; the disc need not touch the road
   Vector3 x, y, n;
-  Vector3 down;    ///< in the wheel plane across x, towards the road
+  Vector3 down;    ///< direction in the wheel plane across x, towards the road
   Vector3 point;   ///< contact centre: where `down` from the centre meets the road plane
   T radius;        ///< loaded radius: from the centre to `point`
   T penetration;   ///< depth of the lowest point of the undeformed disc below the road plane
-  T sine, cosine;  ///< of the inclination (camber) angle: sine = axle · n, right-handed about x
+  T sine, cosine;  ///< inclination (camber) angle: sine = axle · n, right-handed about x
 };
 
 /// Distance of the four points from the lowest point, over the radius.

@@ -41,7 +41,7 @@ struct ActionInPlane {
 /// Conversion between the node, which has axes of the plane, and the road.
 struct Placement {
   Vector2d x, z;      ///< axes of the road in the plane
-  Vector2d arm;       ///< from the node to the disc
+  Vector2d arm;       ///< arm from the node to the disc
   double axle, side;  ///< ±1: direction of the axle, and of y of the road, along the normal of the plane
 
   Placement(const Tyre& tyre, const Road& road, const NodeMotion& node)
@@ -80,7 +80,7 @@ ContactInPlane<T> find_contact(const Tyre& tyre, const Road& road, double turns,
   const double step = base_of_plane * tyre.radius;
   const T y(disc.y);
   const T front = road_height(road, T(disc.x + step), y), rear = road_height(road, T(disc.x - step), y);
-  const T middle = road_height(road, disc.x, y);  // also that beside it
+  const T middle = road_height(road, disc.x, y);  // also for the points beside it
   const T slope = (front - rear) / (2.0 * step);
   ContactInPlane<T> c;
   c.turns = turns;

@@ -186,7 +186,7 @@ void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, const 
   terms.energy = spring_energy(tyre, c.penetration);
 }
 
-/// On curved roads too, the energy changes by the rate of δ itself.
+/// Uses the rate of δ itself, by which the energy changes on curved roads too.
 double dissipated_power(const Tyre& tyre, const Road& road, const NodeMotion& node, const TyreTerms& terms) {
   if (terms.penetration <= 0.0) return 0.0;
   Vector6d velocity;

@@ -76,6 +76,7 @@ struct TyreTerms {
   double adhesion = 0.0;  ///< fraction of the patch that does not slide, or of the friction that is left; 0 in the air
   double energy = 0.0;    ///< ½ k δ² + ⅓ k₂ δ³
 };
+/// Terms of a tyre at the motion of its wheel.
 void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, const Tread& tread, TyreTerms& terms);
 
 /// Power taken from the wheel minus the rate of the energy, at the motion of these terms. It costs as much as they do,
@@ -99,12 +100,12 @@ double tyre_quantity(const Tyre& tyre, const Road& road, const NodeMotion& node,
 Vector6d tyre_quantity_gradient(const Tyre& tyre, const Road& road, const NodeMotion& node, const Tread& tread,
                                 formats::TyreQuantity quantity, const TangentCoefficients& coefficients);
 
-/// Largest ratio to the load of the force across the wheel and of moments (over the radius) not about the axle, for a
-/// wheel that rolls upright and straight on a plane: over loads, speeds and slips.
+/// Largest ratio to the load of the force across the wheel and of moments (over the radius) not about the axle. The
+/// wheel rolls upright and straight on a plane, with several loads, speeds and slips.
 double sideways_share(const Tyre& tyre);
 
-/// Stiffness with which statics holds free motions of a standing tyre (in the matrix only, without force): along the
-/// road, roll, deflections of the tread, and in the air also the motion normal to the road.
+/// Stiffness with which statics holds free motions of a standing tyre, in the matrix only, without force. These are the
+/// motion along the road, roll, deflections of the tread, and in the air the motion normal to the road.
 Matrix8d standing_stiffness(const Tyre& tyre, const Road& road, const NodeMotion& node, const TyreTerms& terms);
 
 }  // namespace tisserand::mechanism

@@ -13,7 +13,7 @@ namespace tisserand::mechanism {
 struct BodyShape {
   std::string source;                ///< recovery, section, scene, inertia, nodes, marker (formats/PAGE.md)
   formats::Surface surface;          ///< undeformed; empty for a marker
-  formats::Deformation deformation;  ///< without columns: no deformation
+  formats::Deformation deformation;  ///< no columns: no deformation
   Eigen::MatrixXd stress;            ///< 6 V x m: [xx yy zz xy yz zx] per amplitude; empty: unknown or not requested
   std::vector<int> elements;         ///< element of each triangle; empty: unknown
   bool points = false;               ///< the vertices are drawn too

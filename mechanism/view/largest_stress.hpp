@@ -7,8 +7,8 @@
 
 namespace tisserand::mechanism {
 
-/// JSON {"value", "place", "time"}: the largest equivalent stress (von Mises) of any vertex at any instant of the page,
-/// and the vertex of the undeformed body in its part frame. null: the shape has no stress.
+/// JSON {"value", "place", "time"}: largest equivalent stress (von Mises) of all vertices and shown instants. "place"
+/// is the vertex of the undeformed body in its part frame. null: the shape has no stress.
 formats::Json largest_stress(const ViewedRun& run, const ViewedBody& body, const BodyShape& shape);
 
 }  // namespace tisserand::mechanism

@@ -23,8 +23,8 @@ class MotionExtent {
   const Eigen::AlignedBox3d& box() const { return box_; }
   /// Largest diagonal at one instant.
   double size() const;
-  /// Body to follow if all bodies leave their place, so that the whole path is several times `size()`: the heaviest
-  /// body that moves as far. -1: the camera may stand still.
+  /// Body to follow if all bodies leave their place (the path is several times `size()`): the heaviest body that moves
+  /// this far. -1: the camera may stay.
   int followed() const;
 
  private:

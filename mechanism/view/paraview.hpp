@@ -7,9 +7,9 @@
 
 namespace tisserand::mechanism {
 
-/// Writes <run>.pvd and <run>/<run>_0.vtu ... per results file into `folder`: points in the world, triangles, lines and
-/// points as cells, the number of the body per cell, and the displacement by deformation (world axes) per point. The
-/// collection is written last, after all files that it lists. Returns its names, one per line. Throws Error.
+/// Writes <run>.pvd and <run>/<run>_0.vtu ... per results file into `folder`. They hold points in the world, cells
+/// (triangles, lines, points) with the number of the body, and displacements by deformation (world axes). The
+/// collection is written last, after its files. Returns its names, one per line. Throws Error.
 std::string write_paraview(const ViewRequest& request, const std::string& folder);
 
 }  // namespace tisserand::mechanism

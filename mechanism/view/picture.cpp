@@ -65,7 +65,7 @@ void require_nodes(const std::vector<std::string>& names, const formats::Results
                   "nodes are, for example: " + listed(nearest_names(name, known)));
 }
 
-/// Name of the body that the camera follows; "": it stands still.
+/// Name of the body that the camera follows; "": it does not move.
 std::string followed_of(const std::string& name, const formats::ResultsReader& run) {
   if (name == "none") return "";
   std::vector<std::string> known;

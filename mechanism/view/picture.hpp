@@ -21,12 +21,12 @@ struct PictureRequest {
   ViewRequest page;                    ///< runs and shapes; its own output is not written
   std::string output;                  ///< .png
   std::vector<double> times;           ///< states from left to right, in units of the runs; empty: the last instant
-  int mode = 0;                        ///< from 1: this mode instead of times; 0: none
+  int mode = 0;                        ///< number of a mode, from 1, instead of times; 0: none
   std::vector<double> phases_deg;      ///< phases of the mode, states from left to right; empty: 0
   std::array<int, 2> size{1200, 700};  ///< pixels, width and height
   std::string view = "iso";            ///< a name of picture_views, or "azimuth,elevation" of the camera in degrees
   double zoom = 1.0;                   ///< 1: the shown objects fill the picture
-  std::optional<double> exaggeration;  ///< of deformations; absent: 1, or a round factor if motion is invisible
+  std::optional<double> exaggeration;  ///< factor of deformations; absent: 1, or a round factor if motion is invisible
   std::optional<std::string> follow;   ///< body to follow, or "none"; absent: one, if all leave their place
   std::string stress_unit;             ///< one of picture_stress_units; empty: that of the scene, MPa if lengths are mm
   std::string colouring = "body";      ///< one of picture_colourings

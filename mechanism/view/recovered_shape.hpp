@@ -7,9 +7,9 @@
 
 namespace tisserand::mechanism {
 
-/// Shape of a superelement, or of a rigid body made of one. Absent if no recovery file is found: in the options, or
-/// beside the superelement or the results. A note of the run reports a file beside them that belongs to another
-/// superelement. The surface is thinned before shapes are read.
+/// Shape of a superelement, or of a rigid body made of one. Absent if no recovery file is found: in the options, or in
+/// the folder of the superelement or the results. A note of the run reports a file of another superelement in these
+/// folders. The surface is thinned before shapes are read.
 std::optional<BodyShape> recovered_shape(ViewedRun& run, const ViewedBody& body, const ShapeOptions& options);
 
 /// Throws Error for a file of the options that belongs to none of the bodies.

@@ -35,7 +35,7 @@ struct ViewedBody {
   std::vector<int> nodes;                            ///< stored nodes on it
   Track frame;                                       ///< frame of its shapes: floating frame, part frame, or a node
   bool is_part_frame = false;                        ///< the frame is the part frame of a body that keeps its shape
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the frame of the undeformed body, in the part frame
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< origin of the frame of the undeformed body, in the part frame
   int superelement = -1;                             ///< index in the layout; -1: none
 };
 
@@ -46,7 +46,7 @@ struct ViewedRun {
   std::vector<Track> nodes;  ///< nodes of the layout
   std::vector<ViewedBody> bodies;
   std::vector<int> body_of_node;
-  formats::DrawnScene drawn;       ///< from the text of the scene
+  formats::DrawnScene drawn;       ///< scene from its text
   std::vector<std::string> notes;  ///< whole sentences on what could not be shown, and why
 
   const formats::ResultsLayout& layout() const { return reader->layout(); }
