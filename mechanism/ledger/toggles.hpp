@@ -25,7 +25,7 @@ struct Toggle {
   std::optional<formats::EffectSwitch> change;
   std::optional<formats::SuperelementBodySpec> replaced;
 
-  /// "stiffening of 'rod'", "friction".
+  /// Effect and owner as text: "stiffening of 'rod'".
   std::string subject() const;
 };
 

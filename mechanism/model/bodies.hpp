@@ -1,4 +1,4 @@
-// The list of body types and the functions that each type provides. A new body type needs a pool of Model, its line in
+// List of body types, and the functions that each type provides. A new body type needs a pool of Model, its line in
 // for_each_body_pool(), the hooks below, and those of equations/bodies.hpp.
 #pragma once
 

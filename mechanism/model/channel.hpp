@@ -44,7 +44,7 @@ struct ChannelGradient {
   Row12 by_position = Row12::Zero();
   Row12 by_velocity = Row12::Zero();
 };
-/// Gradient of a channel. `relation`: that of its coordinate, if any. It is zero for tyres: tyre_quantity_gradient().
+/// Gradient of a channel, zero for tyres (see tyre_quantity_gradient()). `relation`: that of its coordinate, if any.
 ChannelGradient channel_gradient(const Channel& channel, const Relation* relation, const MarkerPair& pair);
 
 }  // namespace tisserand::mechanism

@@ -1,6 +1,6 @@
-// The list of force types that act on nodes, and what each type provides. A new force type needs a pool of Model, its
-// line in for_each_force_pool(), its traits, and its overloads in equations/forces.hpp. Springs belong to joint
-// coordinates, and friction belongs to joints.
+// List of force types that act on nodes, and what each type provides. A new force type needs a pool of Model, its line
+// in for_each_force_pool(), its traits, and its overloads in equations/forces.hpp. Springs belong to joint coordinates,
+// and friction belongs to joints.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The loop of method: bdf: steps, rows, jumps of loads.
+// Loop of method: bdf: steps, rows, jumps of loads.
 #pragma once
 
 #include "mechanism/run/run.hpp"

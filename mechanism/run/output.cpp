@@ -106,7 +106,7 @@ JointReaction thread_reaction(const Model& model, const Joint& joint, const doub
   return reaction_of(row, markers_of(joint, evaluation));
 }
 
-/// After evaluate_coordinates().
+/// Fills reactions and coordinates of joints, after evaluate_coordinates().
 void fill_joints(const Model& model, const State& state, const double* lambda, Evaluation& evaluation,
                  formats::ResultsRow& row) {
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
@@ -142,7 +142,7 @@ void fill_couplings(const Model& model, const double* lambda, formats::ResultsRo
 
 bool has_stops(const Spring& spring) { return spring.lower || spring.upper; }
 
-/// After evaluate_coordinates().
+/// Fills the forces of springs and stops, after evaluate_coordinates().
 void fill_springs(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
   Eigen::Index stops = 0;
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
@@ -291,7 +291,7 @@ void fill_bodies(const Model& model, const State& state, Evaluation& evaluation,
   fill_modal_frames(model, evaluation, row);
 }
 
-/// After evaluate() and update_modal_nodes().
+/// Fills reactions, forces and energies, after evaluate() and update_modal_nodes().
 void fill_actions(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
   evaluate_coordinates(model, state, evaluation);
   Eigen::VectorXd least;

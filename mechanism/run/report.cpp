@@ -1,4 +1,4 @@
-// The report of a run, as JSON and as text.
+// Report of a run, as JSON and as text.
 #include "mechanism/run/report.hpp"
 
 #include <algorithm>

@@ -13,7 +13,7 @@ class Stepper {
  public:
   Stepper(const Model& model, const formats::IntegratorSpec& options);
 
-  /// See advance() of step/step.hpp.
+  /// Computes one step, as advance() of step/step.hpp.
   [[nodiscard]] StepReport advance(const StepEnd& end, State& state, Workspace& workspace);
   /// Sets `state` to an instant within the last step, which ended at `state`. For Radau only.
   void interpolate(double time, State& state, Workspace& workspace);

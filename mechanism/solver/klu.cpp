@@ -12,7 +12,7 @@
 namespace tisserand::mechanism::back_end {
 namespace {
 
-/// KLU's functions for one kind of numbers; complex ones lie as pairs in the same arrays of double.
+/// KLU's functions for one kind of numbers. Complex ones are pairs in the same arrays of double.
 struct KluCalls {
   decltype(&klu_factor) factor;
   decltype(&klu_refactor) refactor;

@@ -28,7 +28,7 @@ constexpr double near_entries = 4000.0;
 
 struct Candidate {
   SolverKind kind;
-  double cost;  ///< [ns]; error mostly 30 to 50 % in 27 chains, grids and blocks of 22 to 36 000 unknowns
+  double cost;  ///< [ns]; mostly within 30 to 50 % in 27 chains, grids and blocks of 22 to 36 000 unknowns
   double flops;
   double entries;
 };

@@ -1,4 +1,4 @@
-// The time step: predict, evaluate, check, factor, solve, correct, accept. Formula numbers are those of docs/THEORY.md.
+// Time step: predict, evaluate, check, factor, solve, correct, accept. Formula numbers are those of docs/THEORY.md.
 #include "mechanism/step/step.hpp"
 
 #include "mechanism/equations/increments.hpp"

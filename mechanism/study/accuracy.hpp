@@ -1,4 +1,4 @@
-// A run whose tolerance and modes follow from the requested error (`accuracy` of the integrator).
+// Run whose tolerance and modes follow from the requested error (`accuracy` of the integrator).
 #pragma once
 
 #include "mechanism/simulate.hpp"
