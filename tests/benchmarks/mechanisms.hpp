@@ -5,15 +5,15 @@
 
 namespace tisserand::benchmarks {
 
-/// Horizontal chain of rigid links (one metre, 1 kg) on spherical joints that falls from rest under gravity, the first
-/// one held by ground. Steps of 1 ms.
+/// Horizontal chain of rigid links of 1 m and 1 kg on spherical joints. Ground holds the first one, and the chain falls
+/// from rest under gravity in steps of 1 ms.
 Case rigid_chain(int links, int steps);
 
-/// [GA00] Table 2: crank of 0.1524 m driven at 124.8 rad/s, round rod of 0.3048 m whose end slides without mass, steps
-/// of 0.1 ms. The rod as `elements` nonlinear beams of two nodes, in space.
+/// Slider-crank of [GA00] Table 2. The crank of 0.1524 m is driven at 124.8 rad/s. The round rod of 0.3048 m has
+/// `elements` nonlinear beams of two nodes, in space; its end slides without mass. Steps of 0.1 ms.
 Case slider_crank_of_beams(int elements, double end);
 
-/// The same with the rod reduced to its ends and `modes` modes of eight beam elements.
+/// Slider-crank as in slider_crank_of_beams(), its rod reduced from eight beam elements to its ends and `modes` modes.
 Case slider_crank_reduced(int modes, double end);
 
 }  // namespace tisserand::benchmarks

@@ -18,13 +18,13 @@ struct Case {
   formats::Scene scene;
   mechanism::SuperelementFiles files;
   mechanism::StepTuning tuning = {};
-  std::map<std::string, formats::Companion> companions = {};  ///< of those files
+  std::map<std::string, formats::Companion> companions = {};  ///< companions of these files
 
   mechanism::BodyFiles body_files() const;
 };
 
-/// Hinged beam of [Car00] 8.1, moment 200, 2000 steps of 0.01, as one reduced body: 24 beam elements, boundary nodes
-/// base and tip, `modes` (at most 138) modes with fixed boundary; frame karcher, inertia B.
+/// Hinged beam of [Car00] 8.1 under a moment of 200, 2000 steps of 0.01, as one reduced body of 24 beam elements.
+/// Boundary nodes are base and tip, with `modes` (at most 138) fixed-boundary modes. Frame karcher, inertia B.
 Case hinged_beam(int modes, formats::Formulation formulation);
 
 /// Inertia and stiffening of a superelement.
@@ -33,38 +33,38 @@ struct SecondOrderTerms {
   formats::StiffeningOption stiffening = formats::StiffeningOption::off;
 };
 
-/// The same beam of 24 elements without shear and with its companion.
+/// Hinged beam of [Car00] 8.1 from 24 elements without shear, with its companion.
 Case hinged_beam(int modes, SecondOrderTerms terms);
 
-/// The same beam as geometrically exact elements of two or three nodes.
+/// Hinged beam of [Car00] 8.1 as geometrically exact elements of two or three nodes.
 Case nonlinear_beam(int elements, int nodes_per_element);
 
-/// Horizontal chain of superelements (one metre of steel each, 4 modes) that falls from rest under gravity, the first
-/// one held by ground; all joints spherical. Steps of 1 ms.
+/// Horizontal chain of superelements (1 m of steel each, 4 modes) on spherical joints. Ground holds the first one, and
+/// the chain falls from rest under gravity in steps of 1 ms.
 Case chain(int elements, int steps);
 
-/// Static condensation and the lowest modes with fixed boundary of a beam of `pieces` elements; nodes base and tip.
+/// Beam of `pieces` elements, reduced to the nodes base and tip and its `modes` lowest modes with fixed boundary.
 formats::Superelement reduced_beam(const test_support::BeamData& beam, int pieces, int modes);
 
 /// CPU time of this process [s].
 double cpu_seconds();
 
-/// What a run cost and how well it did.
+/// Times [s], counts and errors of a run.
 struct Cost {
   double seconds_model = 0.0, seconds_start = 0.0;
   double seconds_steps = 0.0;  ///< without output
   double seconds_output = 0.0;
   long steps = 0, iterations = 0, factorisations = 0, rejected = 0;
-  double error = 0.0;  ///< largest of the base's angular velocity about z against the converged reference
+  double error = 0.0;  ///< largest error of the base's angular velocity about z against the converged reference
   double error_rms = 0.0;
   double seconds() const { return seconds_steps + seconds_output; }
 };
 
-/// Builds, starts and runs; writes every tenth step to a results file in the folder for temporary files. Throws if a
-/// step fails.
+/// Builds, starts and runs the case. Writes every tenth step to a results file in the folder for temporary files.
+/// Throws if a step fails.
 Cost run(const Case& input);
 
-/// As above, with errors against the reference of the hinged beam: the node named `base`.
+/// Runs the hinged beam as run() does, with errors against its reference; `base`: name of the base node.
 Cost run_hinged_beam(const Case& input, const std::string& base);
 
 /// A model that has run to `time`, for measurements of its kernels.

@@ -1,6 +1,5 @@
-// Loads of `reducer recover --loads` in CalculiX, on the mesh that the part was made from: the stress and the
-// displacement that `reducer recover` gives, of a part at rest under its weight and of one that spins, accelerates and
-// vibrates.
+// Loads of `reducer recover --loads` in CalculiX, on the mesh of the part. CalculiX must find the stress and the
+// displacement of `reducer recover`. The part is at rest under its weight, or spins, accelerates and vibrates.
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -25,7 +24,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// Numbers of the blocks of a .dat file: rows of a table "displacements" or "stresses".
+/// Rows of numbers in a .dat file of CalculiX, from the blocks of a table "displacements" or "stresses".
 using Rows = std::vector<std::vector<double>>;
 Rows rows_of(const std::string& text, const std::string& title) {
   Rows rows;
@@ -44,8 +43,9 @@ Rows rows_of(const std::string& text, const std::string& title) {
   return rows;
 }
 
-/// Stress of the nodes, [xx yy zz xy yz xz] as VTU files have it: at the quadrature points of straight tetrahedra of
-/// ten nodes it is linear, the values at the corners follow, those of edges are their means; then the mean of elements.
+/// Stress of the nodes, [xx yy zz xy yz xz] as in VTU files, from the quadrature points of straight ten-node
+/// tetrahedra. It is linear in each: corners are extrapolated, edges are means of corners. A node has the mean of its
+/// elements.
 MatrixXd nodal_stress(const Rows& rows, const BarMesh& mesh, const std::map<int, int>& row_of) {
   constexpr double a = 0.13819660112501051, b = 0.58541019662496852;  // barycentric coordinates of the points
   Eigen::Matrix4d values = Eigen::Matrix4d::Constant(a);
@@ -76,7 +76,7 @@ MatrixXd nodal_stress(const Rows& rows, const BarMesh& mesh, const std::map<int,
   return sum * count.cwiseInverse().asDiagonal();
 }
 
-/// u without the rigid motion that fits it best.
+/// Displacement u without the rigid motion that fits it best.
 Matrix3Xd without_rigid_motion(const Matrix3Xd& X, const Matrix3Xd& u) {
   MatrixXd rigid(3 * X.cols(), 6);
   for (Eigen::Index n = 0; n < X.cols(); ++n)
@@ -116,7 +116,7 @@ class Loads : public ::testing::Test {
     const Outcome outcome = call({program("mechanism"), "run", "bar.scene.yaml", "-o", "run.results.h5"}, where);
     ASSERT_EQ(outcome.code, 0) << outcome.error;
   }
-  /// Stress and loads at the chosen instants.
+  /// Runs `reducer recover` for stress and loads at the chosen instants.
   Outcome recover(const std::vector<std::string>& words) const {
     std::vector<std::string> all{
         program("reducer"), "recover",         "bar.recovery.h5", "run.results.h5", "--frame", "part", "-o", "out",
@@ -124,12 +124,12 @@ class Loads : public ::testing::Test {
     all.insert(all.end(), words.begin(), words.end());
     return call(all, where);
   }
-  /// Forces by number of node and component 1-6, of the step that is number `step` from 0.
+  /// Forces by node number and component 1-6 in the step of number `step`, from 0, of the CalculiX deck.
   std::map<std::pair<int, int>, double> of_calculix(const std::string& body, int step) const;
-  /// The same of the cards of a LOAD.
+  /// Forces by node number and component 1-6 in the cards of the LOAD `load` of the NASTRAN deck.
   std::map<std::pair<int, int>, double> of_nastran(const std::string& body, int load) const;
 
-  /// Stresses and, of linear bodies, displacements of CalculiX under the loads agree with those of the series.
+  /// Expects that CalculiX under the loads has the stresses of the series and, for linear bodies, its displacements.
   void compare(const std::string& body, std::size_t instants, bool is_linear) const;
 
   test_support::TemporaryFolder folder;
@@ -226,7 +226,7 @@ void Loads::compare(const std::string& body, std::size_t instants, bool is_linea
   }
 }
 
-/// Loads of one step and of one LOAD, beside each other.
+/// Expects equal forces by node and component, within `tolerance` of the largest expected force.
 void expect_same(const std::map<std::pair<int, int>, double>& actual,
                  const std::map<std::pair<int, int>, double>& expected, double tolerance) {
   double largest = 0.0, difference = 0.0;
@@ -241,7 +241,7 @@ void expect_same(const std::map<std::pair<int, int>, double>& actual,
   EXPECT_LT(difference, tolerance * largest);
 }
 
-/// "... by 2 of 100 N": 0.02.
+/// Ratio of the two numbers in a text "... by 2 of 100 N": 0.02.
 double difference_from_run(const std::string& text) {
   const std::string what = "differ from those of the run by ";
   const std::size_t at = text.find(what);
@@ -285,7 +285,7 @@ TEST_F(Loads, OfAPartAtRestGiveTheSameStressInCalculix) {
     const Outcome outcome = recover({"--body", "bar"});
     ASSERT_EQ(outcome.code, 0) << outcome.error;
     EXPECT_THAT(outcome.out, AllOf(HasSubstr("loads at 0"), HasSubstr("residual"), HasSubstr("bar_loads.inp")));
-    // At rest the forces at boundary nodes are those of the joints and of the load, but for the size of displacements.
+    // At rest the forces at boundary nodes equal those of joints and load, up to the size of the displacements.
     EXPECT_LT(difference_from_run(outcome.out), 1e-4);
     compare("bar", 1, true);
   }
@@ -330,8 +330,8 @@ TEST_F(Loads, CancelAndAreTheSameInBothForms) {
   EXPECT_THAT(outcome.out, HasSubstr("loads at 0.02 s"));
 }
 
-// Two bodies of one file, the second the mirror image at y = 0 under mirrored loads: the loads on the part are the
-// same.
+// Two bodies of one file, of which the second is mirrored at y = 0 and has mirrored loads. The loads on the part are
+// equal.
 TEST_F(Loads, OfAMirroredBodyAreThoseOfThePart) {
   reduce({}, false);
   run(R"yaml(scene: two bars
@@ -361,7 +361,7 @@ integrator: {step: 1e-4, end: 0.002}
   EXPECT_THAT(read_text(folder.file("out/right_loads.inp")), HasSubstr("the body is the mirror image (1 -1 1)"));
 }
 
-// A drawn bar, whose nodes have no numbers, moves in a plane: by the equations of the plane and by those of space.
+// A drawn bar, whose nodes have no numbers, moves in a plane, with planar and with spatial equations.
 TEST_F(Loads, OfPlanarScenesAreThoseOfSpace) {
   fs::copy_file(TISSERAND_SOURCE_DIR "/tests/verification/references/trials/spinning_bar.part.yaml",
                 folder.file("bar.part.yaml"));
@@ -388,7 +388,7 @@ integrator: {{step: 1e-4, end: 0.005}}
               AllOf(HasSubstr("have no number"), HasSubstr("  b  at 1 0 0")));
 }
 
-// Weight that is off in the run is off in the loads: at rest the forces are those of the run.
+// Weight that the run disables is not in the loads: at rest the forces are those of the run.
 TEST_F(Loads, KnowWhichEffectsAreOff) {
   reduce({}, false);
   run(scene_of("second_order: off", std::string("effects: {bar: {gravity: off}}\n") + at_rest));

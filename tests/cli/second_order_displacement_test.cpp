@@ -1,5 +1,5 @@
-// Displacement of second order between the boundary nodes, end to end: a cantilever under an end moment M is an arc of
-// radius EI/M (Euler's elastica); reduced, run, recovered, and as pages show it.
+// Displacement of second order between boundary nodes, end to end. A cantilever under an end moment M is an arc of
+// radius EI/M (Euler's elastica). It is reduced, run, recovered and shown on a page.
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -39,7 +39,7 @@ class SecondOrderDisplacement : public ::testing::Test {
     ASSERT_EQ(outcome.code, 0) << outcome.error;
   }
 
-  /// Bent by the angle theta, about y.
+  /// Runs the scene with the end moment that bends the bar by the angle theta about y.
   void run(double theta, const std::vector<std::string>& settings) const {
     std::vector<std::string> words{program("mechanism"),
                                    "run",
@@ -53,7 +53,7 @@ class SecondOrderDisplacement : public ::testing::Test {
     ASSERT_EQ(outcome.code, 0) << outcome.error;
   }
 
-  /// Of the table of points.
+  /// Last row of the table of points.
   std::vector<double> last_row() const {
     std::istringstream lines(read_text(folder.file("out/bar_points.csv")));
     std::string line, last;
@@ -64,7 +64,7 @@ class SecondOrderDisplacement : public ::testing::Test {
     return values;
   }
 
-  /// Positions of the nodes along the bar at the last instant; `output`: what is said. Points are those of the part.
+  /// Positions of the nodes along the bar at the last instant; `output`: text of the command. Points as in the part.
   std::array<Vector3d, nodes> recover(double sign, std::string& output) const {
     std::vector<std::string> words{
         program("reducer"), "recover", "stress_cantilever.recovery.h5", "run.results.h5", "-o", "out", "--envelope"};
@@ -81,7 +81,7 @@ class SecondOrderDisplacement : public ::testing::Test {
     return places;
   }
 
-  /// Largest distances from the arc along the clamp and across.
+  /// Largest distances from the arc, along the axis of the clamp and across it.
   static std::pair<double, double> missed(const std::array<Vector3d, nodes>& places, double theta) {
     double along = 0.0, across = 0.0;
     for (int k = 0; k < nodes; ++k) {
@@ -98,9 +98,9 @@ class SecondOrderDisplacement : public ::testing::Test {
   Surroundings where;
 };
 
-// Without it the middle is off along the clamp by 0.064 θ² (frame of the base). What is left along is an eightieth of
-// that at 0.1 rad (five thicknesses of deflection), and of third order: the run itself errs so
-// (docs/MECHANISM_VERIFICATION.md, "Parts under load").
+// Without second order the middle errs along the clamp by 0.064 θ² (frame of the base). At 0.1 rad, a deflection of
+// five thicknesses, the remaining error is an eightieth of that. It is of third order, as that of the run
+// (docs/THEORY.md, section 8).
 TEST_F(SecondOrderDisplacement, OfACantileverIsThatOfTheArc) {
   reduce();
   for (const char* frame :
@@ -133,7 +133,7 @@ TEST_F(SecondOrderDisplacement, IsThatOfMirroredBodiesAndOtherUnits) {
   }
 }
 
-// The equations of a plane move the same body, and stiffening that a run chooses is there when it is wanted.
+// Planar equations and automatic stiffening give the same displacement as equations in space with stiffening on.
 TEST_F(SecondOrderDisplacement, IsTheSameInPlanarScenesAndWithAutomaticStiffening) {
   write_text(folder.file("stress_cantilever.scene.yaml"), R"yaml(scene: cantilever in the x-y plane
 bodies: {bar: {type: superelement, file: stress_cantilever.superelement.h5, damping: {ratio: 0.5}}}
@@ -157,7 +157,7 @@ integrator: {step: 2e-3, end: 0.6}
   }
 }
 
-// The first stretch of the bar is mode 19 of 24 or so: a body that has it moves by it, one that has not by its form.
+// The first axial mode of the bar is mode 19 of 24 or so: one body has it, the other has not, and both match the arc.
 TEST_F(SecondOrderDisplacement, DoesNotDependOnModesThatTheBodyLeavesOut) {
   reduce({"modes=40"});
   for (const char* modes : {"bodies.bar.modes=40", "bodies.bar.modes=4"}) {
@@ -169,8 +169,8 @@ TEST_F(SecondOrderDisplacement, DoesNotDependOnModesThatTheBodyLeavesOut) {
   }
 }
 
-// A strip of shells, four times as stiff, whose ends spiders lead: a rigid one and an averaging one. Without Poisson's
-// ratio it bends to a cylinder. In the mean frame its error is that of the cubic between the ends, θ³ L/384.
+// A strip of shells, four times as stiff, between a rigid spider and an averaging one. Without Poisson's ratio it bends
+// to a cylinder. In the mean frame its error is that of the cubic between the ends, θ³ L/384.
 TEST_F(SecondOrderDisplacement, OfAStripBetweenSpidersIsThatOfTheArc) {
   fs::copy_file(TISSERAND_SOURCE_DIR "/tests/verification/references/trials/stress_strip.part.yaml",
                 folder.file("stress_cantilever.part.yaml"), fs::copy_options::overwrite_existing);
@@ -191,9 +191,8 @@ statics: {load_steps: 5}
   }
 }
 
-// A bar that its base alone holds: y has no foreshortening, and the free end moves by −½ ∫ w'² ds with
-// w' = q (3 L² s − 3 L s² + s³)/(6 EI) under the weight q per length [Timoshenko, Strength of materials, cantilever
-// beams].
+// Only its base holds the bar: y has no foreshortening, and the free end moves by −½ ∫ w'² ds. Under the weight q per
+// length, w' = q (3 L² s − 3 L s² + s³)/(6 EI) [Timoshenko, Strength of materials, cantilever beams].
 TEST_F(SecondOrderDisplacement, OfAFreeEndIsItsForeshortening) {
   reduce({"boundary=[base]"});
   write_text(folder.file("weight.scene.yaml"), R"yaml(scene: cantilever under its weight
@@ -217,7 +216,7 @@ analysis: statics
   EXPECT_NEAR(places.back().z(), -q / (8.0 * EI), 0.01 * q / (8.0 * EI));
 }
 
-// A linear body does not shorten, and nothing is added to it or said.
+// A linear body does not shorten: nothing is added to its displacement, and no note is written.
 TEST_F(SecondOrderDisplacement, IsNotAddedToLinearBodies) {
   reduce();
   run(0.1, {"bodies.bar.second_order=off", "bodies.bar.frame={node: base}"});
@@ -228,7 +227,7 @@ TEST_F(SecondOrderDisplacement, IsNotAddedToLinearBodies) {
   EXPECT_THAT(text, Not(HasSubstr("note")));
 }
 
-// A page has each beam as the corners of its sections: their mean is the node.
+// A page shows each beam by the corners of its sections. Their mean is the node.
 TEST_F(SecondOrderDisplacement, OfAPageIsThatOfRecover) {
   reduce();
   run(0.4, {"bodies.bar.frame={node: base}"});

@@ -1,11 +1,11 @@
-// What Simbody says of a random mechanism.
+// Start of motion of a random mechanism by Simbody.
 #pragma once
 
 #include "tests/support/scenes/random_mechanism.hpp"
 
 namespace tisserand::comparison {
 
-/// Of the joints that Simbody has: throws std::logic_error for others.
+/// Start of motion by Simbody, for joints that Simbody has. Throws std::logic_error for others.
 test_support::StartOfMotion start_by_simbody(const test_support::RandomMechanism& mechanism);
 
 }  // namespace tisserand::comparison

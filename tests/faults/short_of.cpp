@@ -1,9 +1,9 @@
-// Loaded before a program (LD_PRELOAD): from `main` on, an allocation or a write to a file fails. Environment:
+// Library for LD_PRELOAD that makes an allocation or a write to a file fail, from `main` on. Environment:
 // - TISSERAND_SHORT_OF = memory | disk
 // - TISSERAND_SHORT_AT = number of the call, from 1; 0: none
 // - TISSERAND_SHORT_FOR = once; or good: all writes from then on, or no address space beyond what the program has then
 // - TISSERAND_SHORT_BY = new: only `operator new` counts, and no reserve helps (libraries in C ask malloc)
-// - TISSERAND_SHORT_COUNT = file that receives how many calls there were
+// - TISSERAND_SHORT_COUNT = file that receives the number of calls
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -39,7 +39,7 @@ bool only_new = false;
 pid_t process = 0;
 constexpr const char* first_process = "TISSERAND_SHORT_PROCESS";
 
-/// To what the program has.
+/// Limits the address space to what the program has.
 void limit_addresses() {
   const int file = ::open("/proc/self/statm", O_RDONLY);
   char text[64] = {};
@@ -55,7 +55,7 @@ bool fails(Kind of) {
   const long number = calls.fetch_add(1, std::memory_order_relaxed) + 1;
   if (at == 0 || number < at || (number > at && !for_good)) return false;
   if (kind == Kind::disk || !for_good) return true;
-  if (number == at && ::getpid() == process) limit_addresses();  // which children that it forks then have too
+  if (number == at && ::getpid() == process) limit_addresses();  // children that it forks later inherit the limit
   return false;
 }
 
@@ -67,7 +67,7 @@ bool no_memory() {
 
 bool no_memory_for_c() { return !only_new && no_memory(); }
 
-/// Writes to files, not to streams.
+/// Whether a write to a regular file fails. Writes to standard streams and pipes never do.
 bool no_space(int file) {
   struct stat status {};
   if (!counting.load(std::memory_order_relaxed) || kind != Kind::disk || file <= STDERR_FILENO) return false;
@@ -93,8 +93,7 @@ int counted_main(int argc, char** argv, char** environment) {
   return program(argc, argv, environment);
 }
 
-/// Of the first process alone, also where it became another program: children
-/// may not open files.
+/// Writes the number of calls of the first process, also if it became another program. Children may not open files.
 __attribute__((destructor)) void tell_count() {
   counting = false;
   const char* path = std::getenv("TISSERAND_SHORT_COUNT");

@@ -26,7 +26,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using test_support::Simulation;
 
-/// 1 x 0.5 x 0.005 of aluminium from the hub along x, in the x-y plane; `along` x 4 cells.
+/// Plate of aluminium, 1 x 0.5 x 0.005 m, from the hub along x in the x-y plane; `along` x 4 cells.
 reducer::Mesh plate(int along) {
   const reducer::GridShape grid{along, 4, reducer::Facets::quadrilaterals, false};
   return reducer::shell_grid(
@@ -36,8 +36,8 @@ reducer::Mesh plate(int along) {
 
 bool at_root(const Vector3d& X) { return X.x() < 1e-9; }
 
-/// Of the full model at the angular velocity Ω: forms of C and W, and of E and T, with their factors; the centrifugal
-/// load.
+/// Terms of the full model at the angular velocity Ω: coupling Ω_k (C_k + W_k), softening Ω_j Ω_k (E_jk + T_jk) and the
+/// centrifugal load.
 struct TurningModel {
   MatrixXd coupling, softening;
   VectorXd load;
@@ -64,9 +64,9 @@ TurningModel turning_model(const reducer::Mesh& mesh, const Vector3d& Omega) {
   return turning;
 }
 
-/// ω of the full model that turns with Ω, clamped at the root, ascending: (K + K_G[w] − B) x + λ (A − Aᵀ) x + λ² M x =
-/// 0, K w the centrifugal load, A and B the coupling and the softening of turning_model(); by the eigenvalues 1/λ, since
-/// M is singular.
+/// Angular frequencies ω of the full model that turns with Ω, clamped at the root, ascending. They solve
+/// (K + K_G[w] − B) x + λ (A − Aᵀ) x + λ² M x = 0 with the centrifugal load K w. A is the coupling and B the softening
+/// of turning_model(). The solver finds the eigenvalues 1/λ, since M is singular.
 VectorXd full_frequencies(int along, const Vector3d& Omega, int count) {
   reducer::SmallModel model(plate(along));
   reducer::hold_where(model, reducer::all_components, at_root);
@@ -98,7 +98,7 @@ testing::ReducedPart reduced(int along, int modes) {
   return testing::reduce_with_companion(mesh, modes);
 }
 
-/// The same of the reduced body in a mechanism.
+/// Angular frequencies ω of the reduced body in a mechanism that turns with Ω.
 VectorXd body_frequencies(const testing::ReducedPart& part, const Vector3d& Omega, int count, bool second_order) {
   formats::Scene scene = static_scene(second_order);
   scene.joints.push_back(test_support::joint("hub", formats::JointKind::revolute, "ground", "part/root",

@@ -1,5 +1,4 @@
-// Published frequencies of plates and shells: from a mesh to the numbers that are printed. Tests and the table of
-// verification compute the same thing here.
+// Published frequencies of plates and shells, computed from a mesh for the tests and for the verification tables.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,15 +22,15 @@ Eigen::VectorXd thick_plate_in_its_plane(const ShellMesh& mesh);
 enum class SquareEdges { simply_supported, clamped, free };
 Eigen::VectorXd square_plate_parameters(const ShellMesh& mesh, SquareEdges edges);
 
-/// First ω² of the same plate with simply supported edges over the exact 4π⁴ D/(ρh a⁴).
+/// Ratio of the first ω² of this plate, simply supported, to the exact 4π⁴ D/(ρh a⁴).
 double square_plate_ratio(const ShellMesh& mesh);
 
 /// Cylinder R 0.1, L 0.4, t 0.01 m, both ends clamped [Hz]: first two modes; 4n x 2n cells around and along.
 Eigen::VectorXd clamped_cylinder(const ShellMesh& mesh);
 
-/// Of its lowest 24 modes the one that turns about the axis [Hz]. A clamped edge holds the drilling rotation too, which
-/// in torsion is half the shear strain: an error of order 1. A hinged one (translations only) leaves it free; bending
-/// rotations do not matter to this mode.
+/// Frequency [Hz] of the cylinder's mode that turns about the axis, among its lowest 24. A clamped edge holds the
+/// drilling rotation too, which in torsion is half the shear strain: an error of order 1. A hinged edge (translations
+/// only) leaves it free. Bending rotations do not matter to this mode.
 enum class CylinderEnds { clamped, hinged };
 double cylinder_torsion(const ShellMesh& mesh, CylinderEnds ends);
 

@@ -49,7 +49,7 @@ reducer::SystemMatrices membrane(int n) {
   return to_petsc(std::move(pair));
 }
 
-/// Its eigenvalues, ascending: sums of two of a chain; most are double.
+/// Eigenvalues of the membrane, ascending. Each is the sum of two of a chain, and most are double.
 std::vector<double> of_membrane(int n) {
   std::vector<double> values;
   for (int i = 1; i <= n; ++i)
@@ -58,9 +58,8 @@ std::vector<double> of_membrane(int n) {
   return values;
 }
 
-/// A chain of springs `stiffness` with a mass 1 at each `every`-th of its points and none between: `masses` of them.
-/// Springs in a row between two masses act as one of stiffness/every, so that its eigenvalues are those of a chain
-/// times that.
+/// Chain of springs `stiffness` with `masses` masses 1, one at each `every`-th point and none between. Springs in a row
+/// between two masses act as one of stiffness/every. The eigenvalues are those of a chain of unit springs times that.
 reducer::SystemMatrices chain(int masses, int every, double stiffness) {
   reducer::SymmetricPair pair;
   const int n = every * (masses + 1) - 1;
@@ -193,7 +192,7 @@ TEST(EpsFallBack, IsKrylovSchurWhereTheBlocksBreakDown) {
   EXPECT_THAT(report_of(s).text, HasSubstr("iterations), krylov_schur ("));
 }
 
-/// As a program of SLEPc uses the type: PETSc's own factor, options, monitors.
+/// Block Lanczos iteration as a program of SLEPc uses the type: PETSc's own factor, options, monitors.
 class RegisteredType : public ::testing::Test {
  protected:
   static constexpr int n = 20;

@@ -1,4 +1,4 @@
-// The error of the mesh of the lowest frequencies: exact where the solution is, of the size of the error elsewhere.
+// Estimated discretisation error of the lowest frequencies: zero for exact solutions, else of the size of the error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,8 +40,8 @@ reducer::SolidProperty steel(formats::MassMatrix mass) {
   return {reducer::isotropic_solid(2.1e11, 0.3, 7850.0), mass, "block"};
 }
 
-/// Σ energy_error, of shells without and with the layers at their edges, and Σ uᵀ S u of displacements of the nodes, 6
-/// rows each.
+/// Sums over the elements: energy_error without and with the layers at the edges of shells, and uᵀ S u of the
+/// displacements of the nodes, 6 rows each.
 struct Energies {
   double error = 0.0, with_layers = 0.0, energy = 0.0;
 };
@@ -76,7 +76,7 @@ MatrixXd linear_field(const Mesh& mesh) {
   return motion;
 }
 
-/// A linear displacement is in the space of every element and its stress constant: no error, on any mesh (patch test).
+/// Linear displacements have constant stress and are in the space of every element: no error on any mesh (patch test).
 TEST(MeshError, ConstantStressHasNone) {
   for (const SolidShape shape : all_shapes) {
     const Mesh mesh = solid_block({shape, {3, 2, 2}, Vector3d(3, 2, 2), 0.2}, steel(formats::MassMatrix::consistent));
@@ -85,10 +85,10 @@ TEST(MeshError, ConstantStressHasNone) {
   }
 }
 
-/// u_x = x²: strain 2x, whose part that trilinear bricks of size 1 miss is 2(x − middle): error Σ ∫ 4(x − m)² of n/3
-/// per area beside the energy Σ (2m)² = Σ (2k + 1)² = n(4n² − 1)/3. Linear patches recover 2x but for the samples at a
-/// fifth of the way to the corners, at which the bricks have their middles' stress: slopes at the ends are 1/(1 + 0.2²)
-/// of it.
+/// u_x = x²: of the strain 2x, trilinear bricks of size 1 miss 2(x − m), m in their middle. Per area, the error is
+/// Σ ∫ 4(x − m)² = n/3 and the energy Σ (2m)² = Σ (2k + 1)² = n(4n² − 1)/3. Linear patches recover 2x except from
+/// samples a fifth of the way to the corners, where bricks have their middles' stress. Slopes at the ends are
+/// 1/(1 + 0.2²) of it.
 TEST(MeshError, LinearStressIsRecovered) {
   const int n = 6;
   Mesh mesh =
@@ -100,7 +100,7 @@ TEST(MeshError, LinearStressIsRecovered) {
   EXPECT_NEAR(found.error / found.energy, 1.0 / (4.0 * n * n - 1.0), 0.04 / (4.0 * n * n - 1.0));
 }
 
-/// The same bent sheet twisted by a constant curvature: no error, whatever the directions of its elements' axes and
+/// A flat sheet with constant curvature and twist has no error, whatever the directions of its elements' axes and
 /// normals.
 TEST(MeshError, ConstantCurvatureOfASheetHasNone) {
   for (const reducer::Facets facets : {reducer::Facets::quadrilaterals, reducer::Facets::triangles}) {
@@ -175,8 +175,8 @@ TEST(MeshError, OfBeamsIsThatOfTheHermiteElement) {
   }
 }
 
-/// The demand: an estimate that is not said to be unknown is within a factor of two of the error, and most are known on
-/// meshes that are not coarse. References of other meshes and elements (docs/VERIFICATION.md has the figures).
+/// Requirement: a known estimate is within a factor of two of the error, and over 40 % are known on meshes that are
+/// coarse on purpose. References are other meshes and elements (docs/VERIFICATION.md has the figures).
 TEST(MeshError, IsWithinAFactorOfTwoOrUnknown) {
   std::string part;
   reducer::FreeShapes reference;
@@ -201,7 +201,7 @@ int known_of(const Mesh& mesh) {
   return static_cast<int>(std::count(doubt.begin(), doubt.end(), reducer::MeshDoubt::none));
 }
 
-/// Ordinary meshes keep their figures.
+/// Ordinary meshes have known estimates for all five modes.
 TEST(MeshError, IsKnownOnOrdinaryMeshes) {
   int least = 5;
   for (const reducer::MeshErrorCase& one : reducer::mesh_error_cases()) {
@@ -219,7 +219,7 @@ TEST(MeshError, IsKnownOnOrdinaryMeshes) {
   EXPECT_EQ(least, 5);
 }
 
-/// The trial torsion_bricks: torsion of 16 x 2 x 1 bricks errs by 8.1 % (the table), and the estimate said 0.4 %.
+/// Trial torsion_bricks: torsion of 16 x 2 x 1 bricks errs by 8.1 % (the table), where the estimate once was 0.4 %.
 TEST(MeshError, TorsionOfAFewBricksAcrossIsUnknown) {
   Mesh mesh = solid_block({SolidShape::hexahedron8, {16, 2, 1}, Vector3d(0.2, 0.02, 0.01), 0.0},
                           steel(formats::MassMatrix::consistent));
@@ -237,8 +237,8 @@ TEST(MeshError, TorsionOfAFewBricksAcrossIsUnknown) {
   EXPECT_THAT(reducer::certificate_json(bar.superelement, bar.file, bar.model), HasSubstr("null"));
 }
 
-/// h of a cylinder's facet has the slopes ± half of the turn, and free edges of a disc bow by a twelfth of length and
-/// turn.
+/// Slopes of a cylinder's facets are ± half of the turn per facet. Free edges of a disc bow by a twelfth of length
+/// times turn.
 TEST(MeshError, CurvedSurfacesAndEdgesAreSeenFromTheNodes) {
   constexpr int around = 24;
   const double turn = 2.0 * std::numbers::pi / around;
@@ -270,7 +270,7 @@ TEST(MeshError, CurvedSurfacesAndEdgesAreSeenFromTheNodes) {
   EXPECT_NEAR(*least, -2.0 * std::sin(0.5 * turn) * turn / 12.0, 1e-12) << "at the hole there is too much";
 }
 
-/// A single first-order tetrahedron through a plate makes bending several times too stiff; it went untold.
+/// One first-order tetrahedron across a plate makes bending several times too stiff. A warning names the remedy.
 TEST(MeshError, OneTetrahedronThroughAPlateIsToldWithItsRemedy) {
   const reducer::Reduction plate = reducer::reduction_for_mesh_errors(reducer::plate_of_single_tetrahedra(12));
   std::vector<std::string> told;
@@ -280,7 +280,7 @@ TEST(MeshError, OneTetrahedronThroughAPlateIsToldWithItsRemedy) {
   EXPECT_THAT(told[0], AllOf(HasSubstr("'block'"), HasSubstr("`size`"), HasSubstr("`order: 2`")));
 }
 
-/// An accuracy that the mesh does not have.
+/// A warning reports an accuracy that the mesh does not reach.
 TEST(MeshError, BeyondTheAccuracyAskedForIsTold) {
   formats::Part part = plain_beam(Vector3d::Zero(), Vector3d(1.7, 0, 0), 8, 0);
   const auto warned = [&](double error) {

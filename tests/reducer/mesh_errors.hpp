@@ -1,4 +1,4 @@
-// Parts on coarse meshes beside fine ones: what the estimate of the error of the mesh is measured with.
+// Parts with coarse and fine meshes, on which the estimate of the discretisation error is measured.
 #pragma once
 
 #include <algorithm>
@@ -24,10 +24,10 @@ struct MeshErrorCase {
   std::function<Mesh()> reference;
 };
 
-/// Beams of solids, one to eight across, plates, discs, cylinders, a panel, tubes, blocks.
+/// Cases: beams of solids, one to eight across, plates, discs, cylinders, a panel, tubes, blocks.
 std::vector<MeshErrorCase> mesh_error_cases();
 
-/// Relative: errors and estimates below have no quotient.
+/// Relative limit: if error and estimate are both smaller, their quotient is not compared.
 inline constexpr double least_compared_error = 1.5e-3;
 
 /// Free elastic modes of a mesh.
@@ -35,12 +35,12 @@ struct FreeShapes {
   Mesh mesh;
   Eigen::VectorXd frequency;
   Eigen::MatrixXd translation;  ///< 3 rows per node
-  MeshErrors estimate;          ///< of the five lowest
+  MeshErrors estimate;          ///< of the five lowest modes
 };
 FreeShapes free_shapes(const Mesh& mesh, int modes);
 
-/// Of one of the five lowest modes of a coarse mesh: the error of its frequency against that of the mode of the
-/// reference whose shape is most like its own, the estimate, and whether that is said to be known.
+/// Error of the frequency of one of the five lowest modes of a coarse mesh, against the mode of the reference with the
+/// most similar shape. `doubt` says whether the estimate is known.
 struct ComparedError {
   double error = 0.0;
   double estimate = 0.0;
@@ -52,10 +52,10 @@ struct ComparedError {
 };
 std::vector<ComparedError> compared_errors(const FreeShapes& coarse, const FreeShapes& reference);
 
-/// Steel in SI, boundary at three nodes (translations), 30 internal modes.
+/// Reduction of a mesh in SI units, which has its boundary, with 30 internal modes.
 Reduction reduction_for_mesh_errors(const Mesh& mesh);
 
-/// Thickness 0.01 of a square plate with side 1 in one layer of first-order tetrahedra.
+/// Square plate of side 1 and thickness 0.01, one layer of first-order tetrahedra.
 Mesh plate_of_single_tetrahedra(int cells);
 
 }  // namespace tisserand::reducer

@@ -21,10 +21,10 @@ Eigen::VectorXd assembled_frequencies(int inboard_modes, int outboard_modes);
 /// Frequencies [Hz] of both components as one part, not reduced.
 Eigen::VectorXd full_frequencies();
 
-/// The same with the mass that NASTRAN couples for a bar: along its axis ρAL [5/12 1/12; 1/12 5/12], the mean of
-/// consistent and lumped, and nothing for its turning about the axis; bending as ours.
+/// Frequencies [Hz] of both components with NASTRAN's coupled mass of bars: ρAL [5/12 1/12; 1/12 5/12] along the axis
+/// (mean of consistent and lumped), none for turning about it. Bending is as ours.
 Eigen::VectorXd nastran_full_frequencies();
-/// With that mass, the boundary of one component held.
+/// Frequencies [Hz] with that mass and the boundary of one component held.
 Eigen::VectorXd nastran_held_frequencies(const std::string& component);
 
 }  // namespace tisserand::testing

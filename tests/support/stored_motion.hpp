@@ -1,4 +1,4 @@
-// Results files of two runs against each other.
+// Stored rows of a results file, and comparison of two results files.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace tisserand::test_support {
 
-/// Rows of the channels that the selection names, as of `output: {channels: ...}`.
+/// Rows of the channels that the selection names, as in `output: {channels: ...}`.
 Eigen::MatrixXd stored_rows(const std::string& file, const std::vector<std::string>& selection);
 
-/// Of any value, at any row, in the units of the channels.
+/// Largest difference, or largest size, of any value at any row, in the units of the channels.
 double largest_difference(const std::string& a, const std::string& b, const std::vector<std::string>& selection);
 double largest_value(const std::string& file, const std::vector<std::string>& selection);
 

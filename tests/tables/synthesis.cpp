@@ -54,7 +54,7 @@ Problem joined_components() {
   return problem;
 }
 
-/// The largest error of the modes 7 to 15 and 7 to 25 where they exist.
+/// Largest error of the modes 7 to 15 and of 7 to 25, where they exist.
 Problem truss_errors(const Eigen::VectorXd& full) {
   Problem problem{"Truss, error of the reduction",
                   "Largest relative error of the joined frequencies if each component keeps its modes below a cut-off. "
@@ -82,7 +82,7 @@ Problem truss_errors(const Eigen::VectorXd& full) {
   return problem;
 }
 
-/// Of the truss with the 3 + 16 modes below 50 Hz; the first half of its elastic modes.
+/// Estimated errors of the truss with the 3 + 16 modes below 50 Hz, for the first half of its elastic modes.
 Problem truss_estimates(const testing::ModeQuality& quality) {
   Problem problem{
       "Truss, estimates of the error",

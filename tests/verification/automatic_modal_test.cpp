@@ -26,8 +26,8 @@ using test_support::TemporaryFolder;
 
 const Vector3d z = Vector3d::UnitZ();
 
-/// The same rod, ten modes each: hinged at its ends, of the mean of its mass, clamped at its first node; and one that
-/// is stout, eleven modes.
+/// Modal bodies of a slender rod (ten modes) and of a stout one (eleven). Modes are hinged at the ends, of the mean
+/// axis, or clamped at the first node.
 BodyFiles files() {
   test_support::Rod rod{0.0, 2.0, 4.0e-4, 2.1e11, 8.0e10, 2.0e-8, 7800.0, 8};
   const test_support::LumpedModel slender = test_support::lumped_rod(rod);

@@ -142,7 +142,7 @@ formats::Scene planar_blade() {
   return in_its_plane(scene);
 }
 
-/// Of `blade`; its companion under the name of its contents.
+/// Adds the files of `blade`: the superelement and its companion, with the identifier of its contents.
 void add_blade(BodyFiles& list) {
   const test_support::SectionData section = test_support::slender_section(1e5);
   const test_support::SecondOrderBody made =
@@ -212,7 +212,7 @@ TEST_P(Checkpoint, GoesOnFromAStoredInstantToTheTolerance) {
   again.restart = folder.file("a.results.h5");
   again.at = 0.2;
   const RunEnd rest = simulate(again, {});
-  // The algorithmic acceleration is built anew, which differs by O(h²) as the start of any run does.
+  // The algorithmic acceleration is computed again. It differs by O(h²), as at the start of any run.
   EXPECT_LT((rest.state.x() - whole.state.x()).cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_NEAR(rest.state.time(), whole.state.time(), 1e-12);
   EXPECT_LT((rest.state.hinges() - whole.state.hinges()).cwiseAbs().sum(), 1e-2);
@@ -347,7 +347,7 @@ bool is_bit_equal(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
          std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
 }
 
-/// Runs in a child that dies without a word (SIGKILL) at the first accepted step for which `when` holds.
+/// Runs in a child process that SIGKILL ends at the first accepted step for which `when` holds.
 void die_in_run(const RunRequest& run, const std::function<bool(double)>& when) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -363,7 +363,7 @@ void die_in_run(const RunRequest& run, const std::function<bool(double)>& when) 
   EXPECT_TRUE(WIFSIGNALED(status)) << "the run ended by itself";
 }
 
-/// Rows between checkpoints too, some of them lost by the death of the run.
+/// Scene with rows between checkpoints too. The death of the run loses some of them.
 formats::Scene scene_with_checkpoints(formats::Scene (*make)()) {
   formats::Scene scene = make();
   scene.checkpoint.every = 20;
@@ -424,9 +424,9 @@ TEST(CheckpointFile, AppendsToAnInterruptedRunAndToAStoredInstant) {
   again.joining = Joining::appended;
   const RunReport report = simulate(again, {}).report;
   EXPECT_TRUE(is_bit_equal(contents(folder.file("joined.results.h5")), whole));
-  EXPECT_THAT(report_json(report), HasSubstr("interrupted at t ="));  // what the first part told is kept
+  EXPECT_THAT(report_json(report), HasSubstr("interrupted at t ="));  // messages of the first part are kept
   EXPECT_EQ(contents(results).rows(), 8);
-  // From a stored instant: its row once, what comes after it anew and to the tolerance.
+  // From a stored instant: its row appears once, later rows are computed again and agree to the tolerance.
   again.restart = folder.file("whole.results.h5");
   again.at = whole(30, 0);
   static_cast<void>(simulate(again, {}));

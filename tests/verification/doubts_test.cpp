@@ -1,4 +1,4 @@
-// What runs doubt of themselves: each doubt provoked, and silent where the answer is right.
+// Validity checks of runs: each warning is provoked, and absent where the answer is right.
 #include <numbers>
 #include <utility>
 
@@ -32,7 +32,7 @@ RunReport run(const formats::Scene& scene, const BodyFiles& files = {}) {
   return simulate(RunRequest{scene, files, std::nullopt, path, "", std::nullopt}, RunControl{}).report;
 }
 
-/// Rows of a run from 0 to 80 with kinetic energy 1 and the given balance.
+/// Warnings from a run from 0 to 80 with kinetic energy 1 and the given balance.
 template <class Balance>
 std::vector<std::string> told_by(Balance balance) {
   EnergyBalance energy(0.0, 80.0);
@@ -52,7 +52,7 @@ TEST(EnergyDoubt, SpeaksBeyondAHundredthOfWhatMoved) {
   EXPECT_THAT(told_by([](double t) { return 0.009 * std::sin(t); }), IsEmpty());
 }
 
-// A growing force on a body that a fixed joint holds: its energies are round-off, and so is what does not balance.
+// A growing force on a body that a fixed joint holds: its energies are round-off, and so is their imbalance.
 TEST(EnergyDoubt, IsSilentWhereNothingMoves) {
   formats::Scene scene = test_support::empty_scene(0.001, 1.0);
   formats::RigidBodySpec body = test_support::rigid_body("body", 0.19, {0.1524, 0, 0}, {1e-6, 1.5e-3, 1.5e-3});
@@ -128,11 +128,11 @@ struct HeldBeam {
     scene.joints.push_back(
         test_support::joint("base", kind, "ground", "beam/base", Vector3d::Zero(), Vector3d::UnitZ()));
   }
-  /// Of a cantilever bending about its weaker axis, 3.5160 √(EI/(m L³)).
+  /// Angular frequency of a cantilever that bends about its weaker axis, 3.5160 √(EI/(m L³)).
   double cantilever() const {
     return 3.5160 * std::sqrt(beam.young * beam.Iy / (beam.density * beam.area * std::pow(beam.length, 4)));
   }
-  /// Euler's load between pins.
+  /// Euler's buckling load between pins.
   double buckling() const { return pi * pi * beam.young * beam.Iy / (beam.length * beam.length); }
 };
 

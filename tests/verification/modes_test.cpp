@@ -32,7 +32,7 @@ ModesReport modes_of(Simulation& run, const formats::ModesSpec& spec) {
   return solve_modes(run.model(), run.state(), spec, run.workspace.now);
 }
 
-/// Of the scene as it stands.
+/// Modes of the scene at its start.
 ModesReport modes_of(const formats::Scene& scene, const SuperelementFiles& files) {
   Simulation run(scene, files);
   run.start();
@@ -358,8 +358,8 @@ TEST(Modes, OfASoftMassBesideStiffBarsAreItsOwn) {
   EXPECT_THAT(angular_frequencies(report), ::testing::Contains(::testing::DoubleNear(omega, 1e-6 * omega)));
 }
 
-// A block that slides in a plane, askew, under a load and its weight, which the joint bears in part: of its stiffness
-// there is round-off alone, which made two motions with frequencies, or growing ones, of two rigid ones.
+// A block slides in an inclined plane under a load and its weight, which the joint bears in part. Its stiffness is
+// round-off alone, which made growing motions or frequencies of two rigid ones.
 TEST(Modes, OfABlockThatSlidesFreelyAreRigid) {
   for (const double degrees : {30.0, 120.0, 200.0}) {
     formats::Scene scene = empty_scene(1e-3, 1.0);

@@ -149,7 +149,7 @@ double sinking_by_equilibrium(const formats::Part& part, const std::string& load
   return sinking / part.materials.front().youngs_modulus;
 }
 
-/// The same of a superelement whose translations at `held` are held: S̄ is exact in statics.
+/// Sinking under the unit load from a superelement with the translations at `held` fixed: S̄ is exact in statics.
 double sinking_of(const formats::Superelement& element, const std::string& loaded,
                   const std::vector<std::string>& held) {
   std::vector<int> free;
@@ -189,7 +189,7 @@ TEST_F(PartsExamples, JibWeighsWhatItsTubesDo) {
   EXPECT_LT((rigid.center_of_mass - moment / mass).norm(), 1e-7);
 }
 
-// Bars without bending: the frame of bars is the whole truth, to round-off of a condition of 1e4.
+// Bars without bending: equilibrium is exact, to round-off of a condition of 1e4.
 TEST_F(PartsExamples, JibOfBarsSinksAsEquilibriumDemands) {
   Settings bars = {
       "modes=0", "point_masses={block: {at: c6, mass: 45}}",

@@ -1,4 +1,4 @@
-// One function for each thing that can be done to an attribute or a dataset.
+// Mutations of an attribute or a dataset, one function for each kind.
 #include "tests/formats/hdf5/mutated_container.hpp"
 
 #include <hdf5.h>
@@ -19,7 +19,7 @@
 namespace tisserand::test_support {
 namespace {
 
-/// The bytes one after the other; zeros when they are used up.
+/// Source of bytes: those given in their order, then zeros.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
@@ -139,8 +139,8 @@ Space foreign_space(Bytes& bytes) {
   return space;
 }
 
-/// Contiguous, compact, or in chunks with filters. Allocation as late as HDF5 allows. HDF5 itself crashes when it
-/// writes other types than numbers through its filter of n bits.
+/// Layout: contiguous, compact, or in chunks with filters. Allocation as late as HDF5 allows. The n-bit filter is used
+/// for numbers only, because HDF5 itself crashes with other types.
 hid_t foreign_layout(Bytes& bytes, hid_t type, const std::vector<hsize_t>& shape) {
   const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
   const std::size_t choice = bytes.below(8);
@@ -159,7 +159,7 @@ hid_t foreign_layout(Bytes& bytes, hid_t type, const std::vector<hsize_t>& shape
   return list;
 }
 
-/// Bytes for all points of a dataset, at most 64 KiB; empty: leave it without data.
+/// Bytes for all points of a dataset, at most 64 KiB; empty: the dataset gets no data.
 std::vector<char> foreign_values(Bytes& bytes, hid_t type, hid_t space) {
   const hssize_t points = H5Sget_simple_extent_npoints(space);
   const std::size_t size = H5Tget_size(type);
@@ -171,7 +171,7 @@ std::vector<char> foreign_values(Bytes& bytes, hid_t type, hid_t space) {
   return values;
 }
 
-/// Texts of variable length for all points, for at most 1000 of them.
+/// Writes texts of variable length for all points, if there are at most 1000.
 void write_variable_texts(Bytes& bytes, hid_t dataset, hid_t type, hid_t space) {
   const hssize_t points = H5Sget_simple_extent_npoints(space);
   if (H5Tis_variable_str(type) <= 0 || points <= 0 || points > 1000) return;
@@ -193,7 +193,7 @@ void foreign_dataset(Bytes& bytes, hid_t file, const std::string& name) {
   write_variable_texts(bytes, dataset, type, space);
 }
 
-/// Of at most 1 MiB: HDF5 writes all of an attribute at once, whether it was given values or not.
+/// Writes an attribute of at most 1 MiB. HDF5 writes all of an attribute at once, even if it was given no values.
 void foreign_attribute(Bytes& bytes, hid_t file, const std::string& name) {
   const Id type(foreign_type(bytes)), space(foreign_space(bytes).id);
   if (H5Sget_simple_extent_npoints(space) > (1 << 20) / static_cast<hssize_t>(H5Tget_size(type))) return;
@@ -203,7 +203,7 @@ void foreign_attribute(Bytes& bytes, hid_t file, const std::string& name) {
   if (!values.empty()) H5Awrite(attribute, type, values.data());
 }
 
-/// A group, or a link that leads elsewhere or nowhere, in place of a dataset.
+/// Puts another object in place of a dataset: a group, a named type, or a link that leads elsewhere or nowhere.
 void other_object(Bytes& bytes, hid_t file, const std::string& name) {
   switch (bytes.below(4)) {
     case 0:
@@ -222,7 +222,7 @@ void other_object(Bytes& bytes, hid_t file, const std::string& name) {
   }
 }
 
-/// Numbers of a sound dataset.
+/// Name, shape and numbers of a valid dataset.
 struct Table {
   std::string name;
   std::vector<hsize_t> shape;
@@ -236,8 +236,8 @@ void write_table(hid_t file, const Table& table, hid_t stored, hid_t layout) {
   if (dataset >= 0) H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, table.values.data());
 }
 
-/// What the choice says: nothing, absent, foreign, some other values, another object, another type or layout, another
-/// length.
+/// Writes the table as the next byte chooses: unchanged, absent, foreign, with some or all values changed, as another
+/// object, with another type or layout, or with another length.
 void put_table(Bytes& bytes, hid_t file, Table table) {
   const hid_t usual = table.is_integer ? H5T_STD_I32LE : H5T_IEEE_F64LE;
   switch (bytes.byte() % 8) {

@@ -33,8 +33,8 @@ BeamMesh rod_mesh(const Rod& rod, int elements, int nodes_per_element) {
   return mesh_beam(spec, 0);
 }
 
-/// Ascending ω² with the displacement along section axes `fixed_displacement` (0 x, 1 y, 2 z) held at both ends and all
-/// coordinates outside `free_displacement`, `free_rotation` (section axes; −1: none) held everywhere.
+/// Ascending ω² with two free components per node, in section axes (0 x, 1 y, 2 z; −1: none). They are the displacement
+/// along `free_displacement` and the rotation about `free_rotation`. `pinned` holds the displacement at both ends.
 Eigen::VectorXd eigenvalues(const BeamMesh& mesh, int free_displacement, int free_rotation, bool pinned) {
   Eigen::VectorXd r;
   Eigen::MatrixXd K, M;
@@ -57,14 +57,14 @@ Eigen::VectorXd eigenvalues(const BeamMesh& mesh, int free_displacement, int fre
   return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(Kr, Mr, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-/// Lowest root of Timoshenko's frequency equation for the simply supported beam, wave number q.
+/// Lowest root ω² of Timoshenko's frequency equation for the simply supported beam, wave number q.
 double timoshenko(double q, double EI, double GA, double rhoA, double rhoI) {
   const double a = rhoI * rhoA, b = rhoA * (EI * q * q + GA) + rhoI * GA * q * q, c = EI * GA * std::pow(q, 4);
   return 2.0 * c / (b + std::sqrt(b * b - 4.0 * a * c));
 }
 
-/// The same for the chain of two-node elements (w = sin, θ = cos of q x are exact discrete modes): c = cos(qh/2),
-/// s = sin(qh/2), d = 2 s/h; K = S [d², −dc; −dc, c²] + EI [0, 0; 0, d²] with 1/S = 1/GA + h²/(12 EI);
+/// Lowest ω² of the chain of two-node elements (w = sin, θ = cos of q x are exact discrete modes). With c = cos(qh/2),
+/// s = sin(qh/2), d = 2 s/h: K = S [d², −dc; −dc, c²] + EI [0, 0; 0, d²] with 1/S = 1/GA + h²/(12 EI).
 /// M = [ρA (2 + cos qh)/3, ρA h s c/6; same, ρI + ρA h² s²/30] of the parabola w, θ between the nodes.
 double discrete_timoshenko(double q, double h, double EI, double GA, double rhoA, double rhoI) {
   const double c = std::cos(q * h / 2), s = std::sin(q * h / 2), d = 2.0 * s / h;

@@ -1,5 +1,5 @@
-// Modal bodies whose file turns the body frame in the part (mean axis, principal axes): nodes, markers, printed poses
-// and stored instants are those of the same body in a file that does not.
+// Modal bodies whose file rotates the body frame in the part (mean axis, principal axes). Nodes, markers, printed poses
+// and stored instants equal those of the same body without that rotation.
 #include <cmath>
 #include <string>
 
@@ -28,7 +28,7 @@ formats::ModalBody straight() {
   return body;
 }
 
-/// The same body in axes of which those of the part are turned by Rᵀ.
+/// Copy of the body whose frame has the orientation R in the part. Its data are in the axes of this frame.
 formats::ModalBody in_turned_axes(formats::ModalBody body, const Matrix3d& R) {
   body.frame_orientation = wxyz(Eigen::Quaterniond(R));
   body.node_position = (body.node_position * R).eval();
@@ -49,7 +49,7 @@ BodyFiles files(const std::string& folder, const formats::ModalBody& body) {
 
 formats::ModalBody turned() { return in_turned_axes(straight(), exp_so3<double>(Vector3d(0.7, -0.4, 1.1))); }
 
-/// Joints and loads in the axes of nodes. `of_f`, `of_b`: pose and velocities of the bodies.
+/// Scene with joints and loads in the axes of nodes. `of_f`, `of_b`: pose and velocities of the bodies.
 std::string scene_text(const std::string& analysis, const std::string& of_f, const std::string& of_b) {
   return "scene: test\ngravity: [1, -2, -9]\nanalysis: " + analysis +
          "\nintegrator: {step: 0.01, end: 0.2, tolerance: 1e-12, constraint_tolerance: 1e-13}\n"

@@ -24,7 +24,7 @@ constexpr double g = test_support::Wheel::gravity, mass = test_support::Wheel::m
                  inertia = test_support::Wheel::inertia, stiffness = test_support::Wheel::stiffness,
                  radius = test_support::Wheel::radius;
 
-/// z(x) on a strip 4 wide from x = -5 to 6, every 5 mm.
+/// Road with the height z(x) on a strip 4 m wide from x = -5 to 6 m, every 5 mm.
 template <class Height>
 formats::RoadSpec grid_road(const Height& z) {
   formats::RoadHeights heights;
@@ -39,7 +39,7 @@ formats::RoadSpec grid_road(const Height& z) {
   return road;
 }
 
-/// The same heights along a straight line elsewhere, which the pose brings back.
+/// Road of the same heights along a straight line elsewhere. Its pose moves the line back to that of `grid`.
 formats::RoadSpec crg_road(const formats::RoadSpec& grid) {
   formats::RoadHeights heights = *grid.heights;
   const Eigen::Rotation2Dd heading(0.7);
@@ -63,8 +63,8 @@ formats::Scene wheel_on(const formats::RoadSpec& road, double speed) {
   return scene;
 }
 
-// One bump of cosine as profile, as grid and along a line: the grid errs where the curvature jumps, at the feet, by
-// h² Δz''/16 = 1.5e-6; line and grid differ by round-off of coordinates of size 300.
+// A cosine bump as profile, as grid and along a line. The grid errs by h² Δz''/16 = 1.5e-6 at the feet, where the
+// curvature jumps. Line and grid differ by round-off of coordinates of size 300.
 TEST(RollingWheel, MeetsTheSameBumpHoweverItIsWritten) {
   formats::RoadSpec profile = slope(0.0);
   profile.kind = formats::RoadKind::profile;
@@ -90,8 +90,8 @@ TEST(RollingWheel, MeetsTheSameBumpHoweverItIsWritten) {
   EXPECT_LT(to_line, 1e-9);
 }
 
-// Over a hill of height H without resistance: ½ (m + I/R²) v² + m g z stays, but for what the tyre dissipates in slip
-// and damper, which is accounted for.
+// Over a hill of height H without resistance, ½ (m + I/R²) v² + m g z is constant. Dissipation of the tyre in slip and
+// damper is accounted for.
 TEST(RollingWheel, KeepsItsEnergyOverAHill) {
   const double H = 0.1, v = 3.0, R = radius - mass * g / stiffness / 3.0;
   formats::Scene scene = wheel_on(grid_road([H](double x) {

@@ -1,4 +1,4 @@
-// The laws of the kinds of joints against what a scene may say of them.
+// Laws of the joint kinds against the keys that a scene may give for them.
 #include "mechanism/joints/joint_laws.hpp"
 
 #include <algorithm>
@@ -43,8 +43,8 @@ TEST(JointLaws, CoordinatesAreWhatTheirNamesSay) {
   }
 }
 
-// A radius is needed where the slip has a turn; an arm makes sense where some relation of axes takes a moment:
-// displacements along axes of A are of B's origin, about which their forces have none.
+// A radius is needed if the slip has a rotation, an arm if some relation of axes takes a moment. Displacements along
+// axes of A are those of B's origin, about which their forces have no moment.
 TEST(JointLaws, FrictionNeedsWhatTheSurfacesDo) {
   for (const formats::JointKindRow& row : formats::joint_kinds()) {
     SCOPED_TRACE(row.word);
@@ -59,8 +59,8 @@ TEST(JointLaws, FrictionNeedsWhatTheSurfacesDo) {
   }
 }
 
-// All 64 choices: as many equations as directions, and coordinates as SCENE.md has them: those of x, y, z that are
-// free, `angle` if rx and ry are held and rz is not.
+// Each of the 64 choices has as many equations as held directions. Its coordinates are those of SCENE.md: the free ones
+// of x, y, z, and `angle` if rx and ry are held and rz is free.
 TEST(JointLaws, ChosenDirectionsAreHeldAndTheOthersFree) {
   for (unsigned choice = 0; choice < 64; ++choice) {
     SCOPED_TRACE(choice);
@@ -82,7 +82,7 @@ TEST(JointLaws, ChosenDirectionsAreHeldAndTheOthersFree) {
   }
 }
 
-/// Of random unit rotation.
+/// Motion of a node with a random position and a random rotation.
 NodeMotion random_node() {
   NodeMotion node;
   node.x.setRandom();
@@ -90,8 +90,8 @@ NodeMotion random_node() {
   return node;
 }
 
-// The gradients say what a joint needs of its nodes when its markers are at their origins: the columns that are zero in
-// every state are rotations and translations that a node may lack. All kinds and all 63 choices of `hold`.
+// With markers at the origins of the nodes, the gradients show what a joint needs. A node may lack the rotations and
+// translations whose columns are zero in every state. All kinds and all 63 choices of `hold`.
 TEST(JointLaws, DependOnWhatTheirGradientsFeel) {
   const auto expect = [](const Joint& joint) {
     Eigen::Matrix<double, 1, 12> felt = Eigen::Matrix<double, 1, 12>::Zero();

@@ -1,4 +1,4 @@
-// All solvers behind one door: the same answers, refactorisation, singular matrices, health, choice, pattern slots.
+// All linear solvers behind one interface: answers, refactorisation, singular matrices, health, choice, pattern slots.
 #include "mechanism/solver/linear_solver.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 using Position = SparsePattern::Position;
 using Storage = SparsePattern::Storage;
 
-/// A band of width 3, an arrow and some far entries; all diagonal positions; repeated positions.
+/// Positions of a band of width 3, an arrow and some far entries. All diagonal positions are there, some are repeated.
 std::vector<Position> positions(int n) {
   std::vector<Position> list;
   for (int i = 0; i < n; ++i)
@@ -190,8 +190,8 @@ TEST_P(EverySolver, ConditionIsThatOfTheInverse) {
 
 using Complexes = std::vector<std::complex<double>>;
 
-/// As stage matrices of Radau IIA have them: real and imaginary parts of one size, zeros on the diagonal in the rows of
-/// constraints.
+/// Complex matrix like the stage matrices of Radau IIA: real and imaginary parts of one size, zeros on the diagonal in
+/// the rows of constraints.
 Eigen::MatrixXcd complex_matrix(int n, unsigned seed, int saddle) {
   Eigen::MatrixXcd A(n, n);
   A.real() = matrix(n, seed, saddle);
@@ -280,7 +280,7 @@ TEST_P(EveryComplexSolver, SingularMatrixIsReportedAndTheNextRegularOneIsSolved)
   EXPECT_LT((b.array() - 1.0).abs().maxCoeff(), 1e-12);
 }
 
-// Forces beside displacements: rows and columns of very different units, which powers of two change without round-off.
+// Forces and displacements have very different units. Scaling of rows and columns by powers of two has no round-off.
 TEST_P(EveryComplexSolver, UnitsOfRowsAndUnknownsDoNotSpoilTheAnswer) {
   const int n = 40;
   const SparsePattern pattern = pattern_of(n);

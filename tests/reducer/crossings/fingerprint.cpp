@@ -25,19 +25,19 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Of finite elements, factors and eigenvectors: round-off; of what is of first order in vectors, or of thin parts.
+/// Limits of relative differences: round-off; quantities of first order in eigenvectors, or of thin parts.
 constexpr double round_off = 1e-7, first_order = 1e-6;
 
-/// Traits of the companion are shares of the stiffness; what is smaller is nothing.
+/// Lower limit of the scale of a trait. Companion traits are shares of the stiffness: smaller ones count as zero.
 constexpr double smallest = 1e-9;
 
 /// Rows and columns `kept` of a matrix.
 MatrixXd kept_of(const MatrixXd& A, const std::vector<int>& kept) { return A(kept, kept); }
 
-/// A as forms of the held part: L⁻¹ A L⁻ᵀ with S = L Lᵀ.
+/// Forms A of the held part relative to its stiffness: L⁻¹ A L⁻ᵀ with S = L Lᵀ.
 class HeldPart {
  public:
-  /// Holds the first boundary node, or all that have no rotations.
+  /// Holds the first boundary node, or all boundary nodes if none has rotations.
   explicit HeldPart(const formats::Superelement& e) {
     bool is_bare = true;
     for (int i = 0; i < static_cast<int>(e.size()); ++i) is_bare &= e.dof_node[i] < 0 || e.dof_component[i] < 3;
@@ -53,7 +53,7 @@ class HeldPart {
     y(free_) = VectorXd(factor_.solve(loaded));
     return y;
   }
-  /// Eigenvalues of a symmetric form, those of largest size first, with their signs.
+  /// Eigenvalues of a symmetric form with their signs: the five largest in size, largest first.
   VectorXd values(const MatrixXd& A) const {
     const MatrixXd B = reduced(A);
     VectorXd values =
@@ -61,7 +61,7 @@ class HeldPart {
     std::ranges::sort(values, [](double a, double b) { return std::abs(a) > std::abs(b); });
     return values.head(std::min<Index>(values.size(), 5));
   }
-  /// Singular values of any form.
+  /// The six largest singular values of any form.
   VectorXd sizes(const MatrixXd& A) const {
     const VectorXd values = reduced(A).jacobiSvd().singularValues();
     return values.head(std::min<Index>(values.size(), 6));
@@ -79,8 +79,8 @@ class HeldPart {
   Eigen::LLT<MatrixXd> factor_;
 };
 
-/// The boundary's flexibility against its first node: displacement of each node for unit forces on it, in the axes of
-/// the first description.
+/// Flexibility of the boundary with the first node held: displacement of each node under unit forces on it, in the axes
+/// of the first description.
 VectorXd flexibility(const formats::Superelement& e, const Description& d) {
   const HeldPart held(e);
   std::vector<double> all;
@@ -98,7 +98,7 @@ VectorXd flexibility(const formats::Superelement& e, const Description& d) {
   return Eigen::Map<VectorXd>(all.data(), static_cast<Index>(all.size()));
 }
 
-/// Squared angular frequencies of the free part that are not zero. `least`: of the held part.
+/// The lowest squared angular frequencies of the free part above zero, up to six. `least`: lowest of the held part.
 VectorXd free_frequencies(const formats::Superelement& e, double least) {
   const double shift = 1e-3 * least;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(e.mass, e.stiffness + shift * e.mass);
@@ -152,7 +152,7 @@ void add_companion(const formats::Companion& c, const formats::Superelement& e, 
   traits.push_back({"moment of momentum, second order", held.values(twist), first_order});
 }
 
-/// Largest of each element's stresses, sorted: numbers of elements differ.
+/// The twelve largest element stresses, sorted, because the numbers of elements differ between descriptions.
 VectorXd stresses(const reducer::Solution& s, const Description& d) {
   std::vector<double> all;
   for (const Eigen::MatrixXf* field : {&s.fields.beam_stress, &s.fields.shell_von_mises, &s.fields.solid_von_mises})

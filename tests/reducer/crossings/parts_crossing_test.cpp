@@ -59,13 +59,13 @@ void compare(const Cell& cell) {
   }
 }
 
-// A dozen of the cells below.
+// About a dozen of the cells of AllDescriptions.
 TEST(PartCrossings, FewDescriptions) {
   const std::vector<Cell> cells = all_cells();
   for (std::size_t k = 0; k < cells.size(); k += cells.size() / 12) compare(cells[k]);
 }
 
-/// The same part in the description that follows.
+/// The cell with the next sensible change of its description.
 Cell with_next_change(Cell cell) {
   do cell.change = static_cast<Change>((static_cast<int>(cell.change) + 1) % sizes[4]);
   while (!is_sensible(cell));
@@ -90,7 +90,7 @@ TEST(PartCrossings, AllDescriptions) {
   EXPECT_GE(pairs.size(), 300u);
 }
 
-// What is added acts: each extra changes the part by far more than the limits.
+// Each extra acts: it changes the part by far more than the limits.
 TEST(PartCrossings, EveryExtraActs) {
   const auto of = [](Extra extra) {
     return traits({Body::quads, extra, Boundary::ends, Way::modes, Change::turned}, {});
@@ -100,7 +100,7 @@ TEST(PartCrossings, EveryExtraActs) {
     EXPECT_GT(worst_difference(plain, of(extra)).share, 1e3) << static_cast<int>(extra);
 }
 
-// Read without its similarity, another description is another part.
+// Without the similarity that maps it back, another description is a different part.
 TEST(PartCrossings, EveryDescriptionDiffers) {
   const Cell cell{Body::bricks, Extra::nothing, Boundary::ends, Way::modes, Change::turned};
   const std::vector<Trait> plain = traits(cell, {});

@@ -57,7 +57,7 @@ Eigen::Matrix<double, 12, 6> rigid(double length, double from) {
   return R;
 }
 
-/// The same section with E, G and ρ multiplied in: all matrices agree to rounding.
+/// Copy of the section by stiffness, with E, G and ρ multiplied in: all matrices agree to rounding.
 Section by_stiffness(const Section& s) {
   Section result = s;
   result.by_stiffness = true;
@@ -241,7 +241,7 @@ TEST(TaperedBeam, ConeHasItsTorsionAndMass) {
   EXPECT_NEAR(M(1, 5) / first, 1.0, 1e-12);
 }
 
-/// One exact element is several exact elements: the inner nodes condensed away.
+/// One exact element equals several exact elements whose inner nodes are condensed.
 TEST(TaperedBeam, PiecesMakeTheWhole) {
   const Section thick = formats::rectangle_section(0.04, 0.09), thin = formats::rectangle_section(0.03, 0.02);
   const std::vector<Section> stations = taper_stations(thick, thin);

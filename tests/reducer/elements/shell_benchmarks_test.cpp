@@ -125,8 +125,8 @@ TEST(ShellBenchmark, ThinSquarePlates) {
       expect_near(plate_deflection(e.mesh, c.plate), c.target, e);
 }
 
-/// The same with b = 10. Simply supported: Navier's series, 12.971 and 16.961. Clamped: with b = 5 a the ends are too
-/// far to be felt (e^-10), so the pressure bends a strip, q a⁴/(384 D) = 2.604 ([MH85] prints 2.56); force: 7.23 there.
+/// Plate with b = 10. Simply supported: Navier's series, 12.971 and 16.961. Clamped: ends do not matter for b = 5 a
+/// (e^-10), the pressure bends a strip, q a⁴/(384 D) = 2.604 ([MH85]: 2.56). Force: 7.23 in [MH85].
 TEST(ShellBenchmark, ThinLongPlates) {
   for (const Expectation& e : {Expectation{{quads, 8}, 0.06}, {{quads, 24}, 0.01}, {{triangles, 24}, 0.01}})
     for (const PlateCase& c : {PlateCase{{10.0, PlateEdges::simply_supported, PlateLoad::pressure}, 12.971},
@@ -136,13 +136,13 @@ TEST(ShellBenchmark, ThinLongPlates) {
       expect_near(plate_deflection(e.mesh, c.plate), c.target, e);
 }
 
-/// -108 MPa (NAFEMS, coarse); -111.2 MPa converged (FinEtoolsFlexStructures).
+/// Target -111.2 MPa, converged (FinEtoolsFlexStructures). NAFEMS gives -108 MPa with a coarse mesh.
 TEST(ShellBenchmark, ZSectionUnderTorque) {
   for (const Expectation& e : {Expectation{{quads, 2}, 0.05}, {{quads, 4}, 0.015}, {{triangles, 4}, 0.02}})
     expect_near(z_section_stress(e.mesh), -111.2e6, e);
 }
 
-/// 0.014444 = π C and 0.013793 = C L/R, T = 4π D (1-ν) C/R (Morris; NAFEMS P12).
+/// Targets 0.014444 = π C and 0.013793 = C L/R with T = 4π D (1-ν) C/R (Morris; NAFEMS P12).
 TEST(ShellBenchmark, SlitCylinderWarps) {
   for (const Expectation& e : {Expectation{{quads, 2}, 0.005}, {{triangles, 2}, 0.01}}) {
     const SlitCylinder ours = slit_cylinder(e.mesh);
@@ -151,9 +151,9 @@ TEST(ShellBenchmark, SlitCylinderWarps) {
   }
 }
 
-/// The factors of what completes the rank of the membrane hardly matter: ten times less or more of the quadratic modes,
-/// three times less or more of the mean drilling rotation, in the energy of bending in the plane of one distorted
-/// element.
+/// The stabilisation factors of the membrane hardly change the in-plane bending energy of one distorted element. Ten
+/// times less or more of the quadratic modes changes it by less than 1 %. Three times less or more of the mean drilling
+/// rotation changes it by less than 3 %.
 TEST(ShellDrilling, FactorsHardlyMatter) {
   const Mesh mesh = one_shell(distorted_quad(), steel(0.01));
   const ShellGeometry<4> geometry = shell_geometry<4>(mesh, mesh.shells[0]);

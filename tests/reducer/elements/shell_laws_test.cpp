@@ -71,7 +71,7 @@ TEST_P(ShellLaws, MassIsPositiveSemidefinite) {
   EXPECT_GT(value[0], -1e-14 * value[value.size() - 1]);
 }
 
-/// ∫ of 1, x and x xᵀ over the bilinear surface by a rule that is finer than the element's.
+/// Integrals of 1, x and x xᵀ over the bilinear surface by a finer rule than the element's.
 TEST_P(ShellLaws, MassAndInertiaAreThoseOfTheBody) {
   const Case& c = GetParam();
   const Matrix3Xd X = mesh.position;
@@ -123,7 +123,7 @@ TEST_P(ShellLaws, MatricesTurnWithTheElement) {
   EXPECT_LT((T * before.M * T.transpose() - element.M).cwiseAbs().maxCoeff(), 1e-13 * before.M.cwiseAbs().maxCoeff());
 }
 
-/// The same element from another first node, and seen from below (plies reversed, offset negative).
+/// Matrices do not depend on the first node or on the side of the normal (plies reversed, offset negative).
 TEST_P(ShellLaws, NumberingAndSideOfTheNormalDoNotMatter) {
   const int n = mesh.nodes();
   mesh.shells[0].material_x = Vector3d(0.2, 0.9, -0.3);
@@ -157,7 +157,7 @@ TEST_P(ShellLaws, NumberingAndSideOfTheNormalDoNotMatter) {
 INSTANTIATE_TEST_SUITE_P(All, ShellLaws, ::testing::ValuesIn(cases()),
                          [](const auto& test) { return test.param.name; });
 
-/// A whole warped mesh has no free motion beyond the six either.
+/// A whole warped mesh has no motion without energy beyond the six rigid ones either.
 TEST(ShellMesh, HasSixZeroEnergyModes) {
   for (const Facets facets : {Facets::quadrilaterals, Facets::triangles}) {
     const Surface twisted = [](double a, double b) {

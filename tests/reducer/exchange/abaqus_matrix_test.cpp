@@ -15,7 +15,7 @@ using testing::error_of;
 using testing::Files;
 using ::testing::HasSubstr;
 
-/// As *ELEMENT MATRIX OUTPUT and *SUBSTRUCTURE MATRIX OUTPUT, OUTPUT FILE=USER DEFINED write it: nodes in a comment.
+/// Element text of *ELEMENT or *SUBSTRUCTURE MATRIX OUTPUT, OUTPUT FILE=USER DEFINED: its nodes are in a comment.
 const std::string element_text =
     "**\n** ELEMENT NUMBER 11 STEP NUMBER 2 INCREMENT NUMBER 1\n*USER ELEMENT, NODES=       2, LINEAR\n"
     "** ELEMENT NODES\n** 101, 103\n1, 2\n2, 1\n";

@@ -28,7 +28,7 @@ using testing::ReducedPart;
 constexpr double pi = std::numbers::pi;
 constexpr double near_edge = 1e-9;
 
-/// Of a unit force along x at the second boundary node, or along y.
+/// Lowest factor of a force along x or y at the second boundary node, which `row` names, with the rows `held` fixed.
 double first_factor(const ReducedPart& part, const std::vector<int>& held, Index row, double force) {
   VectorXd load = VectorXd::Zero(part.element.size());
   load[row] = force;
@@ -60,7 +60,7 @@ Mesh plate_mesh(const ShellMesh& mesh) {
       grid, [](double a, double b) { return Vector3d(a, b, 0.0); }, plate_section());
 }
 
-/// x axial, arc along y from −b/2 to b/2.
+/// Mesh of the panel: x is axial, the arc along y goes from −b/2 to b/2.
 Mesh panel_mesh(int cells) {
   const GridShape grid{cells, cells, Facets::quadrilaterals, false};
   return shell_grid(
@@ -72,7 +72,7 @@ Mesh panel_mesh(int cells) {
       plate_section());
 }
 
-/// Grid place of a node of an n x n grid.
+/// Place of a node in an n x n grid.
 struct EdgePlace {
   int i = 0, j = 0, n = 0;
   bool along_y() const { return i == 0 || i == n; }  ///< on an edge of constant x
@@ -100,7 +100,7 @@ void keep_edges(Mesh& mesh, int n) {
     if (place_of(node, n).on_edge()) mesh.boundary.push_back({"n" + std::to_string(node), node, true, false});
 }
 
-/// On the rows of the boundary.
+/// Load of the edges on the rows of the boundary.
 VectorXd edge_load(const Mesh& mesh, int n, PlatePreload preload, Index size) {
   VectorXd load = VectorXd::Zero(size);
   for (std::size_t b = 0; b < mesh.boundary.size(); ++b)
@@ -108,7 +108,7 @@ VectorXd edge_load(const Mesh& mesh, int n, PlatePreload preload, Index size) {
   return load;
 }
 
-/// Three rows that hold the motions in the plane, of corners at (0, 0) and (1, 0).
+/// Three rows that hold the rigid motions in the plane, at the corners (0, 0) and (1, 0).
 std::vector<int> plane_rows(int n) { return {0, 1, 3 * n + 1}; }
 
 // --- panels ------------------------------------------------------------------------------------------------------
@@ -119,7 +119,7 @@ std::array<bool, 3> panel_freedom(const EdgePlace& at) {
   return {!at.along_x(), !at.along_y(), false};
 }
 
-/// x, circumference, radius at a node.
+/// Axes x, circumference and radius at a node.
 Eigen::Matrix3d panel_axes(const EdgePlace& at) {
   const double angle = (static_cast<double>(at.j) / at.n - 0.5) / panel_radius;
   Eigen::Matrix3d axes;
@@ -141,7 +141,7 @@ MatrixXd panel_directions(const std::map<int, Index>& row_of_node, int n, Index 
   return axes * free_directions(size, held);
 }
 
-/// Rows that hold the six rigid motions: translations at (0, 0), y and z at (1, 0), z at (0, 1); z stands for x of the
+/// Rows that hold the six rigid motions: translations at (0, 0), y and z at (1, 0), z at (0, 1). The last one holds the
 /// turn about the axis, since the panel is shallow.
 template <class Row>
 std::vector<int> panel_support(int n, const Row& row) {

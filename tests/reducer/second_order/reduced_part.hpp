@@ -1,4 +1,4 @@
-// A mesh reduced with its companion, as reduce() does it, and loads of buckling in the reduced coordinates.
+// Reduction of a mesh with its companion, as in reduce(), and load factors of buckling in the reduced coordinates.
 #pragma once
 
 #include <vector>
@@ -16,25 +16,25 @@ struct ReducedPart {
   formats::Companion companion;
 };
 
-/// Checked; `weights` of the floating frame, one per boundary node (none: the default ones); `shapes` of Λ.
+/// Reduced part, checked. `weights` of the floating frame, one per boundary node (none: default); `shapes` of Λ.
 ReducedPart reduce_with_companion(const reducer::Mesh& mesh, const formats::ModeSelection& modes,
                                   const Eigen::VectorXd& weights = {}, int shapes = 0);
 
-/// Of so many modes.
+/// Reduced part with the given number of internal modes.
 ReducedPart reduce_with_companion(const reducer::Mesh& mesh, int modes, const Eigen::VectorXd& weights = {},
                                   int shapes = 0);
 
-/// Its number.
+/// Adds a node and returns its number.
 int add_node(reducer::Mesh& mesh, const Eigen::Vector3d& position);
 
-/// Of property 0.
+/// Adds a beam of property 0.
 void add_beam(reducer::Mesh& mesh, int first, int second, const Eigen::Vector3d& orientation);
 
-/// A boundary node that leads `nodes` rigidly, at `position`.
+/// Adds a boundary node at `position` that leads `nodes` rigidly, and returns its number.
 int add_rigid_end(reducer::Mesh& mesh, const std::string& name, const std::vector<int>& nodes,
                   const Eigen::Vector3d& position);
 
-/// Σ w_j H_j.
+/// Geometric stiffness Σ w_j H_j.
 Eigen::MatrixXd stress_stiffness(const formats::Companion& companion, const Eigen::VectorXd& w);
 
 /// Columns of the identity of this size that are not among `held`.
@@ -44,8 +44,8 @@ Eigen::MatrixXd free_directions(Eigen::Index size, const std::vector<int>& held)
 Eigen::VectorXd buckling_factors(const Eigen::MatrixXd& S, const Eigen::MatrixXd& K_G, const Eigen::MatrixXd& Z,
                                  int count);
 
-/// Of a load on a part that can move along `preloaded` under it, and buckle along Z; `own`: second-order part of the
-/// load itself (none: a dead load on the boundary).
+/// Load on a part that can move along `preloaded` under it, and buckle along Z. `own`: second-order part of the load
+/// itself (none: a dead load on the boundary).
 struct Preload {
   Eigen::VectorXd load;
   Eigen::MatrixXd preloaded;

@@ -54,7 +54,7 @@ reducer::BeamElementData known_section(const nlohmann::json& section) {
   return data;
 }
 
-/// e₃ = e₁ × (z × e₁), y instead of z along z; the section's y axis is e₂ = e₃ × e₁.
+/// The section's y axis e₂ = e₃ × e₁ with e₃ = e₁ × (z × e₁), y instead of z for beams along z.
 Vector3d known_orientation(const Vector3d& along) {
   const Vector3d e1 = along.normalized();
   const Vector3d helper = std::abs(e1.z()) > 0.9 ? Vector3d::UnitY() : Vector3d::UnitZ();
@@ -190,7 +190,7 @@ reducer::Mesh tied_mesh(bool average_rotations) {
   return mesh;
 }
 
-/// θ × u, ½ θ × ψ of the boundary coordinates.
+/// Products θ × u and ½ θ × ψ of the boundary coordinates.
 VectorXd turned(const Superelement& element, const Vector3d& theta, const VectorXd& y) {
   VectorXd result(y.size());
   for (Index row = 0; row < y.size(); row += 3)
@@ -225,7 +225,7 @@ TEST(SecondOrderReduction, TiedPartsTurnWithoutEnergy) {
   }
 }
 
-/// Of three turns and two deformations of the tied part; `ties`: whether their second order is looked at.
+/// Trapped energy of three turns and two deformations of the tied part; `ties`: whether their second order counts.
 reducer::TrappedEnergy trapped_of_turned_part(bool average_rotations, bool ties) {
   const reducer::Mesh mesh = tied_mesh(average_rotations);
   start_solvers();
@@ -262,7 +262,7 @@ TEST(SecondOrderReduction, TurnedPartsTrapNothing) {
     }
 }
 
-// What it would be without the second order of ties: the test above can fail.
+// The test above can fail: without the second order of a tie the arrays are not invariant.
 TEST(SecondOrderReduction, EquationsInPlaceOfARigidSpiderAreNotInvariant) {
   reducer::Mesh mesh = tied_mesh(false);
   const reducer::Spider bracket = mesh.spiders.back();
@@ -418,7 +418,7 @@ TEST(SecondOrderReduction, PartsThatCannotDeformHaveNone) {
   EXPECT_TRUE(reducer::wants_second_order(part, element));
 }
 
-// The shares are those of docs/MECHANISM_VERIFICATION.md, "Parts under load" (test DoubleCurvature).
+// The shares follow from the exact membrane energies of the tests DoubleCurvature.
 TEST(SecondOrderReduction, NotesOfShellsSayFromWhichDeflectionOnTheyErr) {
   formats::Part part;
   Superelement element;

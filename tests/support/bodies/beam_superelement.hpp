@@ -43,15 +43,15 @@ void scatter(const Eigen::MatrixXd& block, const std::array<int, n>& rows, const
 /// Mass ρAL, centre of mass (L/2, 0, 0), inertia ρ(Iy + Iz)L about x and ρAL³/12 (+ ρI L with rotary inertia) across.
 formats::Superelement beam_superelement(const BeamData& beam);
 
-/// The same element with rows in another order: row i of the result is row order[i] of `element`.
+/// Superelement with its rows in another order: row i of the result is row order[i] of `element`.
 formats::Superelement permute_rows(const formats::Superelement& element, const std::vector<int>& order);
 
-/// The same element with its boundary nodes in another order: node i of the result is node order[i]; rows stay.
+/// Superelement with its boundary nodes in another order: node i of the result is node order[i]. Rows stay.
 formats::Superelement permute_nodes(const formats::Superelement& element, const std::vector<int>& order);
 
-/// Free beam of four equal elements, its three inner nodes reduced by Craig-Bampton: rows base, tip as in
-/// beam_superelement(), then the internal coordinates 0 ... modes − 1 (modes ≤ 18), unit modal mass, ascending, S_BI =
-/// 0.
+/// Free beam of four equal elements, its three inner nodes reduced by Craig-Bampton. Rows: base and tip as in
+/// beam_superelement(), then the internal coordinates 0 ... modes − 1 (modes ≤ 18). These are ascending, with unit
+/// modal mass and S_BI = 0.
 formats::Superelement craig_bampton_beam(const BeamData& beam, int modes);
 
 }  // namespace tisserand::test_support

@@ -13,7 +13,7 @@ using mechanism::SuperelementBody;
 
 namespace {
 
-/// Of entries [a, k, l, value], k ≤ l where they are symmetric.
+/// Reads matrices from entries [a, k, l, value], with k ≤ l where they are symmetric.
 template <class Matrices>
 void read_sparse(const nlohmann::json& j, Matrices& matrices) {
   const auto count = j.at("shape")[0].get<std::size_t>();

@@ -145,7 +145,7 @@ void add_stop(const Ingredients& in, Scene& scene) {
   scene.springs.push_back(spring);
 }
 
-/// Of the hinge where its kind has friction, and of the wrist. Supports far apart: prismatic joints must not jam.
+/// Adds friction to the wrist, and to the hinge if its kind has it. Far supports keep prismatic joints from jamming.
 void add_friction(const Ingredients& in, Scene& scene) {
   for (formats::JointSpec& one : scene.joints) {
     const formats::FrictionKeys& keys = formats::joint_kind(one.kind).friction;
@@ -160,7 +160,7 @@ void add_friction(const Ingredients& in, Scene& scene) {
   }
 }
 
-/// A flywheel on the ground, or, with a coordinate that is a length, a pinion.
+/// Adds a flywheel on the ground with a gear to the hinge: a pinion if the hinge's coordinate is a length.
 void add_gear(const Ingredients& in, Scene& scene) {
   formats::RigidBodySpec wheel = rigid_body("wheel", 1.0, {0, 0, 0}, {0.02, 0.02, 0.03});
   wheel.start.pose = {{1.0, 2.0, 0.5}, Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Vector3d(1, 0, 1).normalized()))};
@@ -175,7 +175,7 @@ void add_gear(const Ingredients& in, Scene& scene) {
   scene.initial.back().rate = 0.8;
 }
 
-/// The arm weighs otherwise than the bob, which is pulled by a body load too.
+/// Gives the arm a gravity of its own, different from that of the bob.
 void add_own_gravity(Scene& scene) {
   const auto set = [](auto& spec) {
     if constexpr (requires { spec.gravity; }) spec.gravity = Vector3d(-0.5, 1.1, 0.6);
@@ -205,16 +205,16 @@ void add_tether(Scene& scene) {
   scene.joints.push_back(tether);
 }
 
-/// The hinge once more at the same place, or the wrist where there is none. Both take half of the force then; elsewhere
-/// their shares would depend on the size of the scene, which is that of its box along the axes of the world.
+/// Repeats the hinge at the same place, or the wrist if there is none. Both take half of the force then. Elsewhere
+/// their shares would depend on the size of the scene, that of its box along world axes.
 void add_second_hinge(Scene& scene) {
   formats::JointSpec second = scene.joints.front().name == "weld" ? scene.joints[1] : scene.joints.front();
   second.name += "_2";
   scene.joints.push_back(second);
 }
 
-/// All coordinates have values: where bodies stand is then no matter of the nearest place, which depends on the size of
-/// the scene.
+/// Gives initial values to all coordinates. Bodies would otherwise stand at the nearest place, which depends on the
+/// size of the scene.
 void add_initial_value(const Ingredients& in, Scene& scene) {
   std::vector<std::string> names = coordinates_of(in.hinge);
   if (in.hinge == Hinge::screw) names.pop_back();

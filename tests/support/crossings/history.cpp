@@ -1,4 +1,4 @@
-// Rows of results become named quantities, taken back to the description before.
+// Conversion of rows of results into named quantities, mapped to the original description.
 #include "tests/support/crossings/history.hpp"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct Collector {
   }
 };
 
-/// Values of rows in the description before.
+/// Maps values of rows to the original description.
 struct Reverse {
   const Similarity& s;
   double v, a;  ///< units of velocity and acceleration
@@ -50,7 +50,7 @@ struct Reverse {
     const Matrix3d back = s.Q.transpose() * R * s.parts();
     return back.reshaped();
   }
-  /// Of a joint or bushing, in axes of its marker a.
+  /// Force and moment of a joint or bushing, in axes of its marker a.
   Vector3d in_a(const Vector3d& f) const { return s.markers() * f; }
   Vector3d moment_in_a(const Vector3d& m) const { return s.sign() * (s.markers() * m); }
 };
@@ -91,7 +91,7 @@ void put_joints(const ResultsRow& row, const formats::ResultsLayout& layout, con
     const std::string& name = layout.joints[i];
     const auto joint =
         std::find_if(before.joints.begin(), before.joints.end(), [&](const auto& j) { return j.name == name; });
-    // A distance knows no axes: what it exerts has those of the world, on the ground.
+    // A distance joint has no axes: its force on the ground is in world axes.
     const bool in_world = joint != before.joints.end() && joint->kind == formats::JointKind::distance;
     const Vector3d f = row.joint_force.col(i), m = row.joint_moment.col(i);
     to.put("joints/force/" + name, Family::force, (in_world ? r.vector(f) : r.in_a(f)) / s.force());
@@ -164,12 +164,12 @@ void put_energy(const ResultsRow& row, const ResultsRow& first, const Similarity
   to.put("energy/strain", Family::energy, row.strain / unit);
   to.put("energy/work", Family::energy, row.work / unit);
   to.put("energy/dissipated", Family::energy, row.dissipated / unit);
-  // Of gravity differences alone mean something: the zero is at the origin of the world.
+  // Only differences of potential energy mean something, because its zero is at the origin of the world.
   to.put("energy/potential", Family::energy, (row.potential - first.potential) / unit);
   to.put("energy/total", Family::energy, (row.total - first.total) / unit);
 }
 
-/// Not below 1 of SI: what the weights of the scenes, some 5 N, do in a second.
+/// Size of a family, at least 1 in SI units: what the weights of the scenes, some 5 N, cause in a second.
 double size_of(const History& history, Family family) {
   double size = 1.0;
   if (family == Family::place) return size;

@@ -1,4 +1,4 @@
-// What a run did, in the description of the scene from which another was made.
+// Histories of runs, mapped to the description of the original scene, and their comparison.
 #pragma once
 
 #include <map>
@@ -24,14 +24,14 @@ struct Quantity {
   Eigen::MatrixXd rows;  ///< instants x components
 };
 
-/// By names such as "nodes/position/arm/tip".
+/// Quantities of a run by names such as "nodes/position/arm/tip".
 struct History {
   std::vector<double> time;
   std::map<std::string, Quantity> quantities;
   mechanism::RunReport report;
   std::string refusal;  ///< message of the error, if the scene was refused
 
-  /// The same at every `factor`-th instant.
+  /// History at every `factor`-th instant only.
   History every(int factor) const;
 };
 
@@ -41,8 +41,8 @@ History run_history(const formats::Scene& scene, const formats::Scene& before, c
                     const mechanism::BodyFiles& files, const mechanism::State* begin = nullptr,
                     std::optional<mechanism::State>* end = nullptr);
 
-/// The largest difference of quantities of `a` from those of the same name in `b`, over the largest value of their
-/// family in `a`, at least 1 of SI; `families`: only these, empty: all.
+/// Largest difference of quantities of `a` from those of the same name in `b`, over the largest value of their family
+/// in `a` (at least 1 in SI units). `families`: those compared; empty: all.
 struct Difference {
   double largest = 0.0;
   std::string of;  ///< the quantity
@@ -54,8 +54,8 @@ struct Limits {
   double place = 1e-6, rate = 1e-6, acceleration = 1e-6, force = 1e-6, energy = 1e-6;
 };
 
-/// What of two histories differs by more than the limits, a line each; also two outcomes or refusals that differ.
-/// Empty: nothing. Two refusals must differ by their numbers alone.
+/// Report of two histories, one line for each family that differs by more than its limit; empty if none does. Outcomes
+/// must agree too, and refusals except for their numbers.
 std::string disagreement(const History& a, const History& b, const Limits& limits);
 
 /// Listens to the rows of a run and stores them as a history.

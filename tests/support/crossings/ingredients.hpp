@@ -9,8 +9,8 @@
 
 namespace tisserand::test_support::crossings {
 
-/// The body "arm". Of superelements the name says frame and inertia; `mixed`: some of its nodes have translations or
-/// rotations alone; `automatic`: its flexibility is chosen by the run.
+/// Kinds of the body "arm". Names of superelements say frame and inertia. `mixed`: some of its nodes have translations
+/// or rotations alone. `automatic`: the run chooses its flexibility.
 enum class Arm {
   rigid,
   use_rigid,
@@ -45,7 +45,7 @@ enum class Hinge {
   parallel_axes,
   generic
 };
-/// What acts beside gravity.
+/// Actions besides gravity.
 enum class Action {
   nothing,
   world_loads,
@@ -86,19 +86,19 @@ struct Ingredients {
 /// 2e-3 s from a start in motion. Nothing in it lies along an axis of the world or in a plane of symmetry.
 formats::Scene dynamics_scene(const Ingredients& ingredients);
 
-/// What the error says with which dynamics refuses the combination; empty: it is taken.
+/// Message of the error with which dynamics refuses the combination; empty: it is accepted.
 std::string refusal_of(const Ingredients& ingredients);
 
-/// Load cases need a companion file; initial values, a hinge whose coordinates are all that it lets move.
+/// False for a load case without companion file, or an initial value whose hinge moves beyond its coordinates.
 bool is_sensible(const Ingredients& ingredients);
 
-/// The same at rest, held by soft bushings in all directions, for statics and modes.
+/// Scene of the combination at rest, held by soft bushings in all directions, for statics and modes.
 formats::Scene held_scene(const Ingredients& ingredients);
 
 /// The files of all arms.
 const mechanism::BodyFiles& arm_files();
 
-/// Where the arm hangs and where its tip is, world axes; z and x axes of the hinge.
+/// Places (world axes) and nodes of the arm's root and tip; z and x axes of the hinge.
 Eigen::Vector3d root_place();
 Eigen::Vector3d tip_place(Arm arm);
 std::string root_node(Arm arm);
@@ -106,7 +106,7 @@ std::string tip_node(Arm arm);
 Eigen::Vector3d hinge_axis();
 Eigen::Vector3d hinge_x_axis();
 
-/// The coordinates of the joint, as scenes call them.
+/// Coordinates of the joint by their names in scenes.
 std::vector<std::string> coordinates_of(Hinge hinge);
 
 }  // namespace tisserand::test_support::crossings

@@ -10,13 +10,13 @@
 
 namespace tisserand::test_support::crossings {
 
-/// x' = length Q x + shift, t' = time t + delay; masses are multiplied by `mass`. What is given in part axes follows
-/// parts(): a mirrored world holds mirrored parts.
+/// Similarity x' = length Q x + shift, t' = time t + delay; masses are multiplied by `mass`. Data in part axes are
+/// mapped by parts(), so that a mirrored world holds mirrored parts.
 struct Similarity {
-  Eigen::Matrix3d Q = Eigen::Matrix3d::Identity();  ///< orthogonal; of determinant -1 it mirrors
+  Eigen::Matrix3d Q = Eigen::Matrix3d::Identity();  ///< orthogonal; mirrors if its determinant is -1
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-  double length = 1.0, mass = 1.0, time = 1.0;  ///< numbers now over numbers then
-  double delay = 0.0;                           ///< of the new time
+  double length = 1.0, mass = 1.0, time = 1.0;  ///< new numbers over old ones
+  double delay = 0.0;                           ///< in the new time
   Units units = Units::si();
 
   double sign() const { return Q.determinant() < 0.0 ? -1.0 : 1.0; }
@@ -30,23 +30,23 @@ struct Similarity {
   Eigen::Matrix3d rotation(const Eigen::Matrix3d& R) const { return Q * R * parts(); }
 };
 
-/// Sign and factor of the number that a coordinate or a spring is given by.
+/// Sign and scale of the value of a coordinate or of a spring.
 struct Factor {
   double sign = 1.0;
-  double scale = 1.0;  ///< length, or 1 of angles
+  double scale = 1.0;  ///< length, or 1 for angles
   double whole() const { return sign * scale; }
 };
 
-/// A joint coordinate "hinge" or "slide/z": displacements along y and turns about x and z change their sign in a
-/// mirror.
+/// Factor of a joint coordinate such as "hinge" or "slide/z". In a mirror, displacements along y and turns about x and
+/// z change their sign.
 Factor coordinate_factor(const formats::Scene& scene, const std::string& coordinate, const Similarity& s);
 Factor spring_factor(const formats::Scene& scene, const formats::SpringSpec& spring, const Similarity& s);
 
 /// Signs of the components of a load with axes of the body: those of the part, or of a marker with axes of its own.
 Eigen::Matrix3d body_axes_of(const formats::LoadSpec& load, const Similarity& s);
 
-/// The same mechanism in the other description. Markers need `axis` and `x_axis`, or an orientation, where their axes
-/// matter; the components of loads with axes of the world are numbers or expressions.
+/// Scene of the same mechanism in the other description. Markers need `axis` and `x_axis`, or an orientation, where
+/// their axes matter. Components of loads in world axes are numbers or expressions.
 formats::Scene described(const formats::Scene& scene, const Similarity& similarity);
 
 }  // namespace tisserand::test_support::crossings

@@ -1,4 +1,4 @@
-// Eigenvalues of small motions, for comparison.
+// Eigenvalues of small motions and their comparison.
 #pragma once
 
 #include <complex>
@@ -9,12 +9,12 @@
 
 namespace tisserand::test_support::crossings {
 
-/// Of the analysis `modes` from this state (null: the start of the scene), those with Im >= 0, in ascending order of
-/// their size. Throws Error.
+/// Eigenvalues with Im >= 0 of the analysis `modes` from this state (null: the start of the scene), in ascending order
+/// of their size. Throws Error.
 std::vector<std::complex<double>> eigenvalues(const formats::Scene& scene, const mechanism::BodyFiles& files,
                                               const mechanism::State* begin);
 
-/// The largest difference of `a` from time * b, over the size of each eigenvalue and a ten-thousandth of the largest.
+/// Largest difference of `a` from time * b, each over the size of its eigenvalue plus 1e-4 of the largest size.
 double mode_difference(const std::vector<std::complex<double>>& a, const std::vector<std::complex<double>>& b,
                        double time);
 

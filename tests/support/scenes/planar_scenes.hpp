@@ -10,7 +10,7 @@
 
 namespace tisserand::test_support {
 
-/// Turns of a scene: none, z to −y, any.
+/// Rotations of a scene: none, z to −y, a general one.
 inline const Eigen::Quaterniond upright = Eigen::Quaterniond::Identity();
 inline const Eigen::Quaterniond on_edge(Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitX()));
 inline const Eigen::Quaterniond askew(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 0.5).normalized()));
@@ -34,12 +34,12 @@ formats::Scene with_planar(formats::Scene scene);
 /// Crank, rod and slider of rigid bodies, with a spring, a damper, a load that follows and one that does not.
 TurnedScene rigid_slider_crank(const Eigen::Quaterniond& q);
 
-/// A driven crank, a flexible rod and its guide, as in examples/slider_crank; the file "rod" has this many of the 18
+/// A driven crank, a flexible rod and its guide, as in examples/slider_crank. The file "rod" has `modes` of the 18
 /// internal modes.
 TurnedScene flexible_slider_crank(const Eigen::Quaterniond& q, formats::InertiaOption inertia);
 mechanism::BodyFiles rod_files(int modes);
 
-/// The same with a rod by its modes, of which two of each frequency bend it, in all directions alike.
+/// Slider-crank with a modal body as rod. Two of its modes of each frequency bend it, in all directions alike.
 TurnedScene modal_slider_crank(const Eigen::Quaterniond& q);
 mechanism::BodyFiles modal_rod_files(int modes);
 

@@ -36,7 +36,7 @@ inline formats::Scene with_scheme(const Scheme& scheme, formats::Scene scene) {
   return scene;
 }
 
-/// Of convergence, from the errors with a step and with half of it.
+/// Order of convergence from the errors with a step and with half of it.
 inline double order(double coarse, double fine) { return std::log2(coarse / fine); }
 
 }  // namespace tisserand::test_support

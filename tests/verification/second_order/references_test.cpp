@@ -196,9 +196,9 @@ TEST(SecondOrderReferences, ErrorOverTheTurnOfTheTip) {
   }
 }
 
-// Prints a table of docs/MECHANISM_VERIFICATION.md, "Parts under load". Small errors are powers of the angle: four
-// between a node and the mean frame, three between a node and the frame of another; exact exponents would need smaller
-// angles than 0.4, whose fourth powers change them by a tenth.
+// Prints the errors over the angle. Small ones are powers of it (docs/THEORY.md, section 8): four between a node and
+// the mean frame, three between a node and the frame of another. Exact exponents would need smaller angles than 0.4,
+// whose fourth powers change them by a tenth.
 TEST(SecondOrderReferences, ErrorOverTheAngleBetweenNodeAndFrame) {
   const BodyFiles files = circle_files(1);
   std::array<double, 2> last{};
