@@ -87,8 +87,8 @@ TEST(AutomaticModalBodies, ThatDoNotMatterAreRigid) {
   EXPECT_EQ(largest_difference(a, b, {"nodes", "joints", "energy"}), 0.0);
 }
 
-// A moment bends it from 0.1 to 0.4, whatever the frame of its modes; without flexibility forces err by more than the
-// tolerance. From a checkpoint and a stored instant the choice is that of the run that wrote them.
+// A moment bends the rod from 0.1 to 0.4 s, for each frame of its modes. A rigid rod has errors of force above the
+// tolerance. From a checkpoint or a stored instant the run makes the choice of the run that wrote it.
 TEST(AutomaticModalBodies, ThatMatterAreOn) {
   for (const char* file : {"hinged", "mean", "clamped"}) {
     SCOPED_TRACE(file);
@@ -121,9 +121,9 @@ TEST(AutomaticModalBodies, ThatMatterAreOn) {
   }
 }
 
-/// A stout rod that two joints hold, neither of which stresses it alone, with a force across its middle by which it
-/// bends at rest, as seen from its ends, 3 F L³/(48 EI), by 0.3 of the tolerance 0.01; a tenth of it swings at `part`
-/// of its first frequency.
+/// Scene of a stout rod between two joints, neither of which stresses it alone. A force across its middle bends it at
+/// rest, as seen from its ends, 3 F L³/(48 EI), by 0.3 of the tolerance 0.01. A tenth of the force swings at `part` of
+/// the rod's first frequency.
 formats::Scene shaken(double part) {
   formats::Scene scene = automatic(test_support::empty_scene(2.5e-4, 1.0));
   scene.automatic.tolerance = 0.01;
@@ -139,15 +139,15 @@ formats::Scene shaken(double part) {
   return scene;
 }
 
-// Slow, it bends as at rest, and its inertia changes that tenth by 0.0025; near its frequency it bends ten times as
-// much, which only that inertia knows.
+// At a low frequency the rod bends as at rest, and its inertia changes that tenth by 0.0025. Near its first frequency
+// it bends ten times as much, which depends on its inertia.
 TEST(AutomaticModalBodies, AreOnInResonance) {
   TemporaryFolder folder;
   EXPECT_FALSE(run(shaken(0.05), folder.file("a.results.h5")).report.automatic[0].on);
   EXPECT_TRUE(run(shaken(0.98), folder.file("b.results.h5")).report.automatic[0].on);
 }
 
-// Nothing holds it, and nothing but its spin bends it: there are no reactions to be asked for.
+// No joint holds the rod and only its spin bends it: no reactions exist from which to estimate the effect.
 TEST(AutomaticModalBodies, FlyWithoutJoints) {
   TemporaryFolder folder;
   formats::Scene scene = automatic(test_support::empty_scene(1e-3, 0.3));

@@ -199,7 +199,7 @@ TEST_P(Checkpoint, GoesOnBitEqual) {
   EXPECT_EQ(whole.report.outcome, RunOutcome::completed) << whole.report.reason;
   EXPECT_EQ(rest.report.steps, whole.report.steps - 30);
   EXPECT_EQ(rest.state.block(), whole.state.block());
-  // And not because nothing is left to differ: without checkpoints the run keeps other factors.
+  // The equality is not that of two models at rest.
   EXPECT_GT(rest.state.v().norm(), 0.0);
 }
 
@@ -233,7 +233,7 @@ std::string refusal(const formats::Scene& scene, const std::string& file, const 
   return "";
 }
 
-// A planar model has no coordinates for what a run in space has stored.
+// A planar model has no coordinates for the spatial motion that a run in space has stored.
 TEST(CheckpointFile, AStoredInstantOutOfThePlaneIsRefused) {
   TemporaryFolder folder;
   formats::Scene bent = soft_rod();
@@ -268,7 +268,7 @@ TEST(CheckpointFile, AStoredModeOutOfThePlaneIsRefusedWhereAllNodesRest) {
   EXPECT_EQ(refusal(planar, folder.file("flat.results.h5"), folder.file("c.results.h5")), "");
 }
 
-// All that moves moves out of the plane; but so slowly that it is round-off of rest.
+// The only motion is out of the plane, but so slow that it is round-off of rest.
 TEST(CheckpointFile, RoundOffOfRestIsNoMotionOutOfThePlane) {
   TemporaryFolder folder;
   const auto drifting = [](double velocity) {
@@ -334,7 +334,7 @@ TEST(CheckpointFile, IsRefusedWithoutTheCompanionThatItWasWrittenWithAndWithAnot
   EXPECT_THAT(refusal(scene, file, out, other), HasSubstr("(or companion files)"));
 }
 
-/// All channels of a file, bit for bit; its instants in rows.
+/// All channels of a file without conversion, one row per instant.
 Eigen::MatrixXd contents(const std::string& path) {
   const formats::ResultsReader reader(path);
   std::vector<std::string> names;
@@ -396,10 +396,10 @@ TEST_P(Checkpoint, AppendedRunIsBitEqualToOneThatWasNeverInterrupted) {
   RunRequest again = request(scene, list, results);
   again.restart = folder.file("a.checkpoint.h5");
   again.joining = Joining::appended;
-  // Killed after steps 28, 34 (on from 20, before the next checkpoint) and 47 (on from 20, after that of 40).
+  // Killed after steps 28, 34 (restarted at 20, before the next checkpoint) and 47 (restarted at 20, after that of 40).
   die_in_run(request(scene, list, results), [h](double t) { return t > 27.5 * h; });
   die_in_run(again, [h](double t) { return t > 33.5 * h; });
-  EXPECT_TRUE(std::filesystem::exists(results));  // what the first run left, untouched
+  EXPECT_TRUE(std::filesystem::exists(results));  // the rows of the first run, unchanged
   die_in_run(again, [h](double t) { return t > 46.5 * h; });
   const RunReport report = simulate(again, {}).report;
   EXPECT_EQ(report.outcome, RunOutcome::completed) << report.reason;
@@ -417,7 +417,7 @@ TEST(CheckpointFile, AppendsToAnInterruptedRunAndToAStoredInstant) {
   const std::string results = folder.file("a.results.h5");
   int polls = 0;
   RunControl control;
-  control.interrupted = [&polls] { return ++polls > 20; };  // at a checkpoint, whose instant no row was due at
+  control.interrupted = [&polls] { return ++polls > 20; };  // at a checkpoint, at whose instant no row was due
   static_cast<void>(simulate(request(scene, list, results), control));
   RunRequest again = request(scene, list, folder.file("joined.results.h5"));
   again.restart = folder.file("a.checkpoint.h5");

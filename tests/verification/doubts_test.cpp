@@ -178,8 +178,8 @@ TEST(DeflectionDoubt, SpeaksFromAFifthOfTheLength) {
   }
 }
 
-/// Two halves of a beam of 2 m on a hinge at its root that turn at `rate`, with `softer` times less torsional
-/// stiffness.
+/// Run of two halves of a beam of 2 m that turn at `rate` on a hinge at the root. Their torsional stiffness is divided
+/// by `softer`.
 RunReport run_of_blade(double rate, double softer, formats::InertiaOption inertia, double end) {
   BeamData half;
   half.length = 1.0, half.Iy = half.Iz = 2e-8, half.J = 4e-8 / softer;
@@ -212,7 +212,7 @@ TEST(TorsionDoubt, SpeaksOfWeldedPiecesThatAreSoftForTheirSpin) {
   EXPECT_THAT(told(1e3, A), Not(HasSubstr("soft in torsion")));
 }
 
-/// The beam on a ball joint that turns about z, and is hit across, so that it moves in space.
+/// Warnings for the beam on a joint of `kind`. It turns about z, and a force along z makes it move in space.
 std::vector<std::string> doubts_of_ball_joint(JointKind kind, formats::InertiaOption inertia, bool has_bob = false) {
   BeamData round;
   round.Iy = round.Iz = 1.5e-8;
@@ -237,7 +237,7 @@ TEST(AxialSpinDoubt, SpeaksOfABentBeamThatCanTurnAboutItsAxis) {
   using enum formats::InertiaOption;
   EXPECT_THAT(::testing::PrintToString(doubts_of_ball_joint(JointKind::spherical, A)),
               HasSubstr("'beam' spins about its own axis"));
-  // What hangs on the beam alone does not hold it.
+  // A body that only the beam holds does not prevent the spin.
   EXPECT_THAT(::testing::PrintToString(doubts_of_ball_joint(JointKind::spherical, A, true)),
               HasSubstr("'beam' spins about its own axis"));
   EXPECT_THAT(::testing::PrintToString(doubts_of_ball_joint(JointKind::revolute, A)),
@@ -291,7 +291,7 @@ TEST(ModalRangeDoubt, SpeaksOfAxialForceDeflectionAndSpin) {
   }
 }
 
-/// The slider-crank of [GA00] 4.3 with its rod as one superelement, driven at a constant rate.
+/// Warnings for the slider-crank of [GA00] 4.3 with its rod as one superelement, driven at a constant rate.
 std::vector<std::string> doubts_of_slider_crank(double rate, formats::InertiaOption inertia) {
   constexpr double r = 0.1524, l = 0.3048;
   BeamData rod;
@@ -316,8 +316,8 @@ std::vector<std::string> doubts_of_slider_crank(double rate, formats::InertiaOpt
   return run(scene, files).doubts;
 }
 
-// Against exact beams the rod errs by 18.8 % with A and B, by 8.9 % with M (examples/inertia_options). That the doubt
-// is silent of bodies that turn without translating shows SpinDoubt.
+// Against exact beams the rod errs by 18.8 % with A and B, by 8.9 % with M (examples/inertia_options). SpinDoubt shows
+// that bodies that turn without translating cause no such warning.
 TEST(InertiaDoubt, SpeaksOfARodThatTurnsWhileItTranslates) {
   using enum formats::InertiaOption;
   for (const auto& [option, other] : {std::pair{A, "M in place of A"}, {B, "M in place of B"}})
@@ -336,7 +336,7 @@ TEST(DampingDoubt, SpeaksWhereTheLowestModeHasNone) {
   EXPECT_THAT(run(held.scene, held.files).notes, Contains(HasSubstr("in the modes of the body without joints")));
 }
 
-/// A crank of 1 m that drives a slider through a rod of `rod`: shorter than the crank it locks at asin(rod).
+/// Run of a crank of 1 m that drives a slider through a rod of length `rod`. If rod < 1 m it locks at asin(rod).
 RunReport run_of_crank(double rod, formats::IntegratorSpec integrator, double end = 1.0) {
   const Vector3d z = Vector3d::UnitZ();
   formats::Scene scene = test_support::empty_scene(integrator.step, end);
@@ -379,7 +379,7 @@ TEST(FailureCause, IsASingularPosition) {
   EXPECT_EQ(with_method("generalised_alpha").outcome, RunOutcome::completed);
 }
 
-/// A block of 1 kg that slides along z at 1 m/s, with a spring on its slide.
+/// Run of a block of 1 kg that slides along z at 1 m/s, with a spring on its slide.
 RunReport run_of_slide(const formats::SpringSpec& spring, const formats::IntegratorSpec& integrator) {
   formats::Scene scene = test_support::empty_scene(integrator.step, 1.0);
   scene.integrator = integrator;
@@ -395,7 +395,7 @@ RunReport run_of_slide(const formats::SpringSpec& spring, const formats::Integra
   return run(scene);
 }
 
-/// One attempt per step, and few iterations.
+/// Integrator with one attempt per step and few iterations.
 formats::IntegratorSpec impatient(double step) {
   formats::IntegratorSpec integrator;
   integrator.step = step;
@@ -416,7 +416,7 @@ TEST(FailureCause, IsAStiffnessThatBalancesTheMass) {
   EXPECT_EQ(run_of_slide(spring, integrator).outcome, RunOutcome::completed);
 }
 
-// A block without mass on a spring that gives way at 0.5 N, under a force of 1 N/s.
+// A needle without inertia about its hinge, on a spring that yields at 0.5 N m, under a moment of 1 N m/s.
 TEST(FailureCause, IsADirectionWithoutMass) {
   const auto with_last = [](double last) {
     formats::Scene scene = test_support::empty_scene(0.01, 1.0);
@@ -439,7 +439,7 @@ TEST(FailureCause, IsADirectionWithoutMass) {
   EXPECT_EQ(with_last(1.5).outcome, RunOutcome::completed);
 }
 
-// A moment that jumps from nothing to 1e9 N m in one step.
+// A moment that jumps from zero to 1e9 N m in one step.
 TEST(FailureCause, IsALoadThatSetsIn) {
   const auto with_moment = [](const std::string& moment) {
     formats::Scene scene = test_support::pendulum_scene(0.002, 1.0);
@@ -479,7 +479,7 @@ TEST(FailureCause, IsMultipliersThatSwing) {
   EXPECT_EQ(run(scene).outcome, RunOutcome::completed);
 }
 
-// Spun from rest the pieces turn over before the spin is reached.
+// Soft pieces that start at this spin turn over.
 TEST(FailureCause, IsTorsionTooSoftForTheSpin) {
   using enum formats::InertiaOption;
   const RunReport soft = run_of_blade(40, 1e5, B, 2.0);

@@ -45,7 +45,7 @@ std::vector<double> angular_frequencies(const ModesReport& report) {
   return list;
 }
 
-/// A body that hangs (1) or stands (−1) on a hinge about z in gravity along −y.
+/// Scene of a body that hangs (1) or stands (−1) on a hinge about z in gravity along −y.
 formats::Scene hanging(double side) {
   formats::Scene scene = empty_scene(1e-3, 1.0);
   scene.gravity = {0, -9.81, 0};
@@ -303,7 +303,7 @@ TEST(Modes, OfACantileverOfOneSuperelement) {
   for (const int k : {2, 3}) EXPECT_NEAR(omega[k] / Bar::unit(), 22.034492, 22.034492 * 5e-3);
 }
 
-/// Two stiff bars in a row on a hinge, and a hinge between them.
+/// Scene of two stiff bars in a row on a hinge, with a hinge between them.
 formats::Scene hinged_bars() {
   formats::Scene scene = empty_scene(1e-3, 1.0);
   for (int i = 0; i < 2; ++i) {
@@ -319,9 +319,9 @@ formats::Scene hinged_bars() {
   return scene;
 }
 
-// A soft spring holds the first bar, nothing the second: frequencies from 0 to 1e5 Hz. At rest and undamped they are
-// those of K φ = ω² M φ, which is solved here as a symmetric problem (LAPACK's error: round-off of the largest ω²). In
-// a basis that is not graded, ω² of the lower ones was 2 to 5 % off, and the rigid motion had a frequency.
+// A soft spring holds the first bar, and nothing holds the second: frequencies from 0 to 1e5 Hz. At rest and undamped
+// they are those of K φ = ω² M φ, solved here as a symmetric problem (LAPACK's error: round-off of the largest ω²). In
+// a basis that is not graded, the lower ω² erred by 2 to 5 %, and the rigid motion had a frequency.
 TEST(Modes, OfStiffBarsBelowASoftSpringAreThoseOfTheSymmetricProblem) {
   formats::Scene scene = hinged_bars();
   scene.springs.push_back(spring_along("main", 8.0));
@@ -346,7 +346,7 @@ TEST(Modes, OfStiffBarsBelowASoftSpringAreThoseOfTheSymmetricProblem) {
   }
 }
 
-// Round-off of the bars, 1e-15 of 1e8 N/m, would hide a gram on 1e-8 N/m: but nothing ties it to them. ω = √(k/m).
+// Round-off of the bars, 1e-15 of 1e8 N/m, must not hide a gram on 1e-8 N/m, which no joint ties to them: ω = √(k/m).
 TEST(Modes, OfASoftMassBesideStiffBarsAreItsOwn) {
   formats::Scene scene = hinged_bars();
   scene.bodies.push_back(rigid_body("mote", 1e-3, {0, 0, 0}, {1e-6, 1e-6, 1e-6}));
@@ -384,7 +384,7 @@ TEST(Modes, OfABlockThatSlidesFreelyAreRigid) {
   }
 }
 
-/// Chordwise 1, flap 1 and flap 2 [Bar::unit()] of the bar on a driven hinge about z, in steady rotation with γ.
+/// Frequencies [Bar::unit()] of the first chordwise and two flap modes of the bar in steady rotation about z with γ.
 struct Turning {
   double chord = 0.0, flap = 0.0, second_flap = 0.0;
 };
@@ -415,7 +415,7 @@ Turning turning_bar(double gamma, formats::Scene scene, const SuperelementFiles&
   return result;
 }
 
-/// The rows are γ = 0, 1, 2…
+/// Published frequencies. The rows of the file are γ = 0, 1, 2, ...
 Turning reference_at(int gamma) {
   const std::vector<double> row =
       test_support::reference_rows("rotating_cantilever_frequencies.csv").at(static_cast<std::size_t>(gamma));
@@ -432,7 +432,7 @@ TEST(TurningCantilever, OfNonlinearBeamsHasThePublishedFrequencies) {
   EXPECT_NEAR(found.second_flap, published.second_flap, 2e-3 * published.second_flap);
 }
 
-/// At γ = 5: at 6, where 12 EI/L³ = ω² m/3, one linear body loses its stability in the plane of rotation.
+/// Relative error of flap 1 at γ = 5. At γ = 6, where 12 EI/L³ = ω² m/3, one linear body is unstable in the plane.
 double flap_error(int pieces) {
   formats::Scene scene = empty_scene(1e-3, 1.0);
   SuperelementFiles files;
@@ -440,7 +440,7 @@ double flap_error(int pieces) {
   return turning_bar(5.0, scene, files, "p0/base").flap / reference_at(5).flap - 1.0;
 }
 
-// One linear body lacks the stiffening by its own tension; N of them carry it in the turn of each, error ~ 1/N².
+// One linear body lacks the stiffening by its tension. N bodies have it by the rotation of each, with an error ~ 1/N².
 TEST(TurningCantilever, NeedsSeveralSuperelements) {
   const double one = flap_error(1), two = flap_error(2), four = flap_error(4), eight = flap_error(8);
   EXPECT_LT(one, -0.05);

@@ -123,8 +123,8 @@ std::vector<Bar> bars_of(const formats::Part& part) {
   return bars;
 }
 
-/// Sinking of a joint under a unit load downwards there, from equilibrium alone: the frame of bars is statically
-/// determinate, so the bar forces N follow from 3 equations per free joint, and the sinking is Σ N² L/(E A).
+/// Sinking of a joint under a unit load downwards there, from equilibrium alone. The frame of bars is statically
+/// determinate: 3 equations per free joint give the bar forces N, and the sinking is Σ N² L/(E A).
 double sinking_by_equilibrium(const formats::Part& part, const std::string& loaded,
                               const std::vector<std::string>& held) {
   const std::vector<Bar> bars = bars_of(part);
@@ -210,9 +210,9 @@ TEST_F(PartsExamples, JibSinksALittleLessThanItsBars) {
   EXPECT_GT(ratio, 0.98);
 }
 
-// Diagonals pinned at both ends: f = π/2 √(EI/m)/L² (1 − π²/2 r²/L² (1 + E/(k G))), k = 1/2 of a thin tube; groups of
-// them vibrate so that the joints stand still. With welded ends they would be 2.27 times as high. Cubic elements, four
-// per diagonal, err by (π/4)⁴/720/2 = 3e-4.
+// Diagonals pinned at both ends: f = π/2 √(EI/m)/L² (1 − π²/2 r²/L² (1 + E/(k G))), k = 1/2 of a thin tube. Groups of
+// them vibrate so that the joints do not move. With welded ends f would be 2.27 times as high. Four cubic elements per
+// diagonal err by (π/4)⁴/720/2 = 3e-4.
 TEST_F(PartsExamples, ReleasedDiagonalsVibrateAsPinnedBeams) {
   reduce("tube_frame/jib", "jib", {});
   const double outer = 0.01685, inner = 0.01425, E = 2.1e11;
@@ -227,7 +227,7 @@ TEST_F(PartsExamples, ReleasedDiagonalsVibrateAsPinnedBeams) {
   }
 }
 
-// A load that comes at once makes a lightly damped beam swing to about twice its static sinking.
+// A suddenly applied load makes a lightly damped beam swing to about twice its static sinking.
 TEST_F(PartsExamples, SuddenLoadSinksTheJibTwiceAsFar) {
   reduce("tube_frame/jib", "jib", {});
   ASSERT_EQ(run("tube_frame/hoist", {"bodies.jib.file=" + file("jib"), "integrator.end=0.4"}).outcome,
@@ -268,7 +268,7 @@ struct SliderCrank {
   double position(double angle) const {
     return r * std::cos(angle) + std::sqrt(l * l - std::pow(r * std::sin(angle), 2));
   }
-  /// dT/d(½ω²) of rod and piston: J(angle).
+  /// Reduced inertia J(angle) = dT/d(½ω²) of rod and piston.
   double inertia(double angle) const {
     const double swing = -std::asin(r / l * std::sin(angle));
     const double swing_rate = -r * std::cos(angle) / (l * std::cos(swing));
@@ -277,7 +277,7 @@ struct SliderCrank {
                  rod_y = r * std::cos(angle) + a * std::cos(swing) * swing_rate;
     return piston * x_rate * x_rate + rod * (rod_x * rod_x + rod_y * rod_y) + rod_inertia * swing_rate * swing_rate;
   }
-  /// At constant speed: ½ω² dJ/dangle.
+  /// Torque at constant speed: ½ω² dJ/dangle.
   double torque(double angle, double speed) const {
     return 0.5 * speed * speed * (inertia(angle + 1e-4) - inertia(angle - 1e-4)) / 2e-4;
   }
@@ -294,9 +294,9 @@ double pin_compliance(const formats::Superelement& element) {
   return 1e-3 * std::max(C(0, 0), C(1, 1));
 }
 
-// The inertia of rod and piston, (m + m) r ω² (1 + r/l) at most, bends the crank: the piston is off by less than twice
-// that over the pin's stiffness (rod angle, run-up), and by more than a tenth. The torque is that of the rigid
-// mechanism but for ω²/ω₁² = 1e-4 and the piston's error relative to the throw, 3e-4, over the harmonics: 1 %.
+// The inertia of rod and piston, at most (m + m) r ω² (1 + r/l), bends the crank. The error of the piston is 0.1 to 2
+// times that over the pin's stiffness (rod angle, run-up). The torque is that of the rigid mechanism within 1 %:
+// ω²/ω₁² = 1e-4 and the piston's error relative to the throw, 3e-4, over the harmonics.
 TEST_F(PartsExamples, CrankHasTheMassOfItsCadFileAndMovesAsARigidOneAlmost) {
   reduce("crank/crank", "crank", {});
   const formats::LoadedSuperelement crank = element("crank");

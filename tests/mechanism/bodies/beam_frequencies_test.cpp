@@ -101,7 +101,7 @@ TEST(BeamFrequencies, SimplySupportedTwoNodes) {
   }
 }
 
-// Slender: order 4, as with three nodes. What shear and rotary inertia add has order 2: (qh)² EI q²/GA, 1e-6 here.
+// Slender: order 4, as with three nodes. Shear and rotary inertia have an error of order 2: (qh)² EI q²/GA, 1e-6 here.
 TEST(BeamFrequencies, SlenderBeamsOfTwoNodesConvergeWithOrderFour) {
   Rod rod;
   rod.section = test::rectangle(3e-3, 5e-3, 4e-11, 0.8);

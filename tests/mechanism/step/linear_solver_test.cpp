@@ -90,8 +90,8 @@ TEST_P(EverySolver, SolveAndSolveAgainWithNewValues) {
   }
 }
 
-// Kept pivots that have become poor must not spoil the answer: first a matrix whose pivots lie on the diagonal, then
-// one whose diagonal is 1e-9 of the rest.
+// Kept pivots that have become poor must not spoil the answer. The first matrix has its pivots on the diagonal, the
+// second one has a diagonal of 1e-9 of the rest.
 TEST_P(EverySolver, RefactorisationChoosesNewPivotsWhereTheOldOnesArePoor) {
   const int n = 30;
   const SparsePattern pattern = pattern_of(n);
@@ -172,7 +172,7 @@ TEST_P(EverySolver, NoAllocationAfterTheFirstFactorisation) {
   }
 }
 
-// The estimate is a lower bound of |A⁻¹|₁ that is hardly ever off by more than a factor of 3 [Hig88].
+// The estimate is a lower bound of |A⁻¹|₁ and seldom too small by more than a factor of 3 [Hig88].
 TEST_P(EverySolver, ConditionIsThatOfTheInverse) {
   for (const int n : {5, 40, 90}) {
     const SparsePattern pattern = pattern_of(n);

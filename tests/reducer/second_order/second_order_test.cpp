@@ -92,8 +92,8 @@ void expect_known(const MatrixXd& found, const MatrixXd& known, double size, con
       << what << "(" << row << ", " << column << ") is " << found(row, column) << ", known " << known(row, column);
 }
 
-/// All arrays of a known answer; the signs of internal modes are turned to those of the answer. Inertia is that of the
-/// fields inside the beams.
+/// Compares all arrays with a known answer; internal modes get the signs of the answer. Inertia is that of the fields
+/// inside the beams.
 void expect_known_answer(const std::string& name) {
   const nlohmann::json answers = known_answers(), entry = answers[name],
                        masses = known_answers("second_order_turning_masses")[name];
@@ -202,9 +202,9 @@ VectorXd some_coordinates(Index n, double phase) {
   return VectorXd::NullaryExpr(n, [phase](Index i) { return std::sin(phase + 2.7 * static_cast<double>(i * i + 1)); });
 }
 
-// Without internal modes the boundary carries all forces, so that a turn θ changes no energy at first order for the
-// stress of any w: (R θ)ᵀ H[w] y + (S w) · (θ × u, ½ θ × ψ) = 0. And the momentum of the turned part is the turned
-// momentum: S1 (θ × u, ½ θ × ψ) + (R θ)ᵀ N_a y = e_a · (θ × S1 y), which needs the inertia of what ties carry.
+// Without internal modes the boundary carries all forces. So a turn θ changes no energy at first order for the stress
+// of any w: (R θ)ᵀ H[w] y + (S w) · (θ × u, ½ θ × ψ) = 0. The momentum of the turned part is the turned momentum:
+// S1 (θ × u, ½ θ × ψ) + (R θ)ᵀ N_a y = e_a · (θ × S1 y). This needs the inertia of what ties carry.
 TEST(SecondOrderReduction, TiedPartsTurnWithoutEnergy) {
   const Vector3d theta(0.3, -0.7, 0.5);
   for (const bool rotations : {false, true}) {
@@ -235,7 +235,7 @@ reducer::TrappedEnergy trapped_of_turned_part(bool average_rotations, bool ties)
   const reducer::Factor S_II(blocks.S_II);
   const reducer::BoundaryModes boundary = reducer::boundary_modes(S_II, blocks, system, coordinates, [](double) {});
   const reducer::InternalProblem problem{{mesh, system, coordinates}, blocks, S_II, "test"};
-  MatrixXd q = MatrixXd::Zero(system.size(), 2);  // as two loads inside bend it
+  MatrixXd q = MatrixXd::Zero(system.size(), 2);  // bent by two internal loads
   const MatrixXd load =
       MatrixXd::NullaryExpr(coordinates.n_I(), 2, [](Index i, Index k) { return std::sin(i * (k + 1.7)); });
   q(coordinates.internal, Eigen::all) = 1e-3 * S_II.solve(load);
@@ -248,7 +248,7 @@ reducer::TrappedEnergy trapped_of_turned_part(bool average_rotations, bool ties)
                                  ties ? reducer::find_tie_forces(mesh, system, "test") : reducer::TieForces{}, shapes);
 }
 
-// A turn of a bent part traps nothing, whatever ties it together: pairs with a turn have no energy.
+// A turn of a bent part traps no stress, whatever ties it has: pairs with a turn have no energy.
 TEST(SecondOrderReduction, TurnedPartsTrapNothing) {
   for (const bool rotations : {false, true})
     for (const bool ties : {true, false}) {
@@ -300,7 +300,7 @@ reducer::Mesh column_mesh(int elements) {
   return mesh;
 }
 
-/// The lowest positive factor of the load on the free rows; `own`: the load's K_f.
+/// Lowest positive load factor, with the rows `held` fixed; `own`: K_f of the load.
 double buckling_factor(const ReducedPart& body, const std::vector<int>& held, const VectorXd& load,
                        const MatrixXd& own = {}) {
   const MatrixXd Z = free_directions(body.element.size(), held);
@@ -347,8 +347,8 @@ TEST(SecondOrderReduction, ClampedColumnBucklesUnderItsOwnWeight) {
   }
 }
 
-// The resultant of a reduced load is that of the load, gravity is S1ᵀ g, and the boundary moves under it as the whole
-// part does: a cantilever's tip by q L⁴/(8 EI) under a uniform load across, EI = 200 in this plane.
+// A reduced load has the resultant of the load, gravity is S1ᵀ g, and the boundary moves as that of the whole part. A
+// cantilever's tip moves by q L⁴/(8 EI) under a uniform load across, EI = 200 in this plane.
 TEST(SecondOrderReduction, LoadCasesAreExactOnTheBoundary) {
   reducer::Mesh mesh = column_mesh(8);
   reducer::MeshLoadCase wind;
