@@ -1,5 +1,5 @@
-// OpenBLAS asks for 128 MB of addresses at its first product, and again and again for ever where it gets none. Its
-// calls of mmap come here, since the program stands before the C library in the search for names.
+// Replacement of mmap that ends the program if OpenBLAS repeats its request for 128 MB for ever when memory is short.
+// OpenBLAS finds it first, since the program precedes the C library in the search for symbols.
 #include <sys/mman.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -14,11 +14,11 @@
 
 namespace {
 
-/// Who asks so often in a row takes no refusal for an answer; others give up at the first.
+/// Only OpenBLAS repeats a refused request this often. Others give up at the first refusal.
 constexpr int most_refusals = 1000;
 std::atomic<int> refusals{0};
 
-/// Without memory of its own.
+/// Ends the program with a message, without allocating memory.
 [[noreturn]] void end_without_memory() {
   constexpr std::string_view text =
       "reducer: out of memory: the linear algebra needs 128 MB more for each thread; raise the limit (`ulimit -v`), or "

@@ -1,4 +1,4 @@
-// The commands of stage 1: read, work, write, tell.
+// Commands of stage 1: read, work, write, report.
 #include "reducer/commands.hpp"
 
 #include <unistd.h>
@@ -56,7 +56,7 @@ std::vector<formats::Override> overrides(const Arguments& arguments) {
   return result;
 }
 
-/// A CAD file, mesh or deck where a part file belongs.
+/// Throws the error for a CAD file, mesh or deck given where a part file is expected.
 [[noreturn]] void ask_for_part(const std::string& file, MeshFileKind kind) {
   const std::string name = std::filesystem::path(file).filename().string();
   const bool deck = kind == MeshFileKind::nastran || kind == MeshFileKind::abaqus;
@@ -77,21 +77,21 @@ formats::Part part_of(const Arguments& arguments) {
   return part;
 }
 
-/// What an output may not replace: the part file and its mesh file.
+/// Files that an output must not replace: the part file and its mesh file.
 std::vector<std::string> inputs_of(const formats::Part& part, const Arguments& arguments) {
   std::vector<std::string> inputs{arguments.input};
   if (!part.mesh.file.empty()) inputs.push_back(part.mesh.file);
   return inputs;
 }
 
-/// The path of an input or output without the ending of its kind, plus `ending`.
+/// Path of an input or output with the ending of its kind replaced by `ending`.
 std::string beside(const std::string& input, const std::string& ending) {
   return without_ending(input,
                         {".part.yaml", ".part.yml", ".yaml", ".yml", ".recovery.h5", ".superelement.h5", ".h5"}) +
          ending;
 }
 
-/// Tables and fields; the file takes its name with those of the superelement.
+/// Writes tables and fields to a staged file. It gets its final name together with the superelement.
 std::unique_ptr<formats::RecoveryWriter> write_recovery(const RecoverySource& source, const std::string& path,
                                                         const PhaseListener& listener) {
   const formats::Recovery tables = recovery_tables(source);
@@ -105,8 +105,8 @@ std::unique_ptr<formats::RecoveryWriter> write_recovery(const RecoverySource& so
   return writer;
 }
 
-/// "time", "processor time", "peak memory", "substitutions"; of several processes those of the first, and no
-/// substitutions, which are shared.
+/// Lines "time", "processor time", "peak memory", "substitutions". Several processes: times of the first, no
+/// substitutions.
 std::string times_text(const Phases& phases) {
   std::string text = fmt::format("{:<19}{}\n{:<19}{}\n{:<19}{}\n", "time", phases.text(), "processor time",
                                  phases.processor_text(), "peak memory", phases.memory_text());
@@ -127,8 +127,8 @@ std::string companion_text(const formats::Companion& companion, const std::strin
                      join(holds, ", "));
 }
 
-/// What lies where this run, which writes no companion, would have put one: that of an earlier run is removed, since
-/// mechanisms would take it for the new superelement's. Others' files stay, and are told.
+/// Removes the companion of an earlier run if this run writes none: mechanisms would take it for that of the new
+/// superelement. Files of other programs stay and are reported.
 std::string clear_companion(const std::string& path, const std::string& content_id) {
   if (!std::filesystem::exists(path)) return "";
   const std::optional<formats::CompanionOwner> owner = formats::companion_owner(path);
@@ -154,7 +154,8 @@ PhaseListener listener_of(Phases& phases) {
   return listener;
 }
 
-/// `session` begins when the input is read, and outlives what this function opens; so of solve().
+/// Runs the command. `session` begins after the input is read and outlives all that this function opens, also in
+/// solve().
 int run(const Arguments& arguments, std::optional<SolverSession>& session) {
   Phases phases;
   phases.begin("read");
@@ -178,7 +179,7 @@ int run(const Arguments& arguments, std::optional<SolverSession>& session) {
     recoveries[path] = write_recovery(source, path, listener);
   });
   phases.begin("write");
-  // All are complete before the first takes its name; the superelement, whose identity the others quote, is the last.
+  // All files are complete before the first gets its name. The superelement is last, since the others quote it.
   StagedFiles files;
   const std::string superelement = formats::superelement_image(output, reduction.superelement);
   if (reduction.companion)
@@ -237,7 +238,7 @@ int show(const Arguments& arguments) {
   return 0;
 }
 
-/// "12 beams, 340 shells": what there is.
+/// Numbers of nodes and elements, such as "400 nodes, 12 beams, 340 shells".
 std::string count_text(const Mesh& mesh) {
   std::vector<std::string> words{fmt::format("{} nodes", mesh.nodes())};
   const auto add = [&words](std::size_t count, const char* noun) {
@@ -256,7 +257,7 @@ std::string count_text(const Mesh& mesh) {
   return join(words, ", ");
 }
 
-/// part.yaml, or a mesh, geometry or deck alone.
+/// Part of a part.yaml, or of a mesh, geometry or deck alone.
 formats::Part part_or_file(const Arguments& arguments) {
   if (arguments.input.ends_with(".yaml") || arguments.input.ends_with(".yml")) return part_of(arguments);
   formats::Part part = part_of_file(arguments.input);
@@ -275,7 +276,7 @@ int mesh(const Arguments& arguments) {
   return 0;
 }
 
-/// What is seen of a part file or of a recovery file, as a page.
+/// HTML page that shows a part file or a recovery file.
 std::string page(const Arguments& arguments) {
   ViewedPart part;
   part.title = std::filesystem::path(arguments.input).filename().string();
@@ -299,7 +300,7 @@ std::string page(const Arguments& arguments) {
   return part_page(part);
 }
 
-/// Pages of a part and of its recovery file lie beside one another: bracket.part.html, bracket.recovery.html.
+/// Pages of a part and of its recovery file differ in name: bracket.part.html, bracket.recovery.html.
 int view(const Arguments& arguments) {
   const std::string own = without_ending(arguments.input, {".yaml", ".yml", ".h5"}) + ".html";
   const std::string output = arguments.output.empty() ? own : arguments.output;
@@ -330,7 +331,7 @@ int section(const Arguments& arguments) {
   return 0;
 }
 
-/// Of several processes those beside the first, which alone serves commands that share no work.
+/// Work of all processes but the first. Commands without shared work run in the first process only.
 int follow(const Arguments& arguments) {
   if (arguments.command != Command::run && arguments.command != Command::solve) return 0;
   std::packaged_task<Mesh()> mesh([&] {

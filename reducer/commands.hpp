@@ -1,4 +1,4 @@
-// What the command line asks for, between main() and the work.
+// Arguments of the command line, passed from main() to the commands.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ enum class Command { run, solve, show, mesh, view, groups, section, recover, imp
 struct Arguments {
   Command command = Command::run;
   std::string input;
-  std::string output;            ///< empty: beside the input
+  std::string output;            ///< empty: next to the input
   std::vector<std::string> set;  ///< path=value
   formats::MeshFile::Permission permission;
   SolveRequest solve_request;
@@ -25,8 +25,8 @@ struct Arguments {
   exchange::ExportRequest export_request;
 };
 
-/// Returns the exit code; throws Error. Two definitions: commands.cpp does the work (program reducer-solver),
-/// launch.cpp hands over to that program (program reducer), so that help and usage errors need not wait for 110 shared
+/// Runs a command and returns the exit code; throws Error. It has two definitions: commands.cpp does the work (program
+/// reducer-solver), launch.cpp starts that program (program reducer). So help and usage errors need not load 110 shared
 /// libraries.
 int perform(const Arguments& arguments, char** argv);
 

@@ -1,4 +1,4 @@
-// One call after another.
+// Loop of a follower over the calls of the leader.
 #include "reducer/follow.hpp"
 
 #include <optional>

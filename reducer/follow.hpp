@@ -1,4 +1,4 @@
-// The processes that mpirun starts beside the first: they do what the leader calls for.
+// Work of the processes that mpirun starts besides the first: they follow the calls of the leader.
 #pragma once
 
 #include <future>
@@ -7,8 +7,8 @@
 
 namespace tisserand::reducer {
 
-/// Works until the leader ends. Needs a SolverSession. `made` is the mesh of the leader's part; if it holds an error, or
-/// another mesh than the leader's, and the leader asks for its elements, all processes end.
+/// Works until the leader ends. Needs a SolverSession. `made` is the mesh of the leader's part. All processes end if
+/// the leader asks for its elements and it holds an error or differs from the leader's.
 void follow_leader(std::future<Mesh> made);
 
 }  // namespace tisserand::reducer

@@ -1,5 +1,5 @@
-// The quick front: sets the environment that the libraries of the solver read while they are loaded, then becomes the
-// solver.
+// Fast front program: sets the environment that the solver's libraries read while they are loaded, then replaces itself
+// by the solver.
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,8 +13,8 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Beside this program, as built; else where it is installed, relative to this program: a prefix may be moved as a
-/// whole.
+/// Path of the solver: next to this program in a build tree, otherwise in the installed place relative to it, so that a
+/// prefix may be moved.
 std::string solver_path() {
   const std::string folder = program_folder();
   const std::string built = folder + "reducer-solver";

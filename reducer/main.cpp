@@ -1,5 +1,5 @@
-// The command line of stage 1: reducer run, solve, show, mesh, groups, import, export. Linked twice: into the quick
-// front and into the solver behind it.
+// The command line of stage 1: reducer run, solve, show, mesh, groups, import, export. It is linked into both the fast
+// front program and the solver.
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -162,7 +162,7 @@ constexpr const char* about_export = R"help(Writes a superelement file in the fo
 
 It says what the format cannot hold. reducer/exchange/EXCHANGE.md has the formats.)help";
 
-/// The list of commands shows one line of each; its own help shows all.
+/// Adds a command. The list of commands shows the first line of `about`; the command's own help shows all.
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& about, const std::string& asked) {
   return app.add_subcommand(name, asked == name ? about + "\n" : about.substr(0, about.find('\n')));
 }
@@ -251,7 +251,7 @@ void add_permission(CLI::App* command, tisserand::formats::MeshFile::Permission&
       ->check(CLI::PositiveNumber);
 }
 
-/// Prints what is wrong with the words of the command line.
+/// Prints the usage error of a command line.
 int tell_usage(const CLI::App& app, const CLI::ParseError& error, const std::string& asked) {
   const std::vector<std::string> commands{"run",    "solve",   "show",    "mesh",   "view",
                                           "groups", "section", "recover", "import", "export"};

@@ -1,4 +1,4 @@
-// The story of stage 1, in the order of the data: part -> mesh -> S, M -> modes -> superelement.
+// Stage 1 in the order of the data: part -> mesh -> S, M -> modes -> superelement.
 #include "reducer/reduce.hpp"
 
 #include <optional>

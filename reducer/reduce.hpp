@@ -1,4 +1,4 @@
-// The story of stage 1: from a part to its superelement and certificate.
+// Stage 1: from a part to its superelement and certificate.
 #pragma once
 
 #include <optional>
@@ -18,16 +18,16 @@ struct Reduction {
   formats::Superelement superelement;
   FileCertificate file;
   ModelCertificate model;
-  std::optional<formats::Companion> companion;   ///< of the superelement, if the part asks for it
-  std::optional<formats::ModalBody> modal_body;  ///< the same part as a floating-frame body, if it asks for it
+  std::optional<formats::Companion> companion;   ///< companion of the superelement, if the part asks for one
+  std::optional<formats::ModalBody> modal_body;  ///< floating-frame body of the same part, if it asks for one
 };
 
-/// `recover` hears what recovery files are made from, of the superelement and of the modal body, where the part asks
-/// for them. Needs a SolverSession. Throws Error for whatever is wrong with the part.
+/// Reduces a part. `recover` receives the sources of recovery files, for superelement and modal body, if the part asks
+/// for them. Needs a SolverSession. Throws Error for any fault of the part.
 Reduction reduce(const formats::Part& part, const PhaseListener& begin, const RecoveryListener& recover);
 inline Reduction reduce(const formats::Part& part, const PhaseListener& begin) { return reduce(part, begin, nullptr); }
 
-/// The same from a mesh on; `part` gives name, units and the choice of modes.
+/// Reduces a mesh. `part` gives name, units and the choice of modes.
 Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin,
                       const RecoveryListener& recover);
 inline Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin) {

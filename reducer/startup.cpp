@@ -1,4 +1,4 @@
-// Environment variables for OpenBLAS and Open MPI; where the program lies.
+// Environment variables for OpenBLAS and Open MPI, and the folder of the program.
 #include "reducer/startup.hpp"
 
 #include <dlfcn.h>
@@ -14,13 +14,13 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr int keep = 0;  ///< setenv: what the user has set stays
+constexpr int keep = 0;  ///< argument of setenv: values of the user stay
 constexpr int replace = 1;
 constexpr const char* core_type = "OPENBLAS_CORETYPE";
 constexpr const char* session_folders = "OMPI_MCA_orte_create_session_dirs";
 constexpr const char* restarted = "TISSERAND_REDUCER_RESTARTED";
 
-/// The kernels of OpenBLAS for this processor's instructions; null: let it choose.
+/// OpenBLAS kernels for this processor's instructions; null: OpenBLAS chooses.
 const char* core_of_processor() {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
@@ -38,23 +38,23 @@ bool is_intel() {
 #endif
 }
 
-/// The kernels that OpenBLAS runs with; empty if the BLAS is another one.
+/// Kernels that OpenBLAS runs with; empty for another BLAS.
 std::string_view loaded_core() {
   using CoreName = char* (*)();
   void* const symbol = dlsym(RTLD_DEFAULT, "openblas_get_corename");
   return symbol == nullptr ? std::string_view() : reinterpret_cast<CoreName>(symbol)();
 }
 
-/// The number that a launcher of MPI gave this process; null without one.
+/// Rank that an MPI launcher gave this process; null without a launcher.
 const char* rank_of_launcher() {
   for (const char* const variable : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
     if (const char* const rank = std::getenv(variable)) return rank;
   return nullptr;
 }
 
-/// In a relocatable archive (scripts/archive) the parts of Open MPI and of hwloc lie beside the programs. Without these
-/// variables both libraries search the folders of a Debian system, where another version may be. The user's own
-/// OPAL_PREFIX is replaced: it belongs to another Open MPI.
+/// Sets the folders of Open MPI and hwloc in a relocatable archive (scripts/archive), where they lie next to the
+/// programs. Otherwise both search the folders of a Debian system, which may hold another version. The user's
+/// OPAL_PREFIX is replaced, because it belongs to another Open MPI.
 void use_parts_of_archive() {
   const std::string root = program_folder() + "..", libraries = root + "/lib/tisserand";
   if (access((libraries + "/openmpi3").c_str(), X_OK) != 0) return;
@@ -84,12 +84,12 @@ std::string program_folder() {
 
 void prepare_environment() {
   use_parts_of_archive();
-  setenv("OPENBLAS_NUM_THREADS", "1", replace);  // with more the sums, and so the bits of files, are others
-  // Matrices in pages of 2 MB, and memory that is freed is kept for the next: a third of the time of 100 000 coordinates.
+  setenv("OPENBLAS_NUM_THREADS", "1", replace);  // more threads change the order of sums, and so the bits of files
+  // Pages of 2 MB for matrices and reuse of freed memory save a third of the time of 100 000 coordinates.
   setenv("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1:glibc.malloc.trim_threshold=268435456", keep);
   if (rank_of_launcher() == nullptr) {
     setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
-    // Programs that start and end together race for one folder of sessions.
+    // Programs that start and end together would compete for one session folder.
     setenv(session_folders, "0", keep);
     setenv("OMPI_MCA_pml", "ob1", keep);
     setenv("OMPI_MCA_btl", "self", keep);
@@ -114,7 +114,7 @@ void restart_if_blas_is_slow(char** argv) {
     return;
   setenv(core_type, core, keep);
   setenv(restarted, "1", keep);
-  execv("/proc/self/exe", argv);  // returns only if it failed: then go on with slow kernels
+  execv("/proc/self/exe", argv);  // returns only if it failed; then the program goes on with slow kernels
 }
 
 }  // namespace tisserand::reducer

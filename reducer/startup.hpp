@@ -1,30 +1,29 @@
-// What must be right in the environment of the process before the libraries of the solver are loaded.
+// Environment of the process, prepared before the solver's libraries are loaded.
 #pragma once
 
 #include <string>
 
 namespace tisserand::reducer {
 
-/// The folder of the program that runs, with / at its end: other programs of ours are found from there.
+/// Folder of the running program, with / at its end; our other programs are found from it.
 std::string program_folder();
 
-/// Whether a launcher of MPI (mpirun, srun) started this process beside another that leads: it says nothing, writes
-/// nothing, and works where the leader asks it to.
+/// Whether an MPI launcher (mpirun, srun) started this process as a follower. A follower prints and writes nothing and
+/// does the work that the leader asks for.
 bool is_follower();
 
-/// OpenBLAS 0.3.21 takes processors that it does not know for the oldest (4-5 times slower) and reads OPENBLAS_CORETYPE
-/// only while it is loaded; OpenMPI starts a daemon per process unless told otherwise; malloc takes small pages and gives
-/// memory back at once. Sets the variables for this processor; those that the user has set stay. In a relocatable archive:
-/// also where its Open MPI lies, which serves one process; throws Error if a launcher of MPI started this one.
+/// Sets variables for this processor; those that the user has set stay. OpenBLAS 0.3.21 treats unknown processors as
+/// the oldest (4-5 times slower) and reads OPENBLAS_CORETYPE only while it is loaded. Open MPI starts a daemon per
+/// process by default. malloc uses small pages and returns memory at once. In a relocatable archive it also sets the
+/// folder of its Open MPI, which serves one process: it throws Error under an MPI launcher.
 void prepare_environment();
 
-/// Whether a process whose files are closed and whose words are written may end by _exit: MPI and PETSc then end without
-/// their clean-up, which takes 12 ms and has nothing to clean. Not if a launcher of MPI waits for it, if Open MPI made a
-/// folder for its session, or in a build with sanitizers, which report at the end.
+/// Whether a process that has closed its files and printed everything may end by _exit. This saves the clean-up of MPI
+/// and PETSc (12 ms). False under an MPI launcher, if Open MPI made a session folder, or in a build with sanitizers,
+/// which report at the end.
 bool may_leave_at_once();
 
-/// If OpenBLAS has chosen its oldest kernels on a better processor all the same: starts this program once more in place
-/// of itself with the right choice.
+/// Restarts this program with the right kernels if OpenBLAS has chosen its oldest kernels on a better processor.
 void restart_if_blas_is_slow(char** argv);
 
 }  // namespace tisserand::reducer

@@ -1,5 +1,5 @@
-// CHOLMOD's supernodal factor, and substitution with it for a few right-hand sides at a time, kept row by row: L is
-// read once for all of them, and each of its entries meets one line of the cache.
+// Supernodal factor by CHOLMOD, and substitution for a few right-hand sides at a time. They are stored row by row: L is
+// read once for all of them, and a row of them fills one cache line.
 #include "reducer/algebra/cholesky.hpp"
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr int together = 4;  ///< columns of L at a time: their solutions stay in registers
+constexpr int together = 4;  ///< columns of L processed together, so that their solutions stay in registers
 
-/// Columns of L of one pattern: `own` of them, whose rows come first among `rows`; column c begins at `value` + c·rows.
+/// Columns of L of one pattern; rows of the `own` columns come first among `rows`. Column c begins at `value` + c·rows.
 struct Supernode {
   const double* value;
   const int* row;
@@ -42,7 +42,7 @@ void eliminate(const Supernode& s, int first, double* y) {
   }
 }
 
-/// x := L⁻ᵀ x likewise.
+/// x := L⁻ᵀ x on the gathered rows, `count` columns from `first` on.
 template <int count>
 void substitute_back(const Supernode& s, int first, double* y) {
   const double* l[count];
@@ -86,7 +86,7 @@ void backward(const Supernode& s, double* y, double* all) {
   scatter(s, s.own, y, all);
 }
 
-/// Short memory is no singular matrix.
+/// Throws bad_alloc if memory was short, since it does not mean a singular matrix.
 void require_memory(const cholmod_common& common) {
   if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
 }
@@ -109,11 +109,11 @@ struct Cholesky::State {
     return {x, static_cast<const int*>(L->s) + pi[s], super[s + 1] - super[s], pi[s + 1] - pi[s]};
   }
 
-  /// What cannot be factored is judged by the caller: nothing is printed.
+  /// Printing is off, because the caller judges a failed factorisation.
   cholmod_common common{};
   cholmod_sparse A{};
   cholmod_factor* L = nullptr;
-  int most_rows = 0;  ///< of a supernode
+  int most_rows = 0;  ///< largest number of rows of a supernode
 };
 
 Cholesky::Cholesky(const SymmetricRows& A) : state_(std::make_unique<State>()) {
@@ -123,7 +123,7 @@ Cholesky::Cholesky(const SymmetricRows& A) : state_(std::make_unique<State>()) {
   common.method[0].ordering = CHOLMOD_METIS;
   common.postorder = 1;
   common.supernodal = CHOLMOD_SUPERNODAL;
-  // Upper triangle by rows is the lower one by columns.
+  // The upper triangle by rows is the lower triangle by columns.
   cholmod_sparse& a = state_->A;
   a.nrow = a.ncol = static_cast<std::size_t>(A.size);
   a.nzmax = static_cast<std::size_t>(A.begin[A.size]);
@@ -166,7 +166,7 @@ double Cholesky::factor() {
 }
 
 Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& B) const {
-  constexpr Eigen::Index most_groups = 4;  // of right-hand sides that meet a supernode while the cache has it
+  constexpr Eigen::Index most_groups = 4;  // groups of right-hand sides that use a supernode while it is in the cache
   const State& s = *state_;
   const int* const permutation = static_cast<const int*>(s.L->Perm);
   Eigen::MatrixXd X(B.rows(), B.cols());

@@ -1,4 +1,4 @@
-// L Lᵀ of a large sparse symmetric positive definite matrix (CHOLMOD, supernodal) and its solution for blocks of
+// Factor L Lᵀ of a large sparse symmetric positive definite matrix (CHOLMOD, supernodal), with solutions for blocks of
 // right-hand sides.
 #pragma once
 
@@ -10,17 +10,17 @@
 
 namespace tisserand::reducer {
 
-/// What a factorisation costs, known before it is done.
+/// Cost of a factorisation, known before it is done.
 struct FactorCost {
-  double entries = 0.0;     ///< of L
-  double operations = 0.0;  ///< floating-point ones
+  double entries = 0.0;     ///< stored entries of L
+  double operations = 0.0;  ///< floating-point operations
   double bytes() const { return 8.0 * entries; }
 };
 
-/// P A Pᵀ = L Lᵀ, P by nested dissection (METIS). The rows of A are looked at until the factor is made.
+/// Factorisation P A Pᵀ = L Lᵀ, P by nested dissection (METIS). The rows of A must live until factor() has returned.
 class Cholesky {
  public:
-  /// The order of elimination and the pattern of L. Throws Error if the pattern exceeds CHOLMOD's indices.
+  /// Finds the elimination order and the pattern of L. Throws Error if the pattern exceeds CHOLMOD's indices.
   explicit Cholesky(const SymmetricRows& A);
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;
@@ -28,11 +28,11 @@ class Cholesky {
 
   const FactorCost& cost() const { return cost_; }
 
-  /// The least l_jj²/a_jj, the share of a diagonal entry that elimination leaves; 0 if A is not positive definite (then
-  /// there is no factor), and negative if the memory does not suffice.
+  /// Least l_jj²/a_jj, the share of a diagonal entry that remains after elimination. The result is 0 if A is not
+  /// positive definite (no factor exists then) and negative if the memory does not suffice.
   double factor();
 
-  /// A⁻¹ B. A column of the result does not depend on the others, to the last bit.
+  /// A⁻¹ B. Each column of the result is independent of the other columns, to the last bit.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
 
  private:

@@ -1,4 +1,4 @@
-// CHOLMOD first, MUMPS where it does not do and where several ranks share the work.
+// Choice of the solver: CHOLMOD first, MUMPS if CHOLMOD fails or several ranks share the work.
 #include "reducer/algebra/factor.hpp"
 
 namespace tisserand::reducer {

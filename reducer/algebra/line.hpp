@@ -1,4 +1,4 @@
-// A row of a few right-hand sides kept side by side: what products and substitutions with sparse matrices work on.
+// A row of eight right-hand sides stored side by side, on which products and substitutions with sparse matrices work.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace tisserand::reducer {
 
-/// Eight numbers, one line of the cache, as vectors of four (GCC and Clang split or join them as the processor needs).
+/// Eight numbers, which fill one cache line, as vectors of four. GCC and Clang split or join them to fit the processor.
 struct Line {
   static constexpr int width = 8;
   static constexpr int packet = 4;
@@ -26,7 +26,7 @@ struct Line {
   void add(double factor, const Line& other) {
     for (int p = 0; p < width / packet; ++p) part[p] += factor * other.part[p];
   }
-  /// += factor (a b + c d)
+  /// Adds factor (a b + c d).
   void add_products(double factor, const Line& a, const Line& b, const Line& c, const Line& d) {
     for (int p = 0; p < width / packet; ++p) part[p] += factor * (a.part[p] * b.part[p] + c.part[p] * d.part[p]);
   }
@@ -36,7 +36,7 @@ struct Line {
   static std::ptrdiff_t at(Eigen::Index row) { return static_cast<std::ptrdiff_t>(width) * row; }
 };
 
-/// Columns `first` to first + 7 of B, row `row(i)` of it in line i; columns beyond the last are zero.
+/// Copies columns `first` to first + 7 of B: line i gets row `row(i)`. Columns beyond the last one are zero.
 template <class Row>
 void to_lines(const Eigen::MatrixXd& B, Eigen::Index first, const Row& row, double* lines) {
   for (Eigen::Index c = 0; c < Line::width; ++c) {
@@ -45,7 +45,7 @@ void to_lines(const Eigen::MatrixXd& B, Eigen::Index first, const Row& row, doub
   }
 }
 
-/// The way back.
+/// Copies lines back to columns of X; the inverse of to_lines().
 template <class Row>
 void from_lines(const double* lines, Eigen::Index first, const Row& row, Eigen::MatrixXd& X) {
   for (Eigen::Index c = 0; c < Line::width && first + c < X.cols(); ++c) {

@@ -21,13 +21,13 @@ Mumps::Mumps(const Matrix& A, double null_pivot) : rows_(A.size()) {
   local_rows_ = local;
   MatFactorInfo info;
   petsc_check(MatFactorInfoInitialize(&info));
-  // Right-hand sides go to MUMPS from one rank: from several it finds no null vectors. PETSc knows that as an option only.
+  // MUMPS finds null vectors only if one rank gives the right-hand sides. PETSc has this as an option only.
   petsc_check(PetscOptionsSetValue(nullptr, "-mat_mumps_icntl_20", "0"));
   petsc_check(MatGetFactor(A.get(), MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factor_.out()));
   petsc_check(MatMumpsSetIcntl(factor_.get(), 24, 1));         // null pivots are found, not fatal
-  petsc_check(MatMumpsSetCntl(factor_.get(), 3, null_pivot));  // ... below this share of the scaled matrix's norm
-  petsc_check(MatMumpsSetIcntl(factor_.get(), 14, 60));        // per cent of memory beyond the estimate, for pivoting
-  petsc_check(MatMumpsSetIcntl(factor_.get(), 13, 1));         // no ScaLAPACK at the root, which counts no signs
+  petsc_check(MatMumpsSetCntl(factor_.get(), 3, null_pivot));  // ... if below this share of the scaled matrix's norm
+  petsc_check(MatMumpsSetIcntl(factor_.get(), 14, 60));        // per cent of memory above the estimate, for pivoting
+  petsc_check(MatMumpsSetIcntl(factor_.get(), 13, 1));         // no ScaLAPACK at the root: it does not count signs
   petsc_check(MatCholeskyFactorSymbolic(factor_.get(), A.get(), nullptr, &info));
   PetscInt entries = 0;
   PetscReal operations = 0.0;

@@ -1,5 +1,5 @@
-// L D Lᵀ of a sparse symmetric matrix by MUMPS through PETSc, which counts signs and finds null vectors; of one
-// process, or of all ranks together.
+// Factor L D Lᵀ of a sparse symmetric matrix by MUMPS through PETSc. It counts signs and finds null vectors, in one
+// process or in all ranks together.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,33 +9,33 @@
 
 namespace tisserand::reducer {
 
-/// Of a matrix that lies on several ranks all members are collective, and rows are those of the rank.
+/// Factor of a matrix. If it is spread over several ranks, all members are collective and work on the rank's rows.
 class Mumps {
  public:
-  /// The order of elimination. Pivots below `null_pivot` of the largest (after scaling) will count as null.
+  /// Finds the elimination order. Pivots below `null_pivot` of the largest (after scaling) will count as null.
   Mumps(const Matrix& A, double null_pivot);
-  /// By MUMPS's own estimate.
+  /// Cost as MUMPS estimates it.
   const FactorCost& cost() const { return cost_; }
-  int rows() const { return rows_; }  ///< of the whole matrix
+  int rows() const { return rows_; }  ///< rows of the whole matrix
 
-  /// A as before. What fails, such as the memory, fails on all ranks alike, and is told by require_factored().
+  /// Factors the constructor's A. A failure (such as short memory) occurs on all ranks; see require_factored().
   void factor(const Matrix& A);
-  /// Throws Error with the reason and the remedy if factor() failed.
+  /// Throws Error with reason and remedy if factor() failed.
   void require_factored() const;
-  /// Eigenvalues of A by sign (Sylvester's law of inertia).
+  /// Number of negative eigenvalues of A (Sylvester's law of inertia).
   int negative() const { return negative_; }
   int null() const { return null_; }
 
   /// A⁻¹ B. Only if null() is 0.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
-  /// Number k of a basis of the null space, k < null().
+  /// Vector k of a basis of the null space, k < null().
   Eigen::VectorXd null_vector(int k) const;
 
  private:
   Matrix factor_;
   FactorCost cost_;
   int rows_ = 0;
-  int local_rows_ = 0;  ///< of this rank
+  int local_rows_ = 0;  ///< rows of this rank
   int negative_ = 0;
   int null_ = 0;
   int failure_ = 0;  ///< MUMPS's INFOG(1), if negative

@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double suspicious_share = 1e-12;  ///< energies that are looked at more closely
+constexpr double suspicious_share = 1e-12;  ///< energies below this are examined more closely
 
 /// Numbers between -1/2 and 1/2 that are the same in every run (a linear congruential generator modulo 2⁶⁴).
 MatrixXd scattered(Index rows, Index columns) {
@@ -29,14 +29,14 @@ MatrixXd scattered(Index rows, Index columns) {
   return B;
 }
 
-/// Square roots of diag(S); of a coordinate without any, that of the largest.
+/// Square roots of diag(S); a coordinate without stiffness gets that of the largest entry.
 VectorXd scale_of(const Matrix& S) {
   const VectorXd d = diagonal(S);
   const double largest = d.cwiseAbs().maxCoeff();
   return (d.array() > 0.0).select(d, largest > 0.0 ? largest : 1.0).cwiseSqrt();
 }
 
-/// Gram and Schmidt, three times, since columns may be parallel but for round-off.
+/// Gram-Schmidt orthogonalisation in three passes, since columns may be parallel except for round-off.
 MatrixXd orthonormal(MatrixXd Q) {
   constexpr int passes = 3;
   for (Index c = 0; c < Q.cols(); ++c)
@@ -57,7 +57,7 @@ MatrixXd softest_first(const Matrix& S, const VectorXd& scale, const MatrixXd& X
   return V * solver.eigenvectors();
 }
 
-/// vᵀ S v / |v|ᵀ |S| |v|; a coordinate without any stiffness counts with its scale among the terms.
+/// vᵀ S v / |v|ᵀ |S| |v|. A coordinate without stiffness counts with its scale among the terms.
 double energy_share(const Matrix& S, const VectorXd& scale, const VectorXd& v) {
   const SymmetricRows A = symmetric_rows(S);
   double sum = 0.0, terms = 0.0;
@@ -72,7 +72,7 @@ double energy_share(const Matrix& S, const VectorXd& scale, const VectorXd& v) {
   return terms > 0.0 ? sum / terms : 0.0;
 }
 
-/// Counts the leading columns of V that are null, and notes the first that is not.
+/// Counts the leading null columns of V and notes the first column that is not null.
 Index count_null(const Matrix& S, const VectorXd& scale, const MatrixXd& V, NullSpace& result) {
   for (Index k = 0; k < V.cols(); ++k) {
     const double share = energy_share(S, scale, V.col(k));
@@ -84,7 +84,7 @@ Index count_null(const Matrix& S, const VectorXd& scale, const MatrixXd& V, Null
   return V.cols();
 }
 
-/// S + 1e-12 diag(S), with a diagonal where S has none.
+/// Factor of S + 1e-12 diag(S); scale² replaces the entries that are missing in the diagonal.
 Factor shifted_factor(const Matrix& S, const VectorXd& scale) {
   constexpr double shift = 1e-12;
   const SymmetricRows A = symmetric_rows(S);
@@ -97,7 +97,7 @@ Factor shifted_factor(const Matrix& S, const VectorXd& scale) {
   return Factor(to_petsc(pair).stiffness);
 }
 
-/// The basis that is the unit matrix at well chosen coordinates.
+/// Sets the basis that is the unit matrix at `pivots`, the coordinates that pivoting chooses.
 void set_basis(const VectorXd& scale, const MatrixXd& V, NullSpace& result) {
   const Index k = V.cols();
   const MatrixXd scaled = V.transpose() * scale.asDiagonal();

@@ -1,4 +1,4 @@
-// Null space of a sparse symmetric stiffness: between its factor and all that divides by it.
+// Null space of a sparse symmetric stiffness matrix, checked before anything divides by its factor.
 #pragma once
 
 #include <vector>
@@ -10,32 +10,32 @@
 
 namespace tisserand::reducer {
 
-/// Motions v without stiffness: the strain energy vᵀ S v is round-off of its terms, that is at most `null_share` of
-/// |v|ᵀ |S| |v|.
+/// Motions v without stiffness. Their strain energy vᵀ S v is only round-off of its terms: at most `null_share` of |v|ᵀ
+/// |S| |v|.
 struct NullSpace {
   Eigen::MatrixXd vectors;   ///< n x k: a basis that is the unit matrix at `pivots`
-  std::vector<int> pivots;   ///< k coordinates
+  std::vector<int> pivots;   ///< the k coordinates of the unit matrix
   int negative = 0;          ///< negative eigenvalues of S, if it is indefinite beyond round-off
-  double least_share = 1.0;  ///< the least vᵀ S v / |v|ᵀ |S| |v| above `null_share` that was seen
-  Eigen::VectorXd softest;   ///< its v; empty: not looked for
+  double least_share = 1.0;  ///< least vᵀ S v / |v|ᵀ |S| |v| found above `null_share`
+  Eigen::VectorXd softest;   ///< the v of least_share; empty if it was not searched for
 };
 
-/// Energies of mechanisms are measured below 5e-18 of their terms (1e-16 is the rounding of one term), those of soft
-/// motions above 3e-12 (10 000 beams in a row, stiff beside soft): this lies between.
+/// Measured energies of mechanisms are below 5e-18 of their terms (one term is rounded to 1e-16). Those of soft motions
+/// are above 3e-12 (10 000 beams in a row, stiff next to soft). This limit lies between both.
 inline constexpr double null_share = 4e-15;
-/// Round-off is more than a thousandth of an energy below this.
+/// Below this energy share, round-off is more than a thousandth of the energy.
 inline constexpr double doubtful_share = 1e-13;
 
-/// Share of its diagonal entry that a pivot keeps where it is trusted.
+/// A pivot is trusted if it keeps at least this share of its diagonal entry.
 inline constexpr double trusted_pivot = 1e-6;
 
-/// `factor`: of S, by Factor(S). Where all its pivots keep 1e-6 of their diagonal entries there is no null space: at
-/// the last coordinate that a motion v moves the pivot is vᵀ S v/v_j². Else one block of solutions looks for v, and if
-/// that finds energies below 1e-12, subspace iteration with S + 1e-12 diag(S), which is definite where S is
-/// semidefinite, decides.
+/// Null space of S from `factor`, made by Factor(S). If all pivots keep 1e-6 of their diagonal entries, there is none:
+/// at the last coordinate that a motion v moves, the pivot is vᵀ S v/v_j². Otherwise a block of solutions searches for
+/// v. If it finds energies below 1e-12, subspace iteration with S + 1e-12 diag(S) decides, which is definite if S is
+/// semidefinite.
 NullSpace null_space(const Matrix& S, const Factor& factor);
 
-/// The same without trust in the pivots.
+/// Null space of S by search, without trust in the pivots.
 NullSpace searched_null_space(const Matrix& S, const Factor& factor);
 
 }  // namespace tisserand::reducer

@@ -15,13 +15,13 @@
 #include "common/memory/short_memory.hpp"
 #include "reducer/algebra/ranks.hpp"
 
-/// Of OpenMP. GCC's omp.h, where it stands, does not compile with clang.
+/// Declaration of an OpenMP function, because GCC's omp.h does not compile with clang.
 extern "C" void omp_set_max_active_levels(int levels);
 
 namespace tisserand::reducer {
 namespace {
 
-/// The text of the first failure since the last petsc_check; PETSc hands it to the handler through `context`.
+/// Text of the first failure since the last petsc_check. PETSc passes it to the handler as `context`.
 std::string& failure_text() {
   static std::string text;
   return text;
@@ -34,8 +34,8 @@ PetscErrorCode collect(MPI_Comm, int line, const char* function, const char* fil
   return code;
 }
 
-/// OpenBLAS sums in another order with another number of threads; CHOLMOD asks OpenMP for four on any machine, which
-/// wait for one another by spinning.
+/// Sets one thread. OpenBLAS sums in an order that depends on the number of threads. CHOLMOD asks OpenMP for four on
+/// any machine, which wait by spinning.
 void use_one_thread() {
   using SetThreads = void (*)(int);
   if (void* const set = dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) reinterpret_cast<SetThreads>(set)(1);
@@ -45,7 +45,8 @@ void use_one_thread() {
 }  // namespace
 
 SolverSession::SolverSession() {
-  // Open MPI ends the program in its own words where it cannot begin, OpenBLAS needs 128 MB for its first product.
+  // Short memory is reported here: Open MPI would end the program with its own message, and OpenBLAS needs 128 MB
+  // first.
   require_addresses(std::size_t{160} << 20U);
   use_one_thread();
   unsetenv("PETSC_OPTIONS");

@@ -1,5 +1,5 @@
-// The thin layer over PETSc and SLEPc: start and end, owned matrices, errors as exceptions. Their headers stay in .cpp
-// files.
+// Thin layer over PETSc and SLEPc: start and end, owned matrices, errors as exceptions. Their headers are included in
+// .cpp files only.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ struct _p_Mat;
 namespace tisserand::reducer {
 
 /// Starts MPI, PETSc and SLEPc (no option files, no signal handlers) and ends them. One per process, in commands that
-/// solve only: it costs some 50 ms. BLAS and OpenMP get one thread, so that sums do not depend on the machine.
+/// solve only, because it costs 50 ms. BLAS and OpenMP get one thread: sums do not depend on the machine.
 class SolverSession {
  public:
   SolverSession();
@@ -26,7 +26,7 @@ class SolverSession {
 /// Throws Error with PETSc's own text if `code` is not 0.
 void petsc_check(int code);
 
-/// Owner of a PETSc Mat, and of the arrays that a Mat made "with arrays" only points to.
+/// Owner of a PETSc Mat and of the arrays to which a Mat made "with arrays" only points.
 class Matrix {
  public:
   Matrix() = default;
@@ -44,7 +44,7 @@ class Matrix {
 
   _p_Mat* get() const { return mat_; }
   int size() const;                 ///< rows
-  _p_Mat** out() { return &mat_; }  ///< for PETSc functions that create
+  _p_Mat** out() { return &mat_; }  ///< for PETSc functions that create a Mat
   void keep_alive(std::shared_ptr<const void> arrays) { arrays_ = std::move(arrays); }
 
  private:
@@ -52,10 +52,10 @@ class Matrix {
   std::shared_ptr<const void> arrays_;
 };
 
-/// A view of A while it lives.
+/// View of A, valid while A lives.
 SymmetricRows symmetric_rows(const Matrix& A);
 
-/// Columns as a dense matrix of PETSc, spread by rows as the square matrix `A` is. The values must outlive it.
+/// View of columns as a dense PETSc matrix, spread by rows like the square matrix `A`. The values must outlive it.
 Matrix dense_view(_p_Mat* A, Eigen::Index columns, const double* values);
 
 /// A X for symmetric A (n x n) and dense X (n x k).
@@ -70,7 +70,7 @@ Eigen::MatrixXd dense(const Matrix& A);
 /// diag(d) A diag(d).
 Matrix scaled(const Matrix& A, const Eigen::VectorXd& d);
 
-/// A + factor B; the pattern of B is within that of A or is added.
+/// A + factor B. The pattern of B lies within that of A or is added to it.
 Matrix combine(const Matrix& A, double factor, const Matrix& B);
 
 }  // namespace tisserand::reducer

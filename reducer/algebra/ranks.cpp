@@ -21,14 +21,14 @@ constexpr int columns_per_message = 32;
 
 int int_of(Eigen::Index count) { return static_cast<int>(count); }
 
-/// Work without PETSc, such as assembly, needs no session.
+/// Whether MPI runs. Work without PETSc, such as assembly, needs no session.
 bool messages_can_be_sent() {
   int initialised = 0;
   MPI_Initialized(&initialised);
   return initialised != 0;
 }
 
-/// Entries of each rank's rows of `columns` columns, and where they begin.
+/// Number of entries of each rank's rows in `columns` columns, and where they begin.
 struct Layout {
   std::vector<int> count, begin;
 };
@@ -43,7 +43,7 @@ Layout layout_of(int rows, int columns) {
   return layout;
 }
 
-/// Columns first to first + columns − 1 of what the leader has, the rows of each rank together.
+/// Packs columns first to first + columns − 1 of the leader's matrix so that the rows of each rank are contiguous.
 void pack_rows(const Eigen::MatrixXd& whole, int first, int columns, std::vector<double>& packed) {
   packed.resize(static_cast<std::size_t>(whole.rows() * columns));
   double* to = packed.data();
@@ -63,7 +63,7 @@ void unpack_rows(const std::vector<double>& packed, int first, int columns, Eige
   }
 }
 
-/// A follower's rows of a symmetric matrix of `rows` rows.
+/// Rows of a symmetric matrix of `rows` rows that a follower holds.
 struct ReceivedRows {
   std::vector<int> begin, column;
   std::vector<double> value;

@@ -1,4 +1,4 @@
-// The members of both sides in pairs: what one does first, the other does too.
+// Work on a shared factor: leader and followers make the same collective calls in the same order.
 #include "reducer/algebra/shared_factor.hpp"
 
 namespace tisserand::reducer {

@@ -1,4 +1,4 @@
-// L D Lᵀ spread over all ranks: what the leader holds of it, and what the others do when it calls.
+// Factor L D Lᵀ spread over all ranks: the leader's handle and the followers' work.
 #pragma once
 
 #include <map>
@@ -13,21 +13,21 @@ namespace tisserand::reducer {
 
 /// A rank's part of one factor.
 struct FactorPart {
-  Matrix A;  ///< until it is factored
+  Matrix A;  ///< kept until it is factored
   std::unique_ptr<Mumps> mumps;
 };
 
-/// The leader's side: each member calls the followers.
+/// Leader: handle of the factor. Each member calls the followers.
 class SharedFactor {
  public:
-  /// The order of elimination; `null_pivot` as in Mumps.
+  /// Finds the elimination order; `null_pivot` as in Mumps.
   SharedFactor(const Matrix& A, double null_pivot);
   ~SharedFactor();
   SharedFactor(const SharedFactor&) = delete;
   SharedFactor& operator=(const SharedFactor&) = delete;
 
   void factor();
-  int number() const { return number_; }  ///< by which followers know it
+  int number() const { return number_; }  ///< number by which followers identify it
   const Mumps& mumps() const { return *part_.mumps; }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
   Eigen::MatrixXd null_vectors() const;
@@ -38,9 +38,9 @@ class SharedFactor {
   int number_ = 0;
 };
 
-/// The followers' side, by number.
+/// Followers: parts of factors by number.
 using FactorParts = std::map<int, FactorPart>;
-/// Does what the leader does in a member of SharedFactor.
+/// Does the followers' share of a member function of SharedFactor.
 void take_part(const Call& call, FactorParts& parts);
 
 }  // namespace tisserand::reducer

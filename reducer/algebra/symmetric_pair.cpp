@@ -1,4 +1,4 @@
-// Products with pairs of symmetric matrices, and their way to PETSc.
+// Products with pairs of symmetric matrices, and their conversion to PETSc.
 #include "reducer/algebra/symmetric_pair.hpp"
 
 #include <limits>

@@ -1,4 +1,4 @@
-// Stiffness and mass with one common sparsity pattern: the form of the matrices between assembly and the solvers.
+// Stiffness and mass with one common sparsity pattern, as assembly passes them to the solvers.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace tisserand::reducer {
 
-/// Upper triangles, row by row: columns ascend and begin with the diagonal, which every row has.
+/// Upper triangles, row by row. Columns ascend from the diagonal, which every row has.
 struct SymmetricPair {
   std::vector<int> begin{0};  ///< rows + 1
   std::vector<int> column;
@@ -18,7 +18,7 @@ struct SymmetricPair {
   int size() const { return count_of(begin) - 1; }
 };
 
-/// The matrix with the pattern of `pair` and the values S or M of it.
+/// View of the matrix with the pattern of `pair` and `values`, which are its S or M.
 SymmetricRows symmetric_rows(const SymmetricPair& pair, const std::vector<double>& values);
 
 /// S and M as PETSc's symmetric matrices.
@@ -27,7 +27,7 @@ struct SystemMatrices {
   Matrix mass;
 };
 
-/// Takes the arrays over without copying them.
+/// PETSc matrices that take the arrays over without a copy.
 SystemMatrices to_petsc(SymmetricPair pair);
 
 /// Throws Error if a matrix with that many stored entries exceeds the range of PETSc's indices.

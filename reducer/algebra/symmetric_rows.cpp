@@ -9,7 +9,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// y += A x for lines.
+/// y += A x for one line per row.
 void add_product(const SymmetricRows& A, const double* x, double* y) {
   for (int i = 0; i < A.size; ++i) {
     const Line x_i = Line::load(x + Line::at(i));

@@ -5,7 +5,7 @@
 
 namespace tisserand::reducer {
 
-/// Row i has the columns column[begin[i]] ... column[begin[i + 1] − 1], ascending from the diagonal on.
+/// Upper triangle. Row i has columns column[begin[i]] ... column[begin[i + 1] − 1], ascending from the diagonal on.
 struct SymmetricRows {
   int size = 0;
   const int* begin = nullptr;
@@ -13,7 +13,7 @@ struct SymmetricRows {
   const double* value = nullptr;
 };
 
-/// A X, eight columns at a time. A column of the result does not depend on the others, to the last bit.
+/// A X, eight columns at a time. Each column of the result is independent of the other columns, to the last bit.
 Eigen::MatrixXd multiply(const SymmetricRows& A, const Eigen::MatrixXd& X);
 
 }  // namespace tisserand::reducer

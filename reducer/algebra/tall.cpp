@@ -1,5 +1,5 @@
-// Both products a few rows at a time: those of the block lie side by side as lines, columns of A meet them four at
-// once.
+// Both products work on a few rows at a time. Rows of the block are stored as lines, and each line meets four columns
+// of A.
 #include "reducer/algebra/tall.hpp"
 
 #include <algorithm>
@@ -16,14 +16,14 @@ using Eigen::MatrixXd;
 using Tall = Eigen::Ref<const MatrixXd>;
 
 constexpr Index tall_rows = 128;
-constexpr int tall_columns = 4;  ///< columns of A
+constexpr int tall_columns = 4;  ///< columns of A processed together
 
 Index groups_of(Index columns) { return (columns + Line::width - 1) / Line::width; }
 
-/// Rows `first` ... `first + count − 1` of columns of B, group g from line `g · stride` on; zero beyond the last
-/// column.
+/// Copies rows `first` ... `first + count − 1` of B. Group g of columns begins at line `g · stride`. Columns beyond the
+/// last one are zero.
 void load_rows(const Tall& B, Index first, Index count, Index stride, double* lines) {
-  if (count == 0) return;  // there may be no lines to point at
+  if (count == 0) return;  // `lines` may be empty
   for (Index g = 0; g < groups_of(B.cols()); ++g)
     for (Index c = 0; c < Line::width; ++c) {
       const Index column = Line::width * g + c;
@@ -32,7 +32,7 @@ void load_rows(const Tall& B, Index first, Index count, Index stride, double* li
     }
 }
 
-/// The way back.
+/// Copies lines back to rows of B; the inverse of load_rows().
 void store_rows(const double* lines, Index first, Index count, Index stride, Eigen::Ref<MatrixXd> B) {
   if (count == 0) return;
   for (Index column = 0; column < B.cols(); ++column) {
@@ -41,9 +41,9 @@ void store_rows(const double* lines, Index first, Index count, Index stride, Eig
   }
 }
 
-// Unrolled also where the compiler is not asked for -O3: lines of four columns must stay in registers.
+// The loops are unrolled explicitly, since without -O3 the lines of four columns would not stay in registers.
 
-/// sum_j += Σ a_ij b_i, `columns` of A from `a` on, `stride` numbers from one to the next.
+/// sum_j += Σ a_ij b_i for `columns` columns of A from `a` on, `stride` numbers apart.
 template <int columns>
 void add_inner(const double* a, Index stride, Index count, const double* lines, double* sums) {
   Line sum[columns];
@@ -58,7 +58,7 @@ void add_inner(const double* a, Index stride, Index count, const double* lines, 
   for (int j = 0; j < columns; ++j) sum[j].store(sums + Line::at(j));
 }
 
-/// c_i −= Σ a_ij b_j likewise.
+/// c_i −= Σ a_ij b_j for the same arguments.
 template <int columns>
 void subtract_product(const double* a, Index stride, Index count, const double* factors, double* lines) {
   Line b[columns];
@@ -72,7 +72,7 @@ void subtract_product(const double* a, Index stride, Index count, const double* 
   }
 }
 
-/// four(j) for columns j ... j + 3, one(j) for those that are left.
+/// Calls four(j) for columns j ... j + 3 and one(j) for each remaining column.
 template <class Four, class One>
 void for_columns(Index columns, const Four& four, const One& one) {
   Index j = 0;

@@ -1,13 +1,13 @@
-// Products of a tall matrix with a block of a few columns. BLAS would copy the tall one into its own order at each
-// call, which takes as long as the product.
+// Products of a tall matrix with a block of a few columns. BLAS copies the tall matrix into its own order at each call,
+// which takes as long as the product.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace tisserand::reducer {
 
-/// Aᵀ B (k x b) for A (n x k) and B (n x b), n the largest by far. A is read once, for up to eight columns of B in
-/// registers; sums run in a fixed order.
+/// Aᵀ B (k x b) for A (n x k) and B (n x b), where n is by far the largest. A is read once for up to eight columns of B
+/// in registers. Sums have a fixed order.
 Eigen::MatrixXd tall_inner_products(const Eigen::Ref<const Eigen::MatrixXd>& A,
                                     const Eigen::Ref<const Eigen::MatrixXd>& B);
 
