@@ -154,8 +154,7 @@ PhaseListener listener_of(Phases& phases) {
   return listener;
 }
 
-/// Runs the command. `session` begins after the input is read and outlives all that this function opens, also in
-/// solve().
+/// `session` begins after the input is read and outlives all that this function opens (in solve() too).
 int run(const Arguments& arguments, std::optional<SolverSession>& session) {
   Phases phases;
   phases.begin("read");

@@ -45,8 +45,7 @@ void use_one_thread() {
 }  // namespace
 
 SolverSession::SolverSession() {
-  // Short memory is reported here: Open MPI would end the program with its own message, and OpenBLAS needs 128 MB
-  // first.
+  // Reports short memory first: Open MPI would end the program with its own message, and OpenBLAS needs 128 MB.
   require_addresses(std::size_t{160} << 20U);
   use_one_thread();
   unsetenv("PETSC_OPTIONS");

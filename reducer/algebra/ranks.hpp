@@ -1,6 +1,5 @@
 // Communication between the processes (MPI ranks) that share one reduction. Rank 0 leads: it reads, decides, reports,
-// writes, and calls the others for assembly, factors, substitutions and eigenvalues. All ranks call collective
-// functions.
+// writes, and calls the others for assembly, factors, solutions, eigenvalues. All ranks call collective functions.
 #pragma once
 
 #include <exception>

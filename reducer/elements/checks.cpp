@@ -1,4 +1,4 @@
-// Shapes of elements.
+// Checks of the shapes of elements.
 #include "reducer/elements/checks.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ std::string element_name(const Mesh& mesh, const SolidElement& solid) {
   return fmt::format("solid {} of '{}'", solid.id, mesh.solid_properties[solid.property].name);
 }
 
-/// The first texts of a kind and how many there were.
+/// First texts of a kind and the number of all.
 struct Findings {
   std::vector<std::string> told;
   std::size_t count = 0;
@@ -49,7 +49,7 @@ void check_all(const Mesh& mesh, const std::vector<Element>& elements, ShapeRepo
   }
 }
 
-/// Appends the places of elements with errors, counted from `first`.
+/// Appends the indices of elements with errors, counted from `first`.
 template <class Element>
 void find_faulty(const Mesh& mesh, const std::vector<Element>& elements, int first, std::vector<int>& faulty) {
   for (int i = 0; i < std::ssize(elements); ++i) {

@@ -1,4 +1,4 @@
-// Checks of the mesh before anything is assembled: shapes of elements, and springs too stiff for round-off.
+// Checks of the mesh before assembly: shapes of elements, and springs too stiff for floating-point accuracy.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace tisserand::reducer {
 
-/// Asks every element for faults of its shape. Throws one Error with the first ten and their number; returns warnings.
+/// Checks the shape of every element. Throws one Error with the first ten faults and their number. Returns warnings.
 std::vector<std::string> check_shapes(const Mesh& mesh, const std::string& where);
 
-/// Elements whose shape check_shapes() refuses: beams, then shells, then solids are counted.
+/// Indices of elements whose shape check_shapes() refuses, counted through beams, then shells, then solids.
 std::vector<int> faulty_elements(const Mesh& mesh);
 
-/// Springs 1e8 times as stiff as the stiffest of up to a thousand elements of each kind: the part is lost in their
-/// digits.
+/// Warnings about springs more than 1e8 times as stiff as the stiffest element (of about a thousand per kind):
+/// round-off of such a spring hides the stiffness of the part.
 std::vector<std::string> stiff_spring_doubts(const Mesh& mesh);
 
 }  // namespace tisserand::reducer

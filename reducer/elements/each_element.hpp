@@ -1,11 +1,11 @@
-// One numbering of all elements of a mesh (beams, shells, solids, springs), whatever their kind.
+// Common numbering of all elements of a mesh (beams, shells, solids, springs).
 #pragma once
 
 #include "reducer/mesh/mesh.hpp"
 
 namespace tisserand::reducer {
 
-/// work(element) with the element of that number; what it returns must not depend on its kind.
+/// Calls work(element) for the element with that number. The type of its result must not depend on the kind of element.
 template <class Work>
 auto with_element(const Mesh& mesh, int element, const Work& work) {
   auto k = static_cast<std::size_t>(element);

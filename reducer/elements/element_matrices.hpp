@@ -1,4 +1,4 @@
-// The one form in which assembly asks every element for its matrices, and in which checks ask for its faults.
+// Interface of all elements for assembly (matrices) and for checks (faults of shape).
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace tisserand::reducer {
 
 /// Stiffness and mass in part axes about the nodes (offsets included). Coordinates node by node: six per node for
-/// beams, shells and springs, three per node for solids. Reused from element to element: no allocation after the first.
+/// beams, shells and springs, three for solids. The object is reused, so that only the first element allocates.
 struct ElementMatrices {
   Eigen::MatrixXd S;
   Eigen::MatrixXd M;
@@ -22,10 +22,10 @@ void element_matrices(const Mesh& mesh, const ShellElement& shell, ElementMatric
 void element_matrices(const Mesh& mesh, const SolidElement& solid, ElementMatrices& out);
 void element_matrices(const Mesh& mesh, const Spring& spring, ElementMatrices& out);
 
-/// The 6 x 6 mass of a point mass about its node, [translation; rotation].
+/// Mass matrix (6 x 6) of a point mass about its node, [translation; rotation].
 Eigen::Matrix<double, 6, 6> nodal_mass_matrix(const NodalMass& mass);
 
-/// What is wrong with an element's shape, each a text without the element's name: "inner angle 3.1° at node 17 ...".
+/// Faults of an element's shape, texts without the element's name: "inner angle 3.1° at node 17 ...".
 struct ShapeFindings {
   std::vector<std::string> errors;
   std::vector<std::string> warnings;

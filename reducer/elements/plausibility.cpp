@@ -1,4 +1,4 @@
-// Limits lie far beyond usual designs. A mistake of units is mostly a factor of 1000.
+// Plausibility checks. Limits lie far beyond usual designs, because a mistake of units is mostly a factor of 1000.
 #include "reducer/elements/plausibility.hpp"
 
 #include <algorithm>
@@ -15,14 +15,14 @@
 namespace tisserand::reducer {
 namespace {
 
-// The first three have no published source: no example and no variation of one by 30 % comes near.
+// The first three limits have no published source. No example and no variation of one by 30 % comes near them.
 constexpr double most_offset = 20.0;       // thicknesses
 constexpr double most_point_mass = 100.0;  // masses of all elements
 constexpr double most_outside = 1.0;       // extents of the nodes
 constexpr double most_mass = 1e6;          // [kg]: a bracket in millimetres taken for metres weighs 1e9 times too much
 
-/// Walls thicker than a fifth of their own extent, by property: no shells, or numbers in other units. A thickness
-/// beyond the edges of a fine mesh alone harms nothing.
+/// Warns, by property, of walls thicker than a fifth of their own extent: these are no shells, or numbers in other
+/// units. Thicknesses larger than the edges of a fine mesh are harmless.
 void warn_thick_shells(const Mesh& mesh, std::vector<std::string>& warnings) {
   std::vector<Eigen::AlignedBox3d> box(mesh.shell_properties.size());
   for (const ShellElement& shell : mesh.shells)
@@ -66,9 +66,9 @@ struct FarSpiders {
   }
 };
 
-/// Spiders whose own node lies beside the part by more than a fifth of its size and more than what they grab extends,
-/// or off three and more grabbed nodes by a fifth of the part and twice their extent: an arm that is meant to be long
-/// looks the same as a position in other units.
+/// Warns of spiders with unlikely positions of their own node. Either it is away from the part by more than a fifth of
+/// its size and the extent of the held nodes, or away from three or more held nodes by a fifth of the part and twice
+/// their extent. Long arms on purpose look the same as positions in other units.
 void warn_far_spiders(const Mesh& mesh, const Units& units, std::vector<std::string>& warnings) {
   const Eigen::AlignedBox3d part = box_of_elements(mesh);
   if (part.isEmpty()) return;
@@ -97,7 +97,7 @@ void warn_far_spiders(const Mesh& mesh, const Units& units, std::vector<std::str
                                    off_legs.names[0], off_legs.farthest, unit, size, unit, off_legs.others(), check));
 }
 
-/// Offsets of more than `most_offset` thicknesses, one line per property: the elements hang beside their nodes.
+/// Warns, once per property, of offsets of more than `most_offset` thicknesses: the elements are far from their nodes.
 void warn_far_offsets(const Mesh& mesh, const Units& units, std::vector<std::string>& warnings) {
   const std::string unit = after_number(unit_label(units, 1, 0, 0));
   const auto tell = [&](const char* kind, const std::string& name, double offset, double thickness) {
@@ -116,13 +116,13 @@ void warn_far_offsets(const Mesh& mesh, const Units& units, std::vector<std::str
     tell("the shells", mesh.shell_properties[p].name, of_shells[p], mesh.shell_properties[p].section.thickness);
   for (std::size_t p = 0; p < of_beams.size(); ++p) {
     const formats::Section& s = mesh.beam_properties[p].data.section;
-    // of a rectangle whose larger radius of gyration is the same
+    // thickness of a rectangle with the same larger radius of gyration
     tell("the beams", mesh.beam_properties[p].name, of_beams[p],
          s.area > 0.0 ? std::sqrt(12.0 * std::max(s.second_moment_y, s.second_moment_z) / s.area) : 0.0);
   }
 }
 
-/// Those of the elements that no material with a name accounts for.
+/// Materials that have names, and those of elements that no named material explains.
 std::vector<formats::Substance> substances(const Mesh& mesh, const std::vector<formats::Material>& materials) {
   std::vector<formats::Substance> all;
   for (const formats::Material& m : materials)

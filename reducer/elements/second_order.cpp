@@ -1,4 +1,4 @@
-// Patterns of second-order strains; corotated elements; springs.
+// Patterns of second-order strains, and rows of corotated elements and springs.
 #include "reducer/elements/second_order.hpp"
 
 #include "common/error.hpp"
@@ -131,7 +131,7 @@ void second_order(const Mesh& mesh, const Spring& spring, SecondOrderRows& out) 
 
 Eigen::MatrixXd geometric_stiffness(const std::vector<StrainSection>& sections, const Eigen::MatrixXd& gradient,
                                     const Eigen::VectorXd& sigma) {
-  const Eigen::MatrixXd G = gradient.transpose();  // products take columns
+  const Eigen::MatrixXd G = gradient.transpose();  // the matrix product needs columns
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(G.rows(), G.cols());
   Eigen::Index s = 0, g = 0;
   for (const StrainSection& section : sections)

@@ -1,12 +1,11 @@
-// Second-order strain of elements: the one form in which the companion file and tests ask every element for its
-// geometric stiffness.
+// Second-order strain of elements: common interface to their geometric stiffness, for the companion file and tests.
 //
-// V3(w; d) = Σ σ(w) E2(d, d): stresses σ linear in the displacements w (integration weights in them), times the
-// quadratic part E2 of the strains that they belong to. E2 is a fixed sum of products of few gradients of d, the same
-// for all elements of a kind. K_G[w] = ∂²V3/∂d² = Σ σ_s(w) c (g_aᵀ g_b + g_bᵀ g_a).
+// V3(w; d) = Σ σ(w) E2(d, d). The stresses σ are linear in the displacements w and include integration weights. E2 is
+// the quadratic part of their strains: a fixed sum of products of few gradients of d, the same for all elements of a
+// kind. K_G[w] = ∂²V3/∂d² = Σ σ_s(w) c (g_aᵀ g_b + g_bᵀ g_a).
 //
-// Every kind is invariant under a superposed rotation θ of the element to first order in θ, whatever its size:
-// V3 of w and w + θ × X together with the linear energy of the second-order displacements (θ × u, ½ θ × ψ) vanishes.
+// Every kind is invariant under a superposed rotation θ of the element to first order in θ, whatever its size: V3 of w
+// and w + θ × X together with the linear energy of the second-order displacements (θ × u, ½ θ × ψ) vanishes.
 #pragma once
 
 #include <vector>
@@ -25,7 +24,7 @@ struct QuadraticTerm {
   double coefficient = 0.0;
 };
 
-/// Stresses and gradients of one point, node or element, and the products that join them.
+/// Number of stresses and gradients of one point, node or element, and the products that join them.
 struct QuadraticPattern {
   int stresses = 0;
   int gradients = 0;
@@ -34,10 +33,10 @@ struct QuadraticPattern {
 
 /// Stress [force; moment] on a point that turns: force · (−ω × u) + moment · (−ω × ψ); gradients ω, u, ψ.
 ///
-/// It is the second order of what is left of displacements when a rotation is taken out: with exp(ω)ᵀ the point
-/// X + u + ... has moved by u − ω × X at first and −ω × (u − ½ ω × X) at second order, a rotation vector ψ has become
-/// ψ − ω and −½ ω × ψ. Terms with the second order of ω itself vanish since forces on an element are in equilibrium, so
-/// only the linear rotation is needed (element-independent corotation).
+/// It is the second order of displacements after a rotation is removed. With exp(ω)ᵀ the point X + u + ... has moved by
+/// u − ω × X at first and −ω × (u − ½ ω × X) at second order. A rotation vector ψ has become ψ − ω and −½ ω × ψ. The
+/// second order of ω itself does no work, since forces on an element are in equilibrium. So the linear rotation
+/// suffices (element-independent corotation).
 const QuadraticPattern& turned_point();
 
 /// Green's strain of a point: stress [xx yy zz xy yz zx], gradients ∂u_i/∂x_k at 3 k + i; E2_kl = ½ Σ_i u_i,k u_i,l.
@@ -48,12 +47,12 @@ const QuadraticPattern& green_strain();
 /// the elongation of fibres by twist, E2_W = ½ ψ₁'² (Wagner).
 const QuadraticPattern& beam_point();
 
-/// Mean membrane forces [xx yy xy] of a shell on what its rotations vary over the element at `points` points:
-/// gradients [ψx ψy ψz] of each, weighted with the root of their share of the area;
-/// E2_xx = ½ Σ(ψy² + ψz²), E2_yy = ½ Σ(ψx² + ψz²), E2_xy = −Σ ψx ψy.
+/// Mean membrane forces [xx yy xy] of a shell on the variation of its rotations over the element at `points` points.
+/// Gradients are [ψx ψy ψz] of each point times the root of its share of the area; E2_xx = ½ Σ(ψy² + ψz²), E2_yy = ½
+/// Σ(ψx² + ψz²), E2_xy = −Σ ψx ψy.
 const QuadraticPattern& turning_sheet(int points);
 
-/// A pattern `repeat` times, its stresses and gradients one block after the other.
+/// A pattern repeated `repeat` times, with its stresses and gradients block after block.
 struct StrainSection {
   const QuadraticPattern* pattern = nullptr;
   int repeat = 0;
@@ -66,7 +65,7 @@ struct SecondOrderRows {
   Eigen::MatrixXd stress;
   Eigen::MatrixXd gradient;
 
-  /// Takes these sections and zeroes the rows.
+  /// Sets these sections and zeroes the rows.
   void start(const std::vector<StrainSection>& layout, Eigen::Index coordinates);
 };
 
@@ -75,20 +74,20 @@ void second_order(const Mesh& mesh, const ShellElement& shell, SecondOrderRows& 
 void second_order(const Mesh& mesh, const SolidElement& solid, SecondOrderRows& out);
 void second_order(const Mesh& mesh, const Spring& spring, SecondOrderRows& out);
 
-/// Rows of a corotated element, for the turned points `first`, `first` + 1, ... of `out`: forces S d, displacements of
-/// nodes at X (from any point) without the rotation ω = turn d. S: six rows per node.
+/// Adds rows of a corotated element for the turned points `first`, `first` + 1, ... of `out`: forces S d, and
+/// displacements of nodes at X (from any point) without the rotation ω = turn d. S has six rows per node.
 void add_corotated(const Eigen::MatrixXd& S, const Eigen::Matrix3Xd& X,
                    const Eigen::Matrix<double, 3, Eigen::Dynamic>& turn, SecondOrderRows& out);
 
-/// Two nodes at a distance: turned with the line between them, about it with the mean of their rotations; coincident
-/// ones with the mean rotation.
+/// Rotation of two nodes: with the line between them, and about it with the mean of their rotations. For coincident
+/// nodes it is the mean rotation.
 Eigen::Matrix<double, 3, Eigen::Dynamic> turn_of_pair(const Eigen::Vector3d& first_to_second);
 
-/// K_G of stresses σ (rows of the sections' stresses) on the columns of `gradient`, symmetric.
+/// K_G (symmetric) of stresses σ, ordered as the sections' stresses, for the columns of `gradient`.
 Eigen::MatrixXd geometric_stiffness(const std::vector<StrainSection>& sections, const Eigen::MatrixXd& gradient,
                                     const Eigen::VectorXd& sigma);
 
-/// K_G[w], symmetric.
+/// K_G[w] (symmetric).
 Eigen::MatrixXd geometric_stiffness(const SecondOrderRows& rows, const Eigen::VectorXd& w);
 
 }  // namespace tisserand::reducer

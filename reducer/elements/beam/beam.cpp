@@ -12,7 +12,7 @@ namespace {
 using Matrix4 = Eigen::Matrix4d;
 using Vector4 = Eigen::Vector4d;
 
-/// Where the four coordinates (deflection, slope, deflection, slope) of a bending plane stand among the twelve. In x-z
+/// Places of the four coordinates (deflection, slope, deflection, slope) of a bending plane among the twelve. In x-z
 /// the slope w' is −θy.
 struct BendingPlane {
   std::array<int, 4> index;

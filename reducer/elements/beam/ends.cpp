@@ -1,4 +1,4 @@
-// Condensation of released coordinates; transport along rigid arms.
+// Condensation of released coordinates, and transformation along rigid arms.
 #include "reducer/elements/beam/ends.hpp"
 
 #include <vector>

@@ -31,7 +31,7 @@ Section section_at(const BeamElementData& beam, double x) {
   return beam.stations.empty() ? beam.section : constants_at(beam.stations, x / beam.length);
 }
 
-/// Motion at a distance x along the axis of a body that moves with [u; θ] at 0.
+/// Motion of a rigid body at distance x along the axis from its motion [u; θ] at 0.
 Matrix6 transfer(double x) {
   Matrix6 r = Matrix6::Identity();
   r(1, 5) = x;
@@ -50,7 +50,7 @@ Matrix6 compliance(const BeamElementData& beam, const Section& s) {
   H(5, 0) = s.centroid_y;
   Matrix6 D = Matrix6::Zero();
   D(0, 0) = 1.0 / (E * s.area);
-  if (beam.theory == formats::BeamTheory::timoshenko) {  // an area of zero: rigid in shear
+  if (beam.theory == formats::BeamTheory::timoshenko) {  // a shear area of zero means rigid in shear
     if (s.shear_area_y > 0.0) D(1, 1) = 1.0 / (G * s.shear_area_y);
     if (s.shear_area_z > 0.0) D(2, 2) = 1.0 / (G * s.shear_area_z);
     if (s.shear_area_y > 0.0 && s.shear_area_z > 0.0) D(1, 2) = D(2, 1) = s.shear_coupling / G;
@@ -90,7 +90,7 @@ Matrix6 section_mass(const BeamElementData& beam, const Section& s, double x) {
   return mu;
 }
 
-/// ∫ r(to − s) c(s) b(s) ds from `from` to `to`: what the strains between them add to the motion at `to`.
+/// ∫ r(to − s) c(s) b(s) ds from `from` to `to`: contribution of the strains in between to the motion at `to`.
 Matrix6 strained(const BeamElementData& beam, double from, double to) {
   Matrix6 sum = Matrix6::Zero();
   for (std::size_t g = 0; g < gauss_point.size(); ++g) {
@@ -101,7 +101,7 @@ Matrix6 strained(const BeamElementData& beam, double from, double to) {
   return sum;
 }
 
-/// Pieces of the integrals: the faster the section changes, the more.
+/// Number of pieces of the integrals, which increases with the ratio of the end areas.
 int pieces_of(const BeamElementData& beam) {
   if (beam.stations.empty()) return 1;
   const double first = beam.stations.front().area, second = beam.stations.back().area;
@@ -110,8 +110,8 @@ int pieces_of(const BeamElementData& beam) {
 
 struct Point {
   double x = 0.0;
-  double weight = 0.0;               ///< of the integral along the beam
-  Matrix6 motion = Matrix6::Zero();  ///< [u; θ] there for unit forces at end 2, end 1 held
+  double weight = 0.0;               ///< weight of the integral along the beam
+  Matrix6 motion = Matrix6::Zero();  ///< [u; θ] at x for unit forces at end 2 with end 1 held
 };
 
 struct Integration {
@@ -135,7 +135,7 @@ Integration integrate(const BeamElementData& beam) {
   return result;
 }
 
-/// f⁻¹, scaled by its diagonal: displacements and rotations differ in unit.
+/// f⁻¹, scaled by the diagonal because displacements and rotations differ in unit.
 Matrix6 inverse(const Matrix6& f) {
   const Eigen::Matrix<double, 6, 1> scale = f.diagonal().cwiseSqrt().cwiseInverse();
   const Matrix6 scaled = scale.asDiagonal() * (0.5 * (f + f.transpose())) * scale.asDiagonal();
@@ -143,7 +143,7 @@ Matrix6 inverse(const Matrix6& f) {
   return scale.asDiagonal() * (0.5 * (k + k.transpose())) * scale.asDiagonal();
 }
 
-/// ∫μ dx of each half, at its end.
+/// Lumped mass matrix: ∫μ dx of each half at its end.
 Matrix12 lumped(const BeamElementData& beam, const std::vector<double>& halves) {
   Matrix12 M = Matrix12::Zero();
   for (std::size_t end = 0; end + 1 < halves.size(); ++end)
@@ -185,7 +185,7 @@ BeamMatrices rod(const BeamElementData& beam) {
   return result;
 }
 
-/// Ends of the pieces that lumping moves to one end each: each half of the beam.
+/// Mass points of a lumped beam: each half of the beam at its end.
 std::vector<BeamMassPoint> lumped_points(const BeamElementData& beam) {
   const Matrix12 M = lumped(beam, {0.0, 0.5 * beam.length, beam.length});
   std::vector<BeamMassPoint> points(2);
@@ -212,7 +212,7 @@ std::vector<BeamMassPoint> consistent_points(const BeamElementData& beam) {
   return points;
 }
 
-/// Displacements and twist linear, bending rotations of the line; the mass on the axis, with its inertia about it.
+/// Mass points of a rod: motion linear, bending rotations those of the line; mass and inertia about the axis.
 std::vector<BeamMassPoint> rod_points(const BeamElementData& beam) {
   const double L = beam.length;
   std::vector<BeamMassPoint> points;
@@ -243,8 +243,8 @@ std::vector<BeamMassPoint> rod_points(const BeamElementData& beam) {
   return points;
 }
 
-/// ∫σ |r − s|² dA of the section forces F about the axis: N (I_p/A + |s|²) + β_y M_y − β_z M_z, moments about the
-/// centroid, s the shear centre from it (formats/sections/monosymmetry.hpp).
+/// ∫σ |r − s|² dA for the section forces F about the axis: N (I_p/A + |s|²) + β_y M_y − β_z M_z. Moments are about the
+/// centroid, and s is the shear centre from it (formats/sections/monosymmetry.hpp).
 Eigen::Matrix<double, 1, 6> wagner_row(const Section& s, const formats::Monosymmetry& beta) {
   const double y = s.shear_center_y, z = s.shear_center_z;
   Eigen::Matrix<double, 1, 6> row = Eigen::Matrix<double, 1, 6>::Zero();
@@ -292,7 +292,7 @@ BeamMatrices general_beam(const BeamElementData& beam) {
     }
   }
   if (beam.mass_matrix == formats::MassMatrix::lumped) result.mass = lumped(beam, {0.0, 0.5 * L, L});
-  if (is_rod(beam)) {  // no bending rotations
+  if (is_rod(beam)) {  // a rod has no bending rotations
     for (const int i : {4, 5, 10, 11}) {
       result.mass.row(i).setZero();
       result.mass.col(i).setZero();

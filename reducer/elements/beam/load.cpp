@@ -1,4 +1,4 @@
-// Distributed loads of beams on their ends and nodes.
+// Distributed loads of beams as forces at their ends and nodes.
 #include "reducer/elements/beam/ends.hpp"
 #include "reducer/elements/beam/mesh_beam.hpp"
 #include "reducer/elements/element_loads.hpp"

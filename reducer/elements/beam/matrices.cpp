@@ -1,5 +1,4 @@
-// Matrices of a beam element of the mesh about its nodes, in part axes: what assembly asks for, and what is wrong with
-// it.
+// Matrices of a beam element of the mesh about its nodes, in part axes, and checks of its shape.
 #include "reducer/elements/element_matrices.hpp"
 
 #include <algorithm>
@@ -17,7 +16,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// The released end forces in words: "moments about x at both ends", ...
+/// Names of the released end forces: "moments about x at both ends", ...
 std::string released_text(std::uint16_t released) {
   static constexpr const char* names[] = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
   std::string text;
@@ -68,7 +67,7 @@ void element_matrices(const Mesh& mesh, const BeamElement& beam, ElementMatrices
 Matrix12 beam_section_forces(const Mesh& mesh, const BeamElement& beam) {
   BeamMatrices matrices = at_the_ends(data_of(mesh, beam));
   if (beam.released != 0) release_ends(beam.released, matrices);
-  Matrix12 forces = matrices.stiffness * ends_from_nodes(beam);  // on the ends of the element
+  Matrix12 forces = matrices.stiffness * ends_from_nodes(beam);  // forces on the ends of the element
   forces.topRows<6>() *= -1.0;
   return forces;
 }

@@ -1,4 +1,4 @@
-// A beam of the mesh between its ends: what its matrices and its second order are made from.
+// A beam of the mesh between its ends, from which its matrices and its second order are made.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,16 +8,16 @@
 
 namespace tisserand::reducer {
 
-/// From end to end of the beam axis, part axes.
+/// Vector from end to end of the beam axis, part axes.
 Eigen::Vector3d axis_of(const Mesh& mesh, const BeamElement& beam);
 
-/// Its property with the length of this element.
+/// Data of the beam: its property with the length of this element.
 BeamElementData data_of(const Mesh& mesh, const BeamElement& beam);
 
 /// Motions of the ends of the axis, element axes, from those of the nodes, part axes.
 Matrix12 ends_from_nodes(const BeamElement& beam);
 
-/// About its ends, in element axes, nothing released.
+/// Matrices about the ends in element axes, without releases.
 BeamMatrices at_the_ends(const BeamElementData& data);
 
 }  // namespace tisserand::reducer

@@ -1,4 +1,4 @@
-// What beams, exact for loads at their ends, miss of the inertia between them.
+// Discretisation error of beams, which are exact for loads at their ends, by the inertia between the ends.
 #include "reducer/elements/mesh_error.hpp"
 
 #include <Eigen/LU>
@@ -18,7 +18,7 @@ Eigen::MatrixXd motion_of_ends(const BeamElement& beam, const Eigen::MatrixXd& u
   return v;
 }
 
-/// Mean of the ends of a tapered beam, all that the estimate takes of it.
+/// Mean over the ends of a tapered beam, which the estimate uses in place of the taper.
 double mean_of(const BeamElementData& data, double formats::Section::*value) {
   if (data.stations.empty()) return data.section.*value;
   return 0.5 * (data.stations.front().*value + data.stations.back().*value);

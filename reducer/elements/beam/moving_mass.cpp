@@ -1,4 +1,4 @@
-// Where the mass of a beam is, and how it moves with the nodes: through releases and rigid arms.
+// Mass points of a beam and their motion with the nodes, through releases and rigid arms.
 #include "common/math/rotation.hpp"
 #include "reducer/elements/beam/ends.hpp"
 #include "reducer/elements/beam/mesh_beam.hpp"
@@ -28,7 +28,7 @@ MovingMass moving_mass(const Mesh& mesh, const BeamElement& beam) {
     point.at = start + from.x * beam.R_PE.col(0);
     point.mass = from.mass(0, 0);
     Eigen::Matrix3d inertia = from.mass.bottomRightCorner<3, 3>();
-    if (point.mass != 0.0) {  // of the point: [m 1, −m c~; m c~, J − m c~ c~]
+    if (point.mass != 0.0) {  // mass matrix of the point: [m 1, −m c~; m c~, J − m c~ c~]
       const Eigen::Vector3d c = Eigen::Vector3d(from.mass(5, 1), from.mass(3, 2), from.mass(4, 0)) / point.mass;
       point.centre = beam.R_PE * c;
       inertia += point.mass * skew<double>(c) * skew<double>(c);

@@ -1,16 +1,16 @@
-// Second-order strain of beam elements, for every kind of straight beam: from the exact solution along the axis.
+// Second-order strain of every kind of straight beam, from the exact solution along the axis.
 //
-// With the section forces n, m of w and the axis and rotations of d from the element's own exact solution
-// (flexibility method; Hermite's cubics for a prismatic Euler-Bernoulli beam, those of [FK93] with shear):
+// The section forces n, m of w and the axis and rotations of d come from the element's own exact solution (flexibility
+// method; Hermite's cubics for a prismatic Euler-Bernoulli beam, those of [FK93] with shear):
 //   V3 = ∫ [ n · (u' × ψ + ½ (ψ ψ₁ − e₁ |ψ|²)) + ½ m · (ψ' × ψ) + ½ W ψ₁'² ] ds,
 // the second order of Rᵀ x' − e₁ and of the material curvature. With the axial force alone, ½ N (v'² + w'²), the energy
-// of a bent beam that turns would change at first order of the turn. Tapers, shear centres and centroids off the axis
-// are in n, m and the fields. Released ends slide and turn in axes that the node carries along; rigid arms turn with
-// their node: at both ends force and moment work on the second order of arm, slide and turn.
-// Rods (no bending stiffness) are corotated: (N/l)(1 − e eᵀ), and a torque that turns with the line of the nodes.
-// W = N (I_p/A + |s|²) + β_y M_y − β_z M_z is Wagner's term, by which columns of open sections buckle in torsion and
-// beams of unsymmetric sections turn over earlier under one sign of the moment than under the other. Where the outline
-// is not known (constants, tapers), β holds the shear centre alone.
+// of a bent beam that turns would change at first order of the turn. n, m and the fields include tapers, and shear
+// centres and centroids off the axis. Released ends slide and turn in axes that the node carries along; rigid arms turn
+// with their node. At both ends force and moment work on the second order of arm, slide and turn. Rods (no bending
+// stiffness) are corotated: (N/l)(1 − e eᵀ), and a torque that turns with the line of the nodes. Wagner's term is W = N
+// (I_p/A + |s|²) + β_y M_y − β_z M_z. By it columns of open sections buckle in torsion. Beams of unsymmetric sections
+// turn over earlier for one sign of the moment. If the outline is unknown (constants, tapers), β holds the shear centre
+// only.
 #include "reducer/elements/second_order.hpp"
 #include "common/math/rotation.hpp"
 #include "reducer/elements/beam/ends.hpp"
@@ -20,15 +20,15 @@
 namespace tisserand::reducer {
 namespace {
 
-/// diag(Rᵀ, Rᵀ, Rᵀ, Rᵀ): element axes from part axes.
+/// diag(Rᵀ, Rᵀ, Rᵀ, Rᵀ): turns coordinates from part axes to element axes.
 Matrix12 to_element(const Eigen::Matrix3d& R_PE) {
   Matrix12 Q = Matrix12::Zero();
   for (int i = 0; i < 4; ++i) Q.block<3, 3>(3 * i, 3 * i) = R_PE.transpose();
   return Q;
 }
 
-/// Gradients of both ends, whose forces work on arm a = ψ × r, slide and relative turn: f · (½ ψ × a + ψ × slide) + ½ m
-/// · ψ × turn.
+/// Adds gradients of both ends, whose forces work on arm a = ψ × r, slide and relative turn: f · (½ ψ × a + ψ × slide)
+/// + ½ m · ψ × turn.
 void add_ends(const BeamElement& beam, const Matrix12& nodes, const Matrix12& ends, Eigen::Index gradient,
               SecondOrderRows& out) {
   for (int end = 0; end < 2; ++end) {
