@@ -1,4 +1,4 @@
-// Stiffness of springs and bushings between two nodes, and whether they let a part float.
+// Stiffness of springs and bushings between two nodes, and the test whether they let a part float.
 #include "reducer/elements/spring.hpp"
 
 #include "common/math/rotation.hpp"

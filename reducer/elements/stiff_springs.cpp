@@ -1,4 +1,4 @@
-// Springs so stiff that the stiffness of the part is lost in their digits.
+// Warnings about springs so stiff that their round-off hides the stiffness of the part.
 #include <algorithm>
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Index;
 
-/// The largest translational and rotational stiffness of an element.
+/// Largest translational and rotational stiffness of elements.
 struct Stiffest {
   double translation = 0.0, rotation = 0.0;
 
@@ -22,7 +22,7 @@ struct Stiffest {
   }
 };
 
-/// Takes the diagonals of the elements into `stiffest`: of all, or of about a thousand with equal gaps between them.
+/// Adds the diagonals of elements to `stiffest`: of all, or of about a thousand at equal intervals.
 template <class Element>
 void take_some(const Mesh& mesh, const std::vector<Element>& elements, Index per_node, Stiffest& stiffest) {
   constexpr std::size_t most = 1000;
@@ -37,7 +37,7 @@ void take_some(const Mesh& mesh, const std::vector<Element>& elements, Index per
 }  // namespace
 
 std::vector<std::string> stiff_spring_doubts(const Mesh& mesh) {
-  constexpr double digits_left = 1e8;  // of 1e16, for the stiffness of the part beside the spring's
+  constexpr double digits_left = 1e8;  // of the 16 decimal digits, half remain for the part
   if (mesh.springs.empty()) return {};
   Stiffest part;
   take_some(mesh, mesh.beams, 6, part);

@@ -1,4 +1,4 @@
-// Sums over the points of an element, and the motion of its nodes taken off.
+// Sums over the mass points of an element, minus the motion of its nodes.
 #include "reducer/elements/turning_mass.hpp"
 
 #include "common/math/rotation.hpp"
@@ -15,7 +15,7 @@ using Loads = Eigen::Matrix<double, 3, inertial_loads>;
 
 Matrix3d axis_skew(int k) { return skew<double>(Vector3d(Vector3d::Unit(k))); }
 
-/// −½ ([e_k ×] a_3+j + [e_j ×] a_3+k) for the pairs, of columns 3 to 5.
+/// Sets the centrifugal loads of the pairs, −½ ([e_k ×] a_3+j + [e_j ×] a_3+k), from columns 3 to 5.
 void add_centrifugal(Eigen::Ref<MatrixXd> loads) {
   for (int pair = 0; pair < 6; ++pair) {
     const auto [j, k] = formats::axis_pairs[pair];
@@ -57,7 +57,7 @@ TurningPivot rotary_pivot(const RotaryMass& mass) {
   return pivot;
 }
 
-/// Arms that turn by `rotation` under forces at their ends (columns of `loads`).
+/// Pivot of an arm that turns by `rotation` under forces at its end (columns of `force`).
 TurningPivot arm_pivot(const ElementRows3& rotation, const Eigen::Ref<const Loads>& force, const Vector3d& arm) {
   TurningPivot pivot;
   pivot.rotation = rotation;
@@ -65,20 +65,20 @@ TurningPivot arm_pivot(const ElementRows3& rotation, const Eigen::Ref<const Load
   return pivot;
 }
 
-/// [U; Θ] of all points, then ω where there is one, and what the loads do to them: [f; m] about the points.
+/// [U; Θ] of all points, then ω if there is one, and the loads [f; m] about the points.
 struct PointRows {
   MatrixXd motion;  ///< 6 p (+ 3) x n
   MatrixXd load;    ///< 6 p x 12
 };
 
-/// Rows of `turned` of all loads: f·(ω × u) + m·½ (ω × θ) = ω·(−f~ u − ½ m~ θ) of the points with u = U + ½ x~ ω, less
-/// the same of the nodes, where U and θ are coordinates. One product: of [−f~, −½ m~] of all points and the rows before
-/// ω, and [U; Θ] of all points and ω.
+/// Sets the rows of `turned` of all loads: f·(ω × u) + m·½ (ω × θ) = ω·(−f~ u − ½ m~ θ) of the points with u = U + ½ x~
+/// ω, minus that of the nodes, where U and θ are coordinates. It is one product: [−f~, −½ m~] of all points and the
+/// rows before ω, times [U; Θ] of all points and ω.
 void set_turned(const MovingMass& mass, const PointRows& rows, const Vector3d& reference, TurningMass& out) {
   const Index points = static_cast<Index>(mass.points.size()), at_turn = 6 * points;
   MatrixXd factors(3 * inertial_loads, at_turn + 3);
   factors.rightCols<3>().setZero();
-  /// −½ f~ x~, f~ x~ = x fᵀ − (f·x) 1
+  /// Adds −½ f~ x~ with f~ x~ = x fᵀ − (f·x) 1.
   const auto add_arm = [&](int l, const Vector3d& f, const Vector3d& x) {
     factors.block<3, 3>(3 * l, at_turn) -= 0.5 * x * f.transpose();
     factors.block<3, 3>(3 * l, at_turn).diagonal().array() += 0.5 * f.dot(x);
@@ -101,7 +101,7 @@ void set_turned(const MovingMass& mass, const PointRows& rows, const Vector3d& r
     }
 }
 
-/// The motion of the points with the element, less what their nodes have of it; arms.
+/// Sets the motion of the points with the element minus that of their nodes, and the pivots of the arms.
 void add_turn(const MovingMass& mass, const PointRows& rows, const Vector3d& reference, TurningMass& out) {
   out.turn = mass.turn;
   set_turned(mass, rows, reference, out);

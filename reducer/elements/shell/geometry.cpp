@@ -6,7 +6,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// x: the material direction projected on the plane of `normal`; the first edge if that is zero or nearly normal.
+/// x axis: material direction projected on the plane of `normal`; the first edge if it is zero or nearly normal.
 Eigen::Vector3d in_plane_axis(const Eigen::Vector3d& direction, const Eigen::Vector3d& edge,
                               const Eigen::Vector3d& normal) {
   const Eigen::Vector3d projected = direction - normal * normal.dot(direction);

@@ -1,4 +1,4 @@
-// The plane in which a shell element works: from the nodes of a mesh to axes, projected corners and heights of warping.
+// Plane in which a shell element works: axes, projected corners and warping heights from the nodes of a mesh.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,19 +7,19 @@
 
 namespace tisserand::reducer {
 
-/// An element in its own axes E: z normal to both diagonals (of a triangle: to its plane), x the projected material
-/// direction. Origin: the mean of the corners.
+/// Shell element in its own axes E. z is normal to both diagonals (of a triangle: to its plane), and x is the projected
+/// material direction. The origin is the mean of the corners.
 template <int Corners>
 struct ShellGeometry {
   Eigen::Matrix3d R_PE = Eigen::Matrix3d::Identity();  ///< columns: x, y, z of the element in part axes
   Eigen::Matrix<double, 2, Corners> corner;            ///< projected corners, counter-clockwise
-  /// Of the nodes above the mean plane. A warped quadrilateral has +h, -h, +h, -h, because z is normal to its
+  /// Height of the nodes above the mean plane. A warped quadrilateral has +h, -h, +h, -h, because z is normal to its
   /// diagonals.
   Eigen::Matrix<double, Corners, 1> height;
-  double area = 0.0;  ///< of the projection
+  double area = 0.0;  ///< area of the projection
 };
 
-/// Corners is 3 or 4 and equal to shell.corners(). Collapsed elements give values that are not finite.
+/// Geometry of `shell`; Corners (3 or 4) equals shell.corners(). Collapsed elements give values that are not finite.
 template <int Corners>
 ShellGeometry<Corners> shell_geometry(const Mesh& mesh, const ShellElement& shell);
 

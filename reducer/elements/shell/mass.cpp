@@ -24,7 +24,7 @@ void add_bulge(const ShellGeometry<Corners>& geometry, int i, double b, ShellMas
 
 }  // namespace
 
-/// 3 x 3 points: degree 5 in either direction.
+/// Mass points of quadrilaterals: 3 x 3, degree 5 in either direction.
 std::array<ShellMassPoint<4>, 9> shell_mass_points(const ShellGeometry<4>& geometry) {
   std::array<ShellMassPoint<4>, 9> points;
   Eigen::Matrix<double, 3, 4> X;
@@ -46,7 +46,7 @@ std::array<ShellMassPoint<4>, 9> shell_mass_points(const ShellGeometry<4>& geome
   return points;
 }
 
-/// Six points, exact to degree 4 ([Cow73]).
+/// Mass points of triangles: six, exact to degree 4 ([Cow73]).
 std::array<ShellMassPoint<3>, 6> shell_mass_points(const ShellGeometry<3>& geometry) {
   struct Orbit {
     double weight, near, far;

@@ -1,4 +1,4 @@
-// Stresses of shell elements near their middle, and their energy beside that of smooth stresses.
+// Stresses of shell elements near their middle, and excess of their energy over that of smooth stresses.
 #include "reducer/elements/mesh_error.hpp"
 
 #include <array>
@@ -30,14 +30,14 @@ Eigen::MatrixXd motion_along_normal(const ShellGeometry<Corners>& geometry,
   return v;
 }
 
-/// Of the projected corners of the middle surface, where the stiffness has them.
+/// Motions of the projected corners of the middle surface, which are the coordinates of the stiffness.
 template <int Corners>
 Eigen::MatrixXd motion_of_corners(const ShellGeometry<Corners>& geometry, double offset, const Eigen::MatrixXd& u) {
   using Arms = Eigen::Matrix<double, Corners, 1>;
   return motion_along_normal<Corners>(geometry, Arms(Arms::Constant(offset) - geometry.height), u);
 }
 
-/// At a point of the projected element: shape functions, their slopes, the slopes of the arms g_i of the bulges
+/// Values at a point of the projected element: shape functions, their slopes, and slopes of the arms g_i of the bulges
 /// (elements/shell/mass.hpp: u = Σ N_i u_i + g_i × θ_i).
 template <int Corners>
 struct StrainPoint {
@@ -47,7 +47,7 @@ struct StrainPoint {
   Eigen::Matrix<double, 2, Corners> gy = Eigen::Matrix<double, 2, Corners>::Zero();
   double dA = 0.0;
 
-  /// Of the edge from corner i on, whose bulge has the gradient `b`.
+  /// Adds the bulge of the edge from corner i to the next; `b` is the gradient of its shape.
   void add_bulge(const ShellGeometry<Corners>& geometry, int i, const Eigen::Vector2d& b) {
     const int j = (i + 1) % Corners;
     const Eigen::Vector2d d = geometry.corner.col(j) - geometry.corner.col(i);
@@ -81,7 +81,7 @@ std::array<StrainPoint<4>, 4> strain_points(const ShellGeometry<4>& geometry) {
   return points;
 }
 
-/// Three points at the middles of the sides would do for linear strains; bulges times linear stresses have degree 2.
+/// Points of degree 2, as bulges times linear stresses need.
 std::array<StrainPoint<3>, 3> strain_points(const ShellGeometry<3>& geometry) {
   std::array<StrainPoint<3>, 3> points;
   Eigen::Matrix<double, 2, 3> slope;
@@ -126,7 +126,7 @@ Eigen::Matrix<double, 8, Eigen::Dynamic> strains(const StrainPoint<Corners>& poi
   return B * v;
 }
 
-/// Strains of unit resultants [N; M; Q]; zero for what the sheet lacks.
+/// Strains of unit resultants [N; M; Q]; zero for a missing membrane or bending stiffness.
 Eigen::Matrix<double, 8, 8> compliance(const ShellSection& section) {
   Eigen::Matrix<double, 8, 8> F = Eigen::Matrix<double, 8, 8>::Zero();
   const bool has_membrane = !section.A.isZero(0.0), has_bending = !section.D.isZero(0.0);
@@ -143,7 +143,7 @@ Eigen::Matrix<double, 8, 8> compliance(const ShellSection& section) {
   return F;
 }
 
-/// A shell in its modes.
+/// Shell with its motions, one column per mode.
 template <int Corners>
 struct MovedShell {
   ShellGeometry<Corners> geometry;
@@ -176,8 +176,8 @@ Eigen::VectorXd layer_at_edge(const MovedShell<Corners>& shell, int i) {
   return length * ((a + b) * gamma + width * f_M / 3.0 * (a.square() + a * b + b.square()));
 }
 
-/// [xx yy xy] of a tensor on the curved surface: each of its `derivatives` is along a path longer by ½ g gᵀ, and the
-/// area by ½ |g|².
+/// [xx yy xy] of a tensor on the curved surface. Paths of its `derivatives` are longer by ½ g gᵀ, and the area is
+/// larger by ½ |g|².
 Eigen::Matrix3Xd on_surface(const Eigen::Vector2d& g, double derivatives, const Eigen::Matrix3Xd& flat) {
   const double xx = g.x() * g.x(), yy = g.y() * g.y(), xy = g.x() * g.y(), f = 0.5 * derivatives;
   Eigen::Matrix3d change;
@@ -187,7 +187,7 @@ Eigen::Matrix3Xd on_surface(const Eigen::Vector2d& g, double derivatives, const 
   return flat + (change + 0.5 * (xx + yy) * Eigen::Matrix3d::Identity()) * flat;
 }
 
-/// Strains of the displacements on the surface with the slopes g, times its area over the flat one.
+/// Strains of the displacements on the surface with slopes g, times the ratio of its area to the flat one.
 template <int Corners>
 Eigen::Matrix<double, 8, Eigen::Dynamic> surface_strains(const StrainPoint<Corners>& point, const Eigen::Vector2d& g,
                                                          const Eigen::MatrixXd& v) {
@@ -206,7 +206,7 @@ Eigen::Matrix<double, 8, Eigen::Dynamic> surface_strains(const StrainPoint<Corne
   return strain;
 }
 
-/// |u|² of the middle surface.
+/// |u|² of the middle surface, per mode.
 template <int Corners>
 Eigen::VectorXd squared_displacement(const Eigen::Matrix<double, Corners, 1>& N, const Eigen::MatrixXd& v) {
   Eigen::Matrix3Xd u = Eigen::Matrix3Xd::Zero(3, v.cols());
@@ -214,7 +214,7 @@ Eigen::VectorXd squared_displacement(const Eigen::Matrix<double, Corners, 1>& N,
   return u.colwise().squaredNorm().transpose();
 }
 
-/// Mass less stiffness of the strip between the straight edge from corner i and the curved one.
+/// Inertia minus stress energy of the strip between the straight edge from corner i and the curved one, per unit width.
 template <int Corners>
 Eigen::VectorXd strip_at_edge(const MovedShell<Corners>& shell, int i, const Eigen::VectorXd& inertia) {
   const Eigen::MatrixXd &v = shell.v, &smooth = shell.smooth;
@@ -265,7 +265,7 @@ Eigen::VectorXd error_of(const Mesh& mesh, const ShellElement& shell, const Elem
   return error;
 }
 
-/// Natural coordinates of samples: a fifth of the way to the corners.
+/// Natural coordinates of the sample points, a fifth of the way to the corners.
 const Eigen::Matrix<double, 2, 4>& middle_points() {
   static const Eigen::Matrix<double, 2, 4> points =
       (Eigen::Matrix<double, 2, 4>() << -0.2, 0.2, 0.2, -0.2, -0.2, -0.2, 0.2, 0.2).finished();

@@ -1,4 +1,4 @@
-// Where the mass of a shell is, and how it moves with the nodes.
+// Mass points of a shell and their motion with the nodes.
 
 #include <Eigen/Cholesky>
 
@@ -11,11 +11,11 @@
 namespace tisserand::reducer {
 namespace {
 
-/// What a section has per area: m about its middle surface, J about the centre of mass at c along the normal.
+/// Mass m per area of a section and inertia J about its centre of mass, which lies at c along the normal.
 struct SectionMass {
   double mass = 0.0;
   double centre = 0.0;
-  double inertia = 0.0;  ///< ∫ρ z² dz less that of m at c
+  double inertia = 0.0;  ///< ∫ρ z² dz minus that of m at c
 };
 
 SectionMass section_mass(const ShellSection& section) {
@@ -26,13 +26,13 @@ SectionMass section_mass(const ShellSection& section) {
 template <int Corners>
 struct ShellFrame {
   ShellGeometry<Corners> geometry;
-  Eigen::Matrix3Xd corner;  ///< of the middle surface, part axes
+  Eigen::Matrix3Xd corner;  ///< corners of the middle surface, part axes
   double offset = 0.0;
 
   Eigen::Vector3d normal() const { return geometry.R_PE.col(2); }
 };
 
-/// A point at Σ N_i of the corners, with bulges g_i (part axes).
+/// Mass point at Σ N_i of the corners, with bulges g_i (part axes).
 template <int Corners>
 MassPoint point_of(const ShellFrame<Corners>& shell, const Eigen::Matrix<double, Corners, 1>& N,
                    const Eigen::Matrix<double, 3, Corners>& bulge) {
@@ -50,7 +50,7 @@ MassPoint point_of(const ShellFrame<Corners>& shell, const Eigen::Matrix<double,
   return point;
 }
 
-/// J with Σ weight_ij θ_i θ_jᵀ of the corners, as a sum of Corners squares.
+/// Adds J with Σ weight_ij θ_i θ_jᵀ of the corners as a sum of Corners squares.
 template <int Corners>
 void add_rotary(const Eigen::Matrix3d& J, const Eigen::Matrix<double, Corners, Corners>& weight, MovingMass& moving) {
   const Eigen::Matrix<double, Corners, Corners> L = weight.llt().matrixL();
@@ -79,7 +79,7 @@ void add_consistent(const ShellFrame<Corners>& shell, const ShellSection& sectio
   add_rotary<Corners>(J, NN, moving);
 }
 
-/// Rotary inertia of the nodes alike about all axes (lumped_shell_mass()).
+/// Adds equal rotary inertia about all axes at the nodes (lumped_shell_mass()).
 template <int Corners>
 void add_lumped(const ShellFrame<Corners>& shell, const ShellSection& section, MovingMass& moving) {
   const SectionMass mass = section_mass(section);

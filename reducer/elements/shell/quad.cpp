@@ -1,13 +1,13 @@
 // Stiffness of the four-node shell element: assumed membrane stress with drilling rotations, MITC4 plate.
 //
-// Membrane forces N are a field of their own (Hellinger-Reissner), curvatures and shear strains follow from rotations
+// Membrane forces N are an independent field (Hellinger-Reissner). Curvatures and shear strains follow from rotations
 // and deflections:
 //   Π = ∮ N n · u ds − ½ ∫ (N − Bκ)ᵀ A⁻¹ (N − Bκ) dA + ½ ∫ [ κᵀ D κ + γᵀ As γ ] dA.
-// u on an edge is Allman's: linear along it, quadratic across it by the drilling rotations of its ends ([All84]). N
-// fulfils equilibrium, so u is needed on the edges only (as in [Ami92]). Seven linear modes of N give the stiffness;
-// two quadratic ones and the mean drilling rotation complete the rank. The quadratic ones carry a small factor:
-// drilling rotations that alternate around an element are those of a doubly curved shell in bending, which must not
-// stretch it. Nodes and projected corners are tied by rigid arms, so rigid motions give no force, warped or not.
+// u on an edge is Allman's: linear along it, quadratic across it by the drilling rotations of its ends ([All84]). N is
+// in equilibrium, so u is needed on the edges only (as in [Ami92]). Seven linear modes of N give the stiffness; two
+// quadratic ones and the mean drilling rotation complete the rank. The quadratic ones have a small factor: alternating
+// drilling rotations also occur in bending of a doubly curved shell, which must not stretch it. Rigid arms tie nodes
+// and projected corners, so rigid motions give no force, warped or not.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,9 +28,9 @@ using StressModes = Eigen::Matrix<double, 3, modes>;
 using ModeRows = Eigen::Matrix<double, modes, 24>;
 using PlateMatrix = Eigen::Matrix<double, 12, 12>;  ///< [w θx θy] per corner
 
-/// Stress [xx yy xy] of the equilibrium modes at p (scaled with the element's size): three constant, four linear (all
-/// that are in equilibrium), and two quadratic, of Airy's functions x⁴ − y⁴ and x³y + xy³. They turn into one another
-/// under rotation and, up to lower ones, under a shift of the axes, so the element knows no preferred axes.
+/// Stress [xx yy xy] of the equilibrium modes at p (scaled by the element's size): three constant, four linear (all
+/// that are in equilibrium), and two quadratic, of Airy's functions x⁴ − y⁴ and x³y + xy³. Rotations map them to one
+/// another, and so do shifts of the axes except for lower modes. So the element has no preferred axes.
 StressModes stress_modes(const Eigen::Vector2d& p) {
   const double x = p.x(), y = p.y();
   StressModes P;
@@ -40,8 +40,8 @@ StressModes stress_modes(const Eigen::Vector2d& p) {
   return P;
 }
 
-/// ∮ (P n)ᵀ u ds: work of each mode on the corner displacements; along edge i → j with d = x_j − x_i:
-/// u(s) = (1−s) u_i + s u_j + ½ s(1−s) (θ_j − θ_i) [d_y, −d_x] ([All84]), exact with three points.
+/// ∮ (P n)ᵀ u ds: work of each mode on the corner displacements. Along edge i → j with d = x_j − x_i, u(s) = (1−s) u_i
+/// + s u_j + ½ s(1−s) (θ_j − θ_i) [d_y, −d_x] ([All84]); three points are exact.
 ModeRows edge_work(const Eigen::Matrix<double, 2, 4>& corner, double size) {
   ModeRows G = ModeRows::Zero();
   for (int i = 0; i < 4; ++i) {
@@ -79,7 +79,7 @@ Eigen::Matrix<double, modes, modes> complementary_energy(const Eigen::Matrix<dou
   return H;
 }
 
-/// θ of the mean − ω of the mean: ∫ θz dA/A − ∮ u · ds/(2A); zero in every rigid motion.
+/// Mean of θ minus rotation of the mean: ∫ θz dA/A − ∮ u · ds/(2A). It is zero in every rigid motion.
 Eigen::Matrix<double, 24, 1> mean_drilling(const ShellGeometry<4>& geometry) {
   Eigen::Matrix<double, 24, 1> row = Eigen::Matrix<double, 24, 1>::Zero();
   for (int i = 0; i < 4; ++i) {
@@ -96,10 +96,9 @@ Eigen::Matrix<double, 24, 1> mean_drilling(const ShellGeometry<4>& geometry) {
 }
 
 /// Covariant shear strains of MITC4 at the middles of the edges, (w_j − w_i)/2 + d/4 · Σ [θy, −θx], along ξ at η = −1
-/// and 1, along η at ξ = −1 and 1 ([DB84]), times the root of φ/(φ + 0.35) with φ = 12 D_ss/(As_ss ℓ²), ℓ the
-/// shortest edge: the shear stiffness is that of the sheet in series with a residual flexibility of bending ([LSV93]:
-/// t²/(t² + α ℓ²); 0.35 is α = 0.1 for isotropic sheets). It vanishes with the element size, and in constant bending
-/// there is no shear.
+/// and 1, along η at ξ = −1 and 1 ([DB84]), times √(φ/(φ + 0.35)) with φ = 12 D_ss/(As_ss ℓ²), ℓ the shortest edge. So
+/// the sheet's shear stiffness is in series with a residual flexibility of bending ([LSV93]: t²/(t² + α ℓ²); 0.35 is α
+/// = 0.1 for isotropic sheets). The change vanishes with the element size, and constant bending has no shear.
 Eigen::Matrix<double, 4, 12> edge_shear(const Eigen::Matrix<double, 2, 4>& corner, const Eigen::Matrix3d& D,
                                         const Eigen::Matrix2d& As) {
   constexpr double residual = 0.35;
@@ -128,8 +127,8 @@ struct PlatePart {
   Eigen::Matrix<double, modes, 12> coupling = Eigen::Matrix<double, modes, 12>::Zero();  ///< ∫ Pᵀ A⁻¹ B κ dA
 };
 
-/// Bending and assumed transverse shear ([DB84]) with the bending stiffness D − B A⁻¹ B that is left when N is a field
-/// of its own; 2 x 2 points.
+/// Bending and assumed transverse shear ([DB84]) by 2 x 2 points. N is an independent field, so the bending stiffness
+/// is D − B A⁻¹ B.
 PlatePart plate_part(const ShellGeometry<4>& geometry, const ShellSection& section, const Eigen::Matrix3d& A_inverse,
                      double size) {
   const Eigen::Matrix<double, 2, 4>& corner = geometry.corner;
@@ -157,7 +156,7 @@ PlatePart plate_part(const ShellGeometry<4>& geometry, const ShellSection& secti
   return part;
 }
 
-/// Of the stress modes with the coordinates: ∫ Pᵀ n ds u, and the coupling with the curvatures.
+/// Work of the stress modes on the coordinates: ∫ Pᵀ n ds u, and the coupling with the curvatures.
 ModeRows mode_work(const Eigen::Matrix<double, 2, 4>& corner, double size, const PlatePart& plate) {
   ModeRows F = edge_work(corner, size);
   for (int i = 0; i < 4; ++i) F.block<modes, 3>(0, 6 * i + 2) += plate.coupling.block<modes, 3>(0, 3 * i);
@@ -198,7 +197,7 @@ QuadMatrix quad_stiffness(const ShellGeometry<4>& geometry, const ShellSection& 
   QuadMatrix K = QuadMatrix::Zero();
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) K.block<3, 3>(6 * i + 2, 6 * j + 2) = plate.K.block<3, 3>(3 * i, 3 * j);
-  // With H = L Lᵀ the rows of L⁻¹F belong to modes that are orthonormal in energy, the quadratic ones last.
+  // With H = L Lᵀ the rows of L⁻¹F belong to modes that are orthonormal in energy; the quadratic ones are last.
   const Eigen::LLT<Eigen::Matrix<double, modes, modes>> H(complementary_energy(geometry.corner, size, A_inverse));
   H.matrixL().solveInPlace(F);
   F.bottomRows<2>() *= std::sqrt(drilling.quadratic);

@@ -1,12 +1,12 @@
 // Second-order strain of shell elements: corotation of the nodal forces, and membrane forces on rotations that vary
 // inside the element.
 //
-// Nodal forces f, m = K_e w hold membrane forces, bending moments and transverse shear alike, so with the rotation ω of
-// the element taken out, V3 = Σ [ f · u₂ + m · ψ₂ ] with the second-order deformations u₂ = −ω × (u − ½ ω × X),
-// ψ₂ = −½ ω × ψ misses nothing of a bent shell that turns. ω: of the mean plane. What the element does not turn as a
-// whole, ψ − mean ψ, is worked on by the mean membrane forces as a fibre of a plate is by its axial force,
-// ½ N_αβ w,α w,β with w,x = −ψy, w,y = ψx, and by the rotation in the plane, ½ (N_xx + N_yy) ψz². It vanishes for rigid
-// motions, so it leaves the invariance as it is, and makes long elements as good as their bending is.
+// Nodal forces f, m = K_e w contain membrane forces, bending moments and transverse shear. ω is the rotation of the
+// mean plane. Without it the second-order deformations are u₂ = −ω × (u − ½ ω × X) and ψ₂ = −½ ω × ψ. So V3 = Σ [ f ·
+// u₂ + m · ψ₂ ] is complete for a bent shell that turns. Rotations relative to the element, ψ − mean ψ, are under the
+// mean membrane forces like a fibre of a plate under its axial force: ½ N_αβ w,α w,β with w,x = −ψy, w,y = ψx, and ½
+// (N_xx + N_yy) ψz² in the plane. This term vanishes for rigid motions, so the invariance stays, and it makes long
+// elements as good as their bending is.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -23,7 +23,7 @@ namespace {
 
 using Turn = ShellTurn;
 
-/// Values of the corners' shape functions at the points, and the root of their share of the area.
+/// Values of the corners' shape functions at a point, and the root of its share of the area.
 template <int Corners>
 struct SheetPoint {
   Eigen::Matrix<double, Corners, 1> N;
@@ -82,8 +82,8 @@ void corotate(const Mesh& mesh, const ShellElement& shell, SecondOrderRows& out)
     row += 3;
   }
   if (shell.offset == 0.0) return;
-  // Arms r from the nodes to the middle surface: what they turn beside the element, φ = ψ − ω, moves their ends by
-  // ½ φ × (φ × r).
+  // Arms r from the nodes to the middle surface turn against the element by φ = ψ − ω, so their ends move by ½ φ × (φ ×
+  // r).
   for (int i = 0; i < Corners; ++i) {
     out.stress.template middleRows<3>(6 * Corners + 3 + 6 * i) = matrices.S.middleRows<3>(6 * i);
     Turn beside = -turn;

@@ -1,4 +1,4 @@
-// Faults of shape of shell elements, told with their measures before any matrix is made.
+// Faults of shape of shell elements, reported with their measures before any matrix is made.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,7 +13,7 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr double least_angle_deg = 1.0;  ///< below, or above 180° less this: error
+constexpr double least_angle_deg = 1.0;  ///< error below it, or above 180° minus it
 constexpr double sharp_angle_deg = 20.0;
 constexpr double largest_aspect = 20.0;
 constexpr double warned_warp = 0.05;
@@ -42,7 +42,7 @@ Edges edges_of(const Mesh& mesh, const ShellElement& shell) {
   return edges;
 }
 
-/// Inner angles of the projected polygon in degrees, from 0 to 360; above 180 in a corner that points inwards.
+/// Checks the inner angles of the projected polygon, 0 to 360 degrees; a corner that points inwards has more than 180.
 template <int Corners>
 void check_angles(const Mesh& mesh, const ShellElement& shell, const ShellGeometry<Corners>& geometry,
                   ShapeFindings& findings) {
@@ -73,7 +73,7 @@ void check_warp(const ShellGeometry<Corners>& geometry, ShapeFindings& findings)
     findings.warnings.push_back(fmt::format("warped: corners {:.3g} of the element's size off its plane", warp));
 }
 
-/// A material direction within 1e-3 rad of the normal has no projection that means anything.
+/// Checks the material direction: within 1e-3 rad of the normal it has no meaningful projection.
 void check_material_axis(const Eigen::Vector3d& direction, const Eigen::Vector3d& normal, ShapeFindings& findings) {
   const double length = direction.norm();
   if (length > 0.0 && (direction - normal * normal.dot(direction)).norm() < 1e-3 * length)

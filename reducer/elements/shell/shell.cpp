@@ -1,4 +1,4 @@
-// Shell elements for assembly: from mesh and element to stiffness and mass in part axes about the nodes.
+// Stiffness and mass of shell elements in part axes about the nodes, for assembly.
 #include <Eigen/Core>
 
 #include "reducer/elements/element_matrices.hpp"
@@ -10,7 +10,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Moves the coordinates of each corner along the normal: the matrix belongs to points `arm[i]` above the new ones,
+/// Moves the coordinates of each corner along the normal. The matrix belongs to points `arm[i]` above the new ones:
 /// u_above = u + θ × arm ẑ = u + arm [θy, −θx, 0].
 template <int Corners>
 void move_along_normal(const Eigen::Matrix<double, Corners, 1>& arm,
@@ -25,7 +25,7 @@ void move_along_normal(const Eigen::Matrix<double, Corners, 1>& arm,
   }
 }
 
-/// R K Rᵀ block by block; the upper triangle is computed and copied, so the result is exactly symmetric.
+/// R K Rᵀ block by block. The upper triangle is computed and copied, so the result is exactly symmetric.
 template <int Corners>
 void turn(const Eigen::Matrix3d& R_PE, const Eigen::Matrix<double, 6 * Corners, 6 * Corners>& K, Eigen::MatrixXd& out) {
   out.resize(6 * Corners, 6 * Corners);
@@ -66,7 +66,7 @@ void matrices(const Mesh& mesh, const ShellElement& shell, ElementMatrices& out)
   turn<Corners>(geometry.R_PE, K, out.M);
 }
 
-/// The transports of matrices() on the right: from the projected corners in element axes to the nodes in part axes.
+/// Stresses for the motions of the nodes in part axes; matrices() has the same transformations on its right side.
 template <int Corners>
 Eigen::Matrix<double, 6, Eigen::Dynamic> stress(const Mesh& mesh, const ShellElement& shell) {
   const ShellSection& section = mesh.shell_properties[shell.property].section;

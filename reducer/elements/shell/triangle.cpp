@@ -41,8 +41,8 @@ double mean_poisson_ratio(const Eigen::Matrix3d& A) {
   return (sum + 6.0 * A(0, 1) - 4.0 * A(2, 2)) / (3.0 * sum + 2.0 * A(0, 1) + 4.0 * A(2, 2));
 }
 
-/// Natural strains along the edges 2-1, 3-2, 1-3 at corner 1 of a unit of each deviation of a drilling rotation from
-/// the mean rotation, with the optimal β of [Fel03]; corners 2 and 3 by cyclic exchange.
+/// Natural strains along the edges 2-1, 3-2, 1-3 at corner 1, for unit deviations of the drilling rotations from the
+/// mean rotation, with the optimal β of [Fel03]. Corners 2 and 3 follow by cyclic exchange.
 std::array<Eigen::Matrix3d, 3> natural_rows(const Eigen::Vector3d& length2, double area) {
   Eigen::Matrix3d Q1, Q2, Q3;
   Q1 << 1, 2, 1, 0, 1, -1, -1, -1, -2;
@@ -86,9 +86,9 @@ Eigen::Matrix<double, 9, 9> higher_stiffness(const Corners& corner, double area,
   return 0.75 * beta * T.transpose() * K_theta * T;
 }
 
-/// Rotation at the middle of side i → j beyond the linear one:
-/// Δβ_s = −3/(2 L (1 + φ)) [w_j − w_i + L/2 (β_si + β_sj)] with β = [θy, −θx] ([Kat93]). The shear strain along
-/// the side is γ_s = −⅔ φ Δβ_s by its equilibrium, and the mean of w,s + β_s is γ_s.
+/// Rotation at the middle of side i → j minus the linear one: Δβ_s = −3/(2 L (1 + φ)) [w_j − w_i + L/2 (β_si + β_sj)]
+/// with β = [θy, −θx] ([Kat93]). By equilibrium the shear strain along the side is γ_s = −⅔ φ Δβ_s. The mean of w,s +
+/// β_s is γ_s.
 Eigen::Matrix<double, 1, 9> side_bulge(const PlateSide& side, int i, int j) {
   const double factor = -1.5 / (side.length * (1.0 + side.phi));
   const Eigen::Vector2d half = 0.5 * factor * side.length * side.direction;
@@ -115,7 +115,7 @@ TriangleSides triangle_sides(const Corners& corner, const ShellSection& section)
   return sides;
 }
 
-/// Shear strains at the corners from those along the two sides that meet there, −⅔ φ Δβ_s ([Kat93]).
+/// Shear strains at the corners from those along the two sides of each corner, −⅔ φ Δβ_s ([Kat93]).
 std::array<Eigen::Matrix<double, 2, 9>, 3> corner_shear(const TriangleSides& sides) {
   std::array<Eigen::Matrix<double, 2, 9>, 3> gamma;
   for (std::size_t after = 0; after < 3; ++after) {
@@ -130,7 +130,7 @@ std::array<Eigen::Matrix<double, 2, 9>, 3> corner_shear(const TriangleSides& sid
   return gamma;
 }
 
-/// κ of a unit Δβ_s whose shape function has the slope g.
+/// κ of a unit Δβ_s with a shape function of slope g.
 Eigen::Vector3d side_curvature(const PlateSide& side, const Eigen::Vector2d& g) {
   const Eigen::Vector2d& s = side.direction;
   return {g.x() * s.x(), g.y() * s.y(), g.y() * s.x() + g.x() * s.y()};

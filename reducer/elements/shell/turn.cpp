@@ -1,10 +1,10 @@
-// The mean rotation of the middle surface, from the slopes of the displacements of the corners.
+// Mean rotation of the middle surface, from the slopes of the displacements of the corners.
 #include "reducer/elements/shell/turn.hpp"
 
 namespace tisserand::reducer {
 namespace {
 
-/// ∂/∂x, ∂/∂y (rows) of interpolated values of the corners: mean over the element.
+/// Mean over the element of ∂/∂x, ∂/∂y (rows) of values interpolated between the corners.
 Eigen::Matrix<double, 2, 3> mean_slope(const ShellGeometry<3>& geometry) {
   Eigen::Matrix<double, 2, 3> slope;
   for (int i = 0; i < 3; ++i) {
@@ -22,8 +22,8 @@ Eigen::Matrix<double, 2, 4> mean_slope(const ShellGeometry<4>& geometry) {
   return slope;
 }
 
-/// ω = [w,y; −w,x; ½ (v,x − u,y)] of the middle surface, in element axes [u v w θx θy θz]: a rigid rotation gives
-/// itself for nodes at heights h − offset above that surface, since ψ × (h − offset) ẑ of their arms is taken off.
+/// ω = [w,y; −w,x; ½ (v,x − u,y)] of the middle surface, in element axes [u v w θx θy θz]. ψ × (h − offset) ẑ, the
+/// motion of the arms of nodes at height h − offset above that surface, is removed. So a rigid rotation gives itself.
 template <int Corners>
 ShellTurn turn_of_plane(const ShellGeometry<Corners>& geometry, double offset) {
   const Eigen::Matrix<double, 2, Corners> slope = mean_slope(geometry);
@@ -39,7 +39,7 @@ ShellTurn turn_of_plane(const ShellGeometry<Corners>& geometry, double offset) {
   return turn;
 }
 
-/// Coordinates of the mesh in element axes: left factor for rows that are in element axes.
+/// Columns for coordinates of the mesh in part axes, from columns in element axes; `rows` are in element axes.
 Eigen::MatrixXd turned_columns(const Eigen::MatrixXd& rows, const Eigen::Matrix3d& R_PE) {
   Eigen::MatrixXd result(rows.rows(), rows.cols());
   for (Eigen::Index k = 0; k < rows.cols(); k += 3)

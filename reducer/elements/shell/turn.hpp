@@ -1,4 +1,4 @@
-// How a shell element turns as a whole.
+// Rotation of a shell element as a whole.
 #pragma once
 
 #include "reducer/elements/shell/geometry.hpp"
@@ -7,7 +7,7 @@ namespace tisserand::reducer {
 
 using ShellTurn = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
-/// Rotation of the mean plane of the middle surface, `offset` above the nodes, for the coordinates of the nodes, both
+/// Rotation of the mean plane of the middle surface (`offset` above the nodes) for the coordinates of the nodes, both
 /// in part axes: 3 x 6 Corners. A rigid rotation gives itself.
 template <int Corners>
 ShellTurn shell_turn(const ShellGeometry<Corners>& geometry, double offset);

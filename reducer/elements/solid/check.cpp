@@ -1,4 +1,4 @@
-// What is wrong with the shape of a solid element, before its matrices are asked for.
+// Faults of the shape of a solid element, found before its matrices are made.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -36,7 +36,7 @@ double jacobian_at(const Positions<shape>& x, const NaturalPoint& point) {
   return J.determinant();
 }
 
-/// The Jacobians that the matrices need (at quadrature points) and those of the nodes.
+/// Range of the Jacobians at the quadrature points of the matrices and at the nodes.
 struct Jacobians {
   double volume = 0.0;
   double mean = 0.0;
@@ -94,7 +94,7 @@ EdgeLengths edge_lengths(const Positions<shape>& x) {
   return result;
 }
 
-/// Prisms whose triangles are wide against the height between them.
+/// Ratio of the longest side of a prism's triangles to the shortest edge between them.
 template <SolidShape shape>
 double flatness(const Positions<shape>& x) {
   double wide = 0.0, height = std::numeric_limits<double>::infinity();

@@ -11,7 +11,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Values and slopes of the functions of a face with `count` nodes at a point, the third coordinate unused.
+/// Values and slopes of the shape functions of a face with `count` nodes at a point; the third coordinate is unused.
 std::array<Jet, 8> face_functions(int count, const NaturalPoint& at) {
   const auto x = natural_jets(at);
   std::array<Jet, 8> N{};

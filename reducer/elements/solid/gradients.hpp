@@ -1,4 +1,4 @@
-// Gradients of the functions of solid elements at their quadrature points: for stiffness, mass, stress, second order.
+// Gradients of solid elements' shape functions at quadrature points: for stiffness, mass, stress, second order.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace tisserand::reducer {
 
-/// Natural gradients g of the incompatible displacements, with the centre where J0 is taken.
+/// Natural gradients g of the incompatible displacements, and the centre where J0 is evaluated.
 template <SolidShape shape>
 struct IncompatibleModes {
   static constexpr std::size_t size = 0;
@@ -23,7 +23,7 @@ struct IncompatibleModes {
   static constexpr std::array<NaturalPoint, 0> gradients(const NaturalPoint&) { return {}; }
 };
 
-/// 1 − r², 1 − s², 1 − t² (halved, sign turned).
+/// Incompatible displacements 1 − r², 1 − s², 1 − t² (halved, sign reversed).
 template <>
 struct IncompatibleModes<SolidShape::hexahedron8> {
   static constexpr std::size_t size = 3;
@@ -33,7 +33,7 @@ struct IncompatibleModes<SolidShape::hexahedron8> {
   }
 };
 
-/// 1 − t² for bending along t; r², rs, s² less their mean gradients for the linear strains across it.
+/// 1 − t² for bending along t. r², rs, s² minus their mean gradients for the linear strains across it.
 template <>
 struct IncompatibleModes<SolidShape::prism6> {
   static constexpr std::size_t size = 4;
@@ -90,8 +90,7 @@ Eigen::Matrix3d jacobian(const NodePositions<Nodes>& x, const NaturalGradients<N
   return x.lazyProduct(GradientMap<Nodes>(gradient[0].data()));
 }
 
-/// ∂N/∂x (one row per function) times the root √(weight det J) at every point, one column per point: rows
-/// k · functions + a.
+/// ∂N/∂x (one row per function) times √(weight det J). Each point has one column with rows k · functions + a.
 template <int Functions, int Points>
 struct WeightedGradients {
   Eigen::Matrix<double, 3 * Functions, Points> slope;
@@ -130,7 +129,7 @@ auto weighted_gradients(const NodePositions<count_of(SolidBasis<shape>::nodes)>&
   return G;
 }
 
-/// S(3a + i, 3b + j) = Σ_kl c_ikjl H_kl(a, b), every pair of functions.
+/// S(3a + i, 3b + j) = Σ_kl c_ikjl H_kl(a, b) for every pair of functions.
 template <int Functions>
 Eigen::Matrix<double, 3 * Functions, 3 * Functions> contract(
     const Eigen::Matrix<double, 6, 6>& C, const Eigen::Matrix<double, 3 * Functions, 3 * Functions>& H) {
@@ -168,12 +167,12 @@ Eigen::Matrix<double, 6, 3 * Functions> strain_rows(const Eigen::Matrix<double, 
   return rows;
 }
 
-/// H = G Gᵀ; not a template, so that the compiler sees one matrix product instead of six.
+/// H = G Gᵀ. It is no template, so that the compiler sees one matrix product instead of six.
 inline void gram(const Eigen::Ref<const Eigen::MatrixXd>& G, Eigen::Ref<Eigen::MatrixXd> H) {
   H.noalias() = G * G.transpose();
 }
 
-/// Positions of the nodes from the first one, so that far from the origin nothing cancels.
+/// Positions of the nodes relative to the first one, so that far from the origin no digits cancel.
 template <SolidShape shape>
 auto node_positions(const Mesh& mesh, const SolidElement& solid) {
   constexpr int nodes = count_of(SolidBasis<shape>::nodes);

@@ -1,4 +1,4 @@
-// Stresses of solid elements where they are most accurate, and their energy beside that of smooth stresses.
+// Stresses of solid elements at their most accurate points, and excess of their energy over that of smooth stresses.
 #include "reducer/elements/mesh_error.hpp"
 
 #include <array>
@@ -17,8 +17,8 @@ namespace {
 
 using Rows6 = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// Rules that integrate products of smooth and element stresses: of incompatible shapes that of the stiffness, whose
-/// energy they must meet.
+/// Quadrature rule for products of smooth and element stresses. Incompatible shapes need the rule of their stiffness,
+/// to get the same energy.
 template <SolidShape shape>
 constexpr auto energy_rule() {
   if constexpr (shape == SolidShape::tetrahedron4) return tetrahedron4_rule();
@@ -28,9 +28,9 @@ constexpr auto energy_rule() {
     return stiffness_rule<shape>();
 }
 
-/// Share of the way from the middle to the corners where stresses are sampled, along each natural coordinate: near the
-/// middle of first-order shapes; the points of degree 2 and of reduced integration of the others; of second-order
-/// prisms the middles of the sides ([ZZ92a]: of triangles), where stresses of bending in their plane are good.
+/// Position of the stress samples along each natural coordinate, as a share of the way from the middle to the corners.
+/// First-order shapes: near the middle. Others: points of degree 2 and of reduced integration. Second-order prisms:
+/// middles of the sides ([ZZ92a] for triangles), where stresses of bending in their plane are good.
 template <SolidShape shape>
 constexpr NaturalPoint sample_share() {
   constexpr double gauss = gauss2[1].at, tetrahedron = 0.44721359549995793928;
@@ -40,7 +40,7 @@ constexpr NaturalPoint sample_share() {
   return {0.2, 0.2, 0.2};
 }
 
-/// One point of the first-order tetrahedron, whose stress is constant; else as many as corners.
+/// Sample points: one for the first-order tetrahedron, whose stress is constant, otherwise one per corner.
 template <SolidShape shape>
 constexpr auto sample_rule() {
   if constexpr (shape == SolidShape::tetrahedron4) {
@@ -76,7 +76,7 @@ Rows6 strains_of(const Eigen::Matrix<double, Functions, 3>& slope, const Eigen::
   return result;
 }
 
-/// A solid with its displacements: strains of its nodes' displacements, and with those of the incompatible ones.
+/// Solid with its displacements: strains of the nodes' displacements, and stresses that include the incompatible ones.
 template <SolidShape shape>
 class SolidField {
  public:
@@ -95,8 +95,8 @@ class SolidField {
 
   struct Point {
     double volume = 0.0;
-    Rows6 strain;  ///< of the nodes' displacements
-    Rows6 stress;  ///< of all displacements
+    Rows6 strain;  ///< strain of the nodes' displacements
+    Rows6 stress;  ///< stress of all displacements
   };
 
   template <std::size_t Points>
@@ -160,7 +160,7 @@ void sample(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& 
   }
 }
 
-/// uᵀ (M − M_h) u where M_h is lumped (elements/solid/solid.cpp).
+/// uᵀ (M − M_h) u for lumped M_h (elements/solid/solid.cpp).
 template <SolidShape shape>
 Eigen::VectorXd excess_of_mass(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u) {
   static constexpr auto table = tabulate<shape>(mass_rule<shape>());
@@ -259,7 +259,7 @@ std::array<int, 2> ends_of(int node) {
   TISSERAND_ENSURE(false, "node {} behind the edges of a solid", node);
 }
 
-/// The three edges of a corner as seen from it.
+/// Solid angle between the three edges that meet in a corner.
 template <SolidShape shape>
 double solid_angle(const Mesh& mesh, const SolidElement& solid, int corner) {
   Eigen::Matrix3d edge = Eigen::Matrix3d::Zero();

@@ -1,8 +1,8 @@
-// Second-order strain of solid elements: Green's strain at the points of the stiffness, with the stress that the
-// incompatible displacements leave.
+// Second-order strain of solid elements: Green's strain at the points of the stiffness, with stresses that include the
+// incompatible displacements.
 //
-// V3 = ∫ σ(w) : ½ ∇dᵀ ∇d dV, so K_G,ab = (∫ ∇N_a · σ ∇N_b dV) 1. Incompatible displacements strain (in σ) and do not
-// turn: nodal forces are ∫ Bᵀ σ with the gradients of the nodes alone, so what turns as a rigid body gains no energy.
+// V3 = ∫ σ(w) : ½ ∇dᵀ ∇d dV, so K_G,ab = (∫ ∇N_a · σ ∇N_b dV) 1. Incompatible displacements contribute to σ but not to
+// ∇d: nodal forces are ∫ Bᵀ σ with the gradients of the nodes alone. So a rigid rotation adds no energy.
 #include <Eigen/Cholesky>
 
 #include "reducer/elements/second_order.hpp"
@@ -11,7 +11,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// All functions follow from the nodes: 1, and −S_aa⁻¹ S_au of the incompatible ones.
+/// Amplitudes of all functions from the nodes: 1, and −S_aa⁻¹ S_au for the incompatible ones.
 template <int Functions, int Nodes>
 Eigen::MatrixXd follow(const Eigen::Matrix<double, 3 * Functions, 3 * Functions>& S) {
   Eigen::MatrixXd T = Eigen::MatrixXd::Identity(3 * Functions, 3 * Nodes);
@@ -40,7 +40,7 @@ void green(const Mesh& mesh, const SolidElement& solid, SecondOrderRows& out) {
   const Eigen::MatrixXd T = follow<functions, nodes>(S);
   out.start({{&green_strain(), points}}, 3 * nodes);
   for (int q = 0; q < points; ++q) {
-    const Eigen::Map<const Eigen::Matrix<double, functions, 3>> slope(G.slope.col(q).data());  // with roots of weights
+    const Eigen::Map<const Eigen::Matrix<double, functions, 3>> slope(G.slope.col(q).data());  // times √weight
     out.stress.middleRows<6>(6 * q).noalias() = C / G.root[q] * strain_rows<functions>(slope) * T;
     for (int a = 0; a < nodes; ++a)
       for (int k = 0; k < 3; ++k)

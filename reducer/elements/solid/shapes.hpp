@@ -1,7 +1,7 @@
-// Shape functions of the solid elements with their natural gradients: from a point of the reference element to numbers.
+// Shape functions of the solid elements and their natural gradients at a point of the reference element.
 //
-// Reference elements as in gmsh: tetrahedra r, s, t ≥ 0, r + s + t ≤ 1; hexahedra −1 ≤ r, s, t ≤ 1; prisms r, s ≥ 0,
-// r + s ≤ 1, −1 ≤ t ≤ 1. All functions are polynomials and can be evaluated by the compiler.
+// Reference elements as in gmsh: tetrahedra r, s, t ≥ 0, r + s + t ≤ 1; hexahedra −1 ≤ r, s, t ≤ 1; prisms r, s ≥ 0, r
+// + s ≤ 1, −1 ≤ t ≤ 1. All functions are polynomials, which the compiler can evaluate.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace tisserand::reducer {
 
 using NaturalPoint = std::array<double, 3>;
 
-/// A value with its derivatives by r, s, t.
+/// Value with its derivatives by r, s, t.
 struct Jet {
   double value = 0.0;
   std::array<double, 3> slope{};
@@ -41,7 +41,7 @@ constexpr std::array<Jet, 3> natural_jets(const NaturalPoint& p) {
 
 using Edge = std::array<std::size_t, 2>;
 
-/// Edges between corners, in the order in which gmsh numbers the nodes at their middles.
+/// Edges between corners, in the order in which gmsh numbers the nodes in their middles.
 inline constexpr std::array<Edge, 6> tetrahedron_edges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}}};
 inline constexpr std::array<Edge, 12> hexahedron_edges{
     {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}}};
@@ -66,7 +66,7 @@ constexpr std::array<NaturalPoint, Corners + Edges> with_middles(const std::arra
   return points;
 }
 
-/// What a shape is: `corners`, `edges`, natural coordinates of its `nodes`, and functions(r, s, t), one per node, with
+/// Data of a shape: `corners`, `edges`, natural coordinates of its `nodes`, and functions(r, s, t), one per node, with
 /// functions_i(nodes_j) = δ_ij and Σ functions = 1.
 template <SolidShape shape>
 struct SolidBasis;
@@ -113,7 +113,7 @@ struct SolidBasis<SolidShape::hexahedron20> {
   static constexpr std::size_t corners = 8;
   static constexpr auto edges = hexahedron_edges;
   static constexpr auto nodes = with_middles(hexahedron_corners, hexahedron_edges);
-  /// Along the edge of node i, where its natural coordinate is 0, the factor is 1 − x², elsewhere 1 + x x_i.
+  /// Factor for node i: 1 − x² along its edge, where its natural coordinate is 0, otherwise 1 + x x_i.
   static constexpr std::array<Jet, 20> functions(const Jet& r, const Jet& s, const Jet& t) {
     const std::array<Jet, 3> x{r, s, t};
     std::array<Jet, 20> N{};
@@ -164,7 +164,7 @@ struct SolidBasis<SolidShape::prism15> {
   }
 };
 
-/// work(shape as a constant).
+/// Calls work with the shape as a template argument.
 auto with_shape(SolidShape shape, const auto& work) {
   switch (shape) {
     case SolidShape::tetrahedron4:

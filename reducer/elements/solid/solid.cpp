@@ -1,12 +1,12 @@
-// Stiffness and mass of solid elements: nodes, material and shape -> the matrices that assembly adds up.
+// Stiffness and mass of solid elements for assembly, from nodes, material and shape.
 //
-// With H_kl(a, b) = ∫ ∂N_a/∂x_k ∂N_b/∂x_l dV and constant elasticity c_ikjl over the element, the stiffness is
-// S(3a + i, 3b + j) = Σ_kl c_ikjl H_kl(a, b): quadrature touches numbers per pair of functions only, not strains.
+// With H_kl(a, b) = ∫ ∂N_a/∂x_k ∂N_b/∂x_l dV and constant elasticity c_ikjl in the element, the stiffness is S(3a + i,
+// 3b + j) = Σ_kl c_ikjl H_kl(a, b). So quadrature handles numbers per pair of functions, not strains.
 //
-// Eight-node hexahedra and six-node prisms have incompatible displacements besides those of the nodes, eliminated
-// inside the element, which make bending exact in parallelepipeds. Their gradients are det J0/det J J0⁻ᵀ g with ∫ g dξ
-// = 0 over the reference element (J0 at its centre): orthogonal to constant stress, so the patch test holds on any mesh
-// ([TBW76]; [SR90] section 4 shows that this is the enhanced strain of the Hu-Washizu principle).
+// Eight-node hexahedra and six-node prisms have incompatible displacements in addition to those of the nodes. They are
+// eliminated inside the element and make bending exact in parallelepipeds. Their gradients are det J0/det J J0⁻ᵀ g with
+// ∫ g dξ = 0 over the reference element (J0 at its centre). They are orthogonal to constant stress, so the patch test
+// holds on any mesh ([TBW76]). [SR90] section 4 shows that this is the enhanced strain of the Hu-Washizu principle.
 #include <Eigen/Core>
 
 #include "reducer/elements/element_matrices.hpp"
@@ -15,7 +15,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Eliminates the rows from `kept` on, last first: leaves S_uu − S_ua S_aa⁻¹ S_au of the nodes in the leading rows.
+/// Eliminates the rows from `kept` on, last first. The leading rows become S_uu − S_ua S_aa⁻¹ S_au of the nodes.
 template <int Size>
 void eliminate_modes(int kept, Eigen::Matrix<double, Size, Size>& S) {
   for (int p = Size - 1; p >= kept; --p) {
@@ -39,8 +39,8 @@ void stiffness(const NodePositions<count_of(SolidBasis<shape>::nodes)>& x, const
     for (int i = 0; i < j; ++i) S(i, j) = S(j, i);
 }
 
-/// Consistent: ρ ∫ N_a N_b dV. Lumped: its diagonal scaled to the mass of the element ([HRZ76]), which is positive for
-/// every shape, where row sums are negative at the corners of quadratic ones.
+/// Mass. Consistent: ρ ∫ N_a N_b dV. Lumped: its diagonal scaled to the mass of the element ([HRZ76]). This is positive
+/// for every shape, whereas row sums are negative at the corners of quadratic shapes.
 template <SolidShape shape>
 void mass(const NodePositions<count_of(SolidBasis<shape>::nodes)>& x, const SolidProperty& property,
           Eigen::MatrixXd& M) {

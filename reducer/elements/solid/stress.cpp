@@ -1,4 +1,4 @@
-// Stresses of solid elements at their nodes: from the quadrature points of the stiffness by a smooth polynomial.
+// Stresses of solid elements at their nodes, by a polynomial through the quadrature points of the stiffness.
 #include <Eigen/LU>
 #include <Eigen/QR>
 
@@ -27,7 +27,7 @@ Eigen::MatrixXd polynomials(const auto& points) {
   return rows;
 }
 
-/// Nodes x quadrature points: the polynomial of least squares through the points, at the nodes.
+/// Nodes x quadrature points: values at the nodes of the least-squares polynomial through the points.
 template <SolidShape shape>
 Eigen::MatrixXd extrapolation() {
   static constexpr auto rule = stiffness_rule<shape>();
@@ -43,7 +43,7 @@ void add_strain(const Eigen::Vector3d& g, Eigen::Index column, Eigen::MatrixXd& 
   B.col(column + 2) << 0.0, 0.0, g.z(), 0.0, g.y(), g.x();
 }
 
-/// Incompatible displacements that the nodes bring along: −S_aa⁻¹ S_au.
+/// Amplitudes of the incompatible displacements for motions of the nodes: −S_aa⁻¹ S_au.
 template <int Functions>
 Eigen::MatrixXd followers(const Eigen::Matrix<double, 6, 6>& C, const Eigen::MatrixXd& G, Eigen::Index kept) {
   const Eigen::Matrix<double, 3 * Functions, 3 * Functions> H = G * G.transpose();
