@@ -1,4 +1,4 @@
-// From cells and samples to facts.
+// Form, side, area and middle of faces from cells and samples.
 #include "reducer/faces/face_facts.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr double exact_angle = 1e-3, guess_angle = 0.5;                         
 constexpr double most_turn = 52.0 * std::numbers::pi / 180.0;                     // of one cell
 constexpr std::size_t least_normals = 3;
 
-/// Normal times area, by the right-hand rule of the corners.
+/// Normal of a cell times its area, by the right-hand rule of the corners.
 Vector3d area_vector(const Cell& cell, const Positions& x) {
   const auto at = [&](int k) { return x[cell.nodes[k]]; };
   if (form_of(cell.shape).corners == 3) return 0.5 * (at(1) - at(0)).cross(at(2) - at(0));
@@ -53,7 +53,7 @@ Extent extent_of(const Positions& points) {
   return {(high - low).norm(), largest};
 }
 
-/// The largest angle between normals of the form at corners of one cell.
+/// Largest angle between normals of the form at the corners of one cell.
 double turn_of(const Cell& cell, const Positions& x, const SurfaceForm& form) {
   const int corners = form_of(cell.shape).corners;
   double least = 1.0;
@@ -63,7 +63,7 @@ double turn_of(const Cell& cell, const Positions& x, const SurfaceForm& form) {
   return std::acos(std::clamp(least, -1.0, 1.0));
 }
 
-/// Whether facets follow the form as closely as their size allows, and enough of them.
+/// Whether the facets follow the form within the limits of their size, and are enough.
 bool facets_follow(const FaceCells& face, const Positions& x, const SurfaceForm& form) {
   double turn = 0.0;
   for (const Cell& cell : face.cells) turn = std::max(turn, turn_of(cell, x, form));
@@ -97,13 +97,13 @@ SurfaceForm form_of_samples(const Positions& point, const Positions& normal) {
   return fitted_form(samples);
 }
 
-/// One point and sense of the many that describe the same form.
+/// Chooses one point and one direction of the axis among those that describe the same form.
 void settle(SurfaceForm& form, const Vector3d& center) {
   if (form.kind == FormKind::plane) form.point = center;
   if (form.kind == FormKind::cylinder) form.point += (center - form.point).dot(form.axis) * form.axis;
   if (form.kind != FormKind::cylinder && form.kind != FormKind::torus) return;
   Eigen::Index largest = 0;
-  // Of equal components the first one counts, also after round-off.
+  // Among equal components the first one counts, also after round-off.
   (form.axis.cwiseAbs() - Vector3d(0.0, 1e-9, 2e-9)).maxCoeff(&largest);
   if (form.axis[largest] < 0.0) form.axis = -form.axis;
 }

@@ -1,4 +1,4 @@
-// Closed boundaries: cells turned one after the other over their edges, then all by the sign of the volume.
+// Orientation of closed boundaries: cells are turned one by one across edges, then all by the sign of the volume.
 #include "reducer/faces/outward.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Whether two cells of the same corners run round them in the same sense.
+/// Whether two cells with the same corners have the same orientation.
 bool agree(const Cell& a, const Cell& b) {
   const int corners = form_of(a.shape).corners;
   for (int k = 0; k < corners; ++k)
@@ -24,7 +24,7 @@ bool agree(const Cell& a, const Cell& b) {
   return false;
 }
 
-/// By the solids that the cells lie on.
+/// Signs from the solids on which the cells lie.
 std::vector<int> signs_of_solids(const CellMesh& mesh) {
   Mesh solids;
   for (const Cell& cell : mesh.cells[3]) {
@@ -43,7 +43,7 @@ std::vector<int> signs_of_solids(const CellMesh& mesh) {
   return sign;
 }
 
-/// One boundary: the cells of one volume.
+/// Boundary of one volume: its cells.
 class Boundary {
  public:
   Boundary(const CellMesh& mesh, std::vector<std::size_t> members)
@@ -52,7 +52,7 @@ class Boundary {
       for (const auto& [a, b] : edges(m)) at_edge_[std::minmax(a, b)].push_back({m, a < b});
   }
 
-  /// Signs of the members; empty if it is open, or cells meet there that cannot be told apart.
+  /// Signs of the members. Empty if it is open, or if cells that meet at an edge cannot be distinguished.
   std::vector<int> signs() {
     for (const auto& [edge, meeting] : at_edge_)
       if (meeting.size() != 2) return {};
@@ -81,7 +81,7 @@ class Boundary {
     return result;
   }
 
-  /// Neighbours run along their common edge in opposite directions. Nothing if that cannot be, as on a Moebius strip.
+  /// Orients the shell of the cell `first` so that neighbours traverse edges oppositely; empty on a Moebius strip.
   std::vector<std::size_t> turned_from(std::size_t first) {
     std::vector<std::size_t> shell{first};
     sign_[first] = 1;
@@ -110,7 +110,7 @@ class Boundary {
     return (high - low).norm();
   }
 
-  /// Six times the volume that the shell encloses, as its cells are turned now.
+  /// Six times the volume that the shell encloses with the present signs of its cells.
   double volume(const std::vector<std::size_t>& shell) const {
     const Vector3d origin = mesh_.position[cell(shell.front()).nodes[0]];
     double sum = 0.0;
@@ -127,7 +127,7 @@ class Boundary {
   std::map<std::pair<int, int>, std::vector<std::pair<std::size_t, bool>>> at_edge_;
 };
 
-/// Cells of dimension 2 by the volumes that they bound; without any, all of them as one.
+/// Cells of dimension 2 by the volumes that they bound; without geometry, all of them as one.
 std::map<int, std::vector<std::size_t>> cells_of_volumes(const CellMesh& mesh) {
   std::map<int, std::vector<std::size_t>> result;
   for (std::size_t e = 0; e < mesh.entities.size(); ++e) {

@@ -1,4 +1,4 @@
-// First guesses by linear algebra, then Gauss-Newton on distances.
+// Fit of surface forms: first guesses by linear algebra, then Gauss-Newton on distances.
 #include "reducer/faces/surface_form.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Points = std::vector<Vector3d>;
 
-constexpr std::size_t most_fitted = 600;  // points that are fitted; all are measured
+constexpr std::size_t most_fitted = 600;  // points in the fit; the distances of all are checked
 constexpr int most_steps = 30;
 
 Vector3d mean_of(const Points& points) {
@@ -36,14 +36,14 @@ double size_of_points(const Points& points) {
   return (high - low).norm();
 }
 
-/// The direction in which vectors about `middle` extend least.
+/// Direction of the least extent of vectors about `middle`.
 Vector3d least_direction(const Points& vectors, const Vector3d& middle) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const Vector3d& v : vectors) sum += (v - middle) * (v - middle).transpose();
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum).eigenvectors().col(0);
 }
 
-/// Least squares of rows by the pseudo-inverse of the normal equations; directions without effect stay at rest.
+/// Least squares of rows by the pseudo-inverse of the normal equations; directions without effect are not changed.
 template <class Matrix, class Vector>
 Vector least_squares(const Matrix& normal_matrix, const Vector& right) {
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(normal_matrix);
@@ -111,7 +111,7 @@ SurfaceForm sphere_through(const Points& points) {
   return form;
 }
 
-/// All tangent planes meet in the apex.
+/// Cone whose apex is the common point of all tangent planes.
 SurfaceForm cone_through(const SurfaceSamples& samples) {
   SurfaceForm form;
   form.kind = FormKind::cone;
@@ -131,7 +131,7 @@ SurfaceForm cone_through(const SurfaceSamples& samples) {
   return form;
 }
 
-/// The axis (a; b = q x a) meets all lines of normals (n; x x n): n . b + (x x n) . a = 0.
+/// Torus whose axis (a; b = q x a) meets all lines of normals (n; x x n): n . b + (x x n) . a = 0.
 std::optional<SurfaceForm> torus_through(const SurfaceSamples& samples) {
   const Vector3d middle = mean_of(samples.place);
   const double size = size_of_points(samples.place);
@@ -160,7 +160,7 @@ std::optional<SurfaceForm> torus_through(const SurfaceSamples& samples) {
   return form;
 }
 
-/// The form moved, turned about two axes across its own, and with other radii. Lengths in units of `size`.
+/// The form after a shift, a turn about two axes across its own, and a change of radii. Lengths in units of `size`.
 SurfaceForm changed(const SurfaceForm& form, const Vector7& by, double size) {
   SurfaceForm result = form;
   const auto [u, v] = across(form.axis);
@@ -180,7 +180,7 @@ double sum_of_squares(const SurfaceForm& form, const Points& points) {
   return sum;
 }
 
-/// Gauss-Newton; derivatives by central differences, whose error does not move the minimum of exact points.
+/// Form by Gauss-Newton with central differences, whose error does not move the minimum of exact points.
 SurfaceForm refined(SurfaceForm form, const Points& points, double size) {
   constexpr double step = 1e-6;
   double sum = sum_of_squares(form, points);

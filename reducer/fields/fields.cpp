@@ -13,9 +13,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using formats::RecoveryField;
 
-constexpr Index block_doubles = 1 << 20;  // of the motions of a block's nodes
+constexpr Index block_doubles = 1 << 20;  // size of the motions of a block's nodes
 
-/// Calls work(first, count) over all items of a field, whole chunks at a time; `rows`: of motions, per item.
+/// Calls work(first, count) over all items of a field in whole chunks; `rows` of motions belong to each item.
 void for_blocks(const MotionSource& shapes, const formats::Recovery& tables, RecoveryField field, Index rows,
                 const auto& work) {
   const int total = formats::items(tables, field), chunk = formats::chunk_items(tables, field);
@@ -39,7 +39,7 @@ void displacements(const MotionSource& shapes, const formats::Recovery& tables, 
   });
 }
 
-/// Computes a field of elements whose matrix `stress_of` takes six coordinates per node.
+/// Computes a field of elements; the matrix `stress_of` has six columns per node.
 void element_field(const auto& elements, const MotionSource& shapes, const formats::Recovery& tables,
                    RecoveryField field, const auto& stress_of, const FieldSink& sink) {
   const int width = formats::width(field);
@@ -69,11 +69,11 @@ void shell_stresses(const Mesh& mesh, const MotionSource& shapes, const formats:
   element_field(mesh.shells, shapes, tables, RecoveryField::shell_stress, stress_of, sink);
 }
 
-/// Which stress point each node of each solid counts for, and the solids around each point.
+/// Stress point of each node of each solid, and the solids around each point.
 struct PointTable {
-  std::vector<int> first;   ///< solids + 1; into `point`
+  std::vector<int> first;   ///< solids + 1; index into `point`
   std::vector<int> point;   ///< by solid, then by its nodes
-  std::vector<int> around;  ///< points + 1; into `solid`
+  std::vector<int> around;  ///< points + 1; index into `solid`
   std::vector<int> solid;
 };
 
@@ -103,7 +103,7 @@ PointTable point_table(const Mesh& mesh, const formats::Recovery& tables) {
   return table;
 }
 
-/// Mean over the solids around each point of [first, first + count).
+/// Stresses of the points [first, first + count): mean over the solids around each.
 MatrixXd point_stresses(const Mesh& mesh, const MotionSource& shapes, const PointTable& table, int first, int count) {
   std::vector<int> solids(table.solid.begin() + table.around[first], table.solid.begin() + table.around[first + count]);
   std::sort(solids.begin(), solids.end());
@@ -148,7 +148,7 @@ void solid_stresses(const Mesh& mesh, const MotionSource& shapes, const formats:
 
 void motion_fields(const Mesh& mesh, const MotionSource& source, const formats::Recovery& tables,
                    const std::function<void(double)>& share, const FieldSink& sink) {
-  double total = 0.0, made = 0.0;  // rows
+  double total = 0.0, made = 0.0;  // numbers of rows
   for (const RecoveryField field : formats::recovery_fields)
     total += static_cast<double>(formats::width(field)) * formats::items(tables, field);
   const FieldSink counted = [&](RecoveryField field, const MatrixXd& rows) {

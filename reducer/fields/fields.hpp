@@ -1,4 +1,4 @@
-// The recovery file of a reduction: its tables, and its fields block by block.
+// Contents of a recovery file: its tables, and its fields block by block.
 #pragma once
 
 #include <functional>
@@ -12,61 +12,60 @@
 
 namespace tisserand::reducer {
 
-/// States of the mesh, one per column: (6 nodes) x columns, [translation; rotation] of each node asked for, part axes.
+/// States of the mesh, one per column: (6 nodes) x columns, [translation; rotation] of the requested nodes, part axes.
 struct MotionSource {
   std::function<Eigen::MatrixXd(const std::vector<int>& nodes)> motions;
   Eigen::Index columns = 0;
 };
 
-/// What a recovery file is made from, while a reduction holds it.
+/// Data from which a recovery file is made, valid while the reduction holds it.
 struct RecoverySource {
   const Mesh& mesh;
   const Coordinates& coordinates;
-  MotionSource motion;      ///< of each coordinate of the file
-  MotionSource loads = {};  ///< static answers to the inertia loads of head.loads; no columns where there are none
-  MotionSource second_order = {};  ///< shapes of second order of head.second_order; no columns where there are none
-  MotionSource load_forces = {};   ///< on the nodes, as motions are; without `motions` where there are none
-  MotionSource mode_forces = {};   ///< likewise
-  formats::Recovery head;          ///< names, units, identity, coordinates: what is not of the mesh
-  bool is_modal = false;           ///< of the modal body, not of the superelement
+  MotionSource motion;             ///< motion for each coordinate of the file
+  MotionSource loads = {};         ///< static answers to the inertia loads of head.loads; may have no columns
+  MotionSource second_order = {};  ///< shapes of second order of head.second_order; may have no columns
+  MotionSource load_forces = {};   ///< forces on the nodes, ordered as motions; may lack `motions`
+  MotionSource mode_forces = {};   ///< likewise for the modes
+  formats::Recovery head;          ///< names, units, identity, coordinates: data not from the mesh
+  bool is_modal = false;           ///< of the modal body instead of the superelement
 };
 
-/// Hears of it (phase "recovery").
+/// Receives the source (phase "recovery").
 using RecoveryListener = std::function<void(const RecoverySource& source)>;
 
-/// With the static answers to inertia loads, but of MacNeal's method, whose coordinates move masses of their own, and
-/// with the displacement of second order where the part has it. The arguments live as long as the result.
+/// Source of a superelement with the displacement of second order, if there is one, and static answers to inertia
+/// loads. MacNeal's method has none: its coordinates move masses of their own. The arguments must outlive the result.
 RecoverySource recovery_source(const ReducedPart& part, std::optional<SecondOrderDisplacement> second_order);
-/// `q`: its modes in the system's coordinates; `answers`: displacements of all coordinates x under `head.loads`, which
-/// the caller adds.
+/// Source of a modal body. `q`: its modes in the system's coordinates. `answers`: displacements of all coordinates x
+/// under `head.loads`, which the caller adds.
 RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eigen::MatrixXd& q,
                                const formats::ModalBody& body, Eigen::MatrixXd answers);
 
-/// Takes the next rows of a field.
+/// Receives the next rows of a field.
 using FieldSink = std::function<void(formats::RecoveryField field, const Eigen::MatrixXd& rows)>;
 
-/// What a mesh that nothing was solved for gives of it: nodes, elements, groups, sections of beams, surface, boundary
-/// nodes.
+/// Tables of a mesh without a solution: nodes, elements, groups, sections of beams, surface, boundary nodes.
 formats::Recovery mesh_tables(const Mesh& mesh);
 
-/// Mesh, names, sections, surface; everything but the fields.
+/// Complete tables: mesh, names, sections and surface, without the fields.
 formats::Recovery recovery_tables(const RecoverySource& source);
 
-/// The same of a mesh that was solved for as it is: no superelement and no coordinates of one.
+/// Tables of a mesh that was solved in full: without a superelement and its coordinates.
 formats::Recovery solved_tables(const Mesh& mesh, const Coordinates& coordinates);
 
-/// Displacements, section forces and stresses of all states, in blocks of some megabytes. `share` hears how much of
-/// them is made.
+/// Displacements, section forces and stresses of all states, in blocks of some megabytes. `share` receives the share
+/// that is made.
 void motion_fields(const Mesh& mesh, const MotionSource& source, const formats::Recovery& tables,
                    const std::function<void(double)>& share, const FieldSink& sink);
 
-/// Take the next rows of fields of coordinates, of loads, and of forces on nodes.
+/// Sinks for the fields of coordinates, loads and second order, and for forces on nodes.
 struct RecoverySinks {
   FieldSink coordinates, loads, second_order;
   std::function<void(formats::NodalForce force, const Eigen::MatrixXd& rows)> forces;
 };
 
-/// All fields in blocks of some megabytes, whole chunks each. `tables` are recovery_tables() of the same source.
+/// Writes all fields in blocks of some megabytes, whole chunks each. `tables` are recovery_tables() of this source.
 void recovery_fields(const RecoverySource& source, const formats::Recovery& tables,
                      const std::function<void(double)>& share, const RecoverySinks& sinks);
 

@@ -26,7 +26,7 @@ formats::Ring rectangle(double width, double height) {
   return {{-y, -z}, {y, -z}, {y, z}, {-y, z}};
 }
 
-/// About the centroid; empty: the section has no shape that is known here.
+/// Contour of the section's shape about the centroid; empty for a shape that is not known here.
 formats::Ring contour_of_shape(const formats::Section& section) {
   if (section.shape == "circle" || section.shape == "hollow_circle") return circle(section.sizes[0]);
   if (section.shape == "rectangle" || section.shape == "hollow_rectangle")
@@ -39,7 +39,7 @@ formats::Ring contour_of_shape(const formats::Section& section) {
   return ring;
 }
 
-/// The rectangle of the same area and principal second moments about the centroid.
+/// Rectangle with the same area and principal second moments about the centroid.
 formats::Ring equivalent_contour(const formats::Section& section) {
   Eigen::Matrix2d moments;
   moments << section.second_moment_z, section.second_moment_yz, section.second_moment_yz, section.second_moment_y;

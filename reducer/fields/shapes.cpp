@@ -1,10 +1,10 @@
-// Rows of T [1 0; Ψ Φ].
+// Rows of T [1 0; Ψ Φ], THEORY (79).
 #include "reducer/fields/shapes.hpp"
 
 namespace tisserand::reducer {
 namespace {
 
-/// out.row(row) += coefficient · (row `place` of [1 0; Ψ Φ]).
+/// A term of a row of x: out.row(row) += coefficient · (row `place` of [1 0; Ψ Φ]).
 struct Share {
   Eigen::Index row;
   Eigen::Index place;

@@ -1,4 +1,4 @@
-// The motion of every node of the full mesh for every coordinate of the superelement: from modes back to the mesh.
+// Motion of every node of the full mesh for every coordinate of the superelement.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace tisserand::reducer {
 
-/// x = T [1 0; Ψ Φ] y, row by row, as needed: T resolves ties and leaves coordinates without stiffness at zero.
+/// x = T [1 0; Ψ Φ] y, computed by rows on request. T resolves ties and leaves coordinates without stiffness at zero.
 class FullShapes {
  public:
-  /// What `part` names lives as long as this.
+  /// The objects to which `part` refers must outlive this one.
   explicit FullShapes(const ReducedPart& part);
 
   Eigen::Index coordinates() const { return n_B_ + internal_.Phi.cols(); }
@@ -24,7 +24,7 @@ class FullShapes {
   const BoundaryModes& boundary_;
   const InternalModes& internal_;
   Eigen::Index n_B_;
-  std::vector<int> place_;  ///< of each q: boundary coordinate, or n_B + row of Ψ and Φ
+  std::vector<int> place_;  ///< boundary coordinate of each q, or n_B + row of Ψ and Φ
 };
 
 }  // namespace tisserand::reducer

@@ -1,4 +1,4 @@
-// Faces that are met once, and their triangles.
+// Faces that belong to one solid only, and their triangles.
 #include "reducer/fields/surface.hpp"
 
 #include <algorithm>
@@ -11,12 +11,12 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Corners of a face, counter-clockwise seen from outside; a triangle has −1 behind them.
+/// Corners of a face, counter-clockwise seen from outside; a triangle ends with −1.
 using Face = std::array<int, 4>;
 
 struct Faces {
   std::vector<Face> corners;
-  std::vector<Edge> edges;  ///< with nodes at their middles, which follow the corners
+  std::vector<Edge> edges;  ///< edges with middle nodes, which follow the corners
   int corner_count = 0;
 };
 
@@ -99,7 +99,7 @@ class SurfaceBuilder {
   Surface surface_;
 };
 
-/// A face by its sorted corners; how often it is met, and by whom first.
+/// A face by its sorted corners, with the number of solids that have it and the first of them.
 struct Meeting {
   Face corners;
   int solid = 0, face = 0;

@@ -1,4 +1,4 @@
-// What one sees of a mesh: triangles of shells and of the outer faces of solids, outlines of beam sections.
+// Visible surface of a mesh: triangles of shells and of the outer faces of solids, outlines of beam sections.
 #pragma once
 
 #include <vector>
@@ -13,15 +13,15 @@ namespace tisserand::reducer {
 
 struct Surface {
   std::vector<Eigen::Vector3i> triangle;  ///< nodes, counter-clockwise seen from outside
-  std::vector<int> element;               ///< of the mesh, in the numbering of element_nodes()
+  std::vector<int> element;               ///< number in element_nodes()
 };
 
-/// Shells, split along their shorter diagonal, and the faces that only one solid has; faces of quadratic solids in
-/// four or six triangles.
+/// Surface of shells, split along their shorter diagonal, and of faces that only one solid has. Faces of quadratic
+/// solids have four or six triangles.
 Surface surface(const Mesh& mesh);
 
-/// Constants and outer contour of a section. Without a shape of its own: the rectangle of the same area and second
-/// moments (of a rod the circle of the same area).
+/// Constants and outer contour of a section. A section without a known shape gets the rectangle of the same area and
+/// second moments (a rod the circle of the same area).
 formats::RecoverySection recovery_section(const formats::Section& section);
 
 }  // namespace tisserand::reducer

@@ -1,4 +1,4 @@
-// Mesh and properties as the recovery file has them.
+// Tables of a recovery file from mesh and properties.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -26,7 +26,7 @@ ElementShape shape_of(SolidShape shape) {
   return shapes[static_cast<int>(shape)];
 }
 
-/// `part`: a Superelement or ModalBody.
+/// Head of the tables for `part`, a Superelement or ModalBody.
 template <class Part, class Image>
 Recovery head_of(const Part& part, const Image& image) {
   Recovery r;
@@ -38,7 +38,7 @@ Recovery head_of(const Part& part, const Image& image) {
   return r;
 }
 
-/// Rows of Recovery::elements; groups are the properties of beams, then of shells, then of solids.
+/// Rows of Recovery::elements. Groups are the properties of beams, then of shells, then of solids.
 class ElementTable {
  public:
   explicit ElementTable(formats::RecoveryElements& elements) : elements_(elements) { elements_.first.push_back(0); }
@@ -73,7 +73,7 @@ void add_beams(const Mesh& mesh, ElementTable& table, Recovery& r) {
   }
 }
 
-/// z along the normal of the middle plane, x as stresses have it: the axes of the element.
+/// Axes of the element: z along the normal of the middle plane, x as for stresses.
 Eigen::Matrix3d axes_of(const Mesh& mesh, const ShellElement& shell) {
   return shell.corners() == 3 ? shell_geometry<3>(mesh, shell).R_PE : shell_geometry<4>(mesh, shell).R_PE;
 }
@@ -108,7 +108,7 @@ void add_solids(const Mesh& mesh, int first_group, ElementTable& table, Recovery
   }
 }
 
-/// Motions of nodes of displacements of all coordinates of the mesh.
+/// Motions of nodes from displacements of all coordinates of the mesh.
 MotionSource motions_of(std::shared_ptr<const Eigen::MatrixXd> x, const Coordinates& numbers) {
   const Eigen::Index columns = x->cols();
   const auto motions = [x = std::move(x), &numbers](const std::vector<int>& nodes) {
@@ -130,11 +130,11 @@ Eigen::MatrixXd beside(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
 /// Forces on some coordinates q.
 struct CoordinateForces {
   Eigen::MatrixXd rows;
-  std::vector<int> row_of;  ///< of each q; −1: it bears none
+  std::vector<int> row_of;  ///< row of each q; −1 if it bears no force
 };
 
-/// The same as forces on the nodes: on coordinates that ties leave independent, which do the same work. Nothing where
-/// an auxiliary coordinate, which no node has, bears one.
+/// Forces on the nodes that do the same work, on coordinates that ties leave independent. Empty if an auxiliary
+/// coordinate, which belongs to no node, bears a force.
 MotionSource nodal_forces_of(const System& system, CoordinateForces forces) {
   constexpr double round_off = 1e-12;
   const Coordinates& numbers = system.coordinates;
@@ -157,7 +157,7 @@ MotionSource nodal_forces_of(const System& system, CoordinateForces forces) {
   return {motions, columns};
 }
 
-/// S_II φ of each internal coordinate; of modes by their eigenvalue, without the round-off of S.
+/// S_II φ of each internal coordinate; for modes by their eigenvalue, which avoids the round-off of S.
 CoordinateForces mode_forces(const ReducedPart& part) {
   const InternalModes& internal = part.internal;
   const Eigen::Index m = internal.Phi.cols(), vectors = internal.free_modes ? m : internal.moments;
@@ -181,7 +181,7 @@ void add_forces(const ReducedPart& part, Eigen::MatrixXd load_force, RecoverySou
     source.head.loads->boundary_stiffness = part.element.stiffness.topLeftCorner(n_B, n_B);
 }
 
-/// Load cases of the part behind the twelve.
+/// Adds the load cases of the part after the twelve inertia loads.
 void add_load_cases(const ReducedPart& part, InertiaAnswers& answers, formats::RecoveryLoads& loads) {
   if (part.mesh.load_cases.empty()) return;
   const System& system = part.system;

@@ -1,4 +1,4 @@
-// Modes of the inside, whose mechanisms are held by pins while they are computed.
+// Modes of the inside. Pins hold its mechanisms during the computation.
 #include "reducer/inside/inside.hpp"
 
 #include <utility>
@@ -21,7 +21,7 @@ std::string mechanism_note(const std::string& words, Eigen::Index count) {
       count, words);
 }
 
-/// What has no stiffness while the boundary is held; only where the part allows that.
+/// Motions without stiffness while the boundary is held. Throws Error if the part does not allow them.
 NullSpace mechanisms(const Mesh& mesh, const System& system, const formats::Part& part, Inside& inside) {
   if (inside.partition.n_I() == 0) return {};
   NullSpace null = null_space(inside.blocks.S_II, inside.S_II);
@@ -34,7 +34,7 @@ NullSpace mechanisms(const Mesh& mesh, const System& system, const formats::Part
   return null;
 }
 
-/// Rigid motions that the inside does not follow show a mechanism whose pivots did not: the solution holds some of it.
+/// Searches for a mechanism that the pivots missed if the solution of the inside does not follow rigid motions.
 void check_rigid_defect(const InternalProblem& problem, const BoundaryModes& boundary) {
   constexpr double suspicious = 1e-7;
   const bool searched = problem.S_II.least_pivot() <= trusted_pivot;
@@ -69,7 +69,7 @@ Inside reduce_inside(const Mesh& mesh, System& system, const formats::Part& part
     find_modes(problem_of(mesh, system, inside, part, begin), part, begin, inside);
     return inside;
   }
-  Inside stiff;  // what the pins leave
+  Inside stiff;  // the inside held by the pins
   stiff.partition = pinned(inside.partition, pins);
   stiff.blocks = split(system.matrices, stiff.partition);
   stiff.S_II = factor_inside(stiff.blocks, stiff.partition, part, begin);

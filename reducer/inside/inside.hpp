@@ -1,5 +1,5 @@
-// The inside of a part: from its matrices to boundary modes and internal modes, with what has no stiffness refused or
-// kept.
+// Reduction of the inside of a part: boundary modes and internal modes from its matrices. Motions without stiffness are
+// refused or kept.
 #pragma once
 
 #include <string>
@@ -11,21 +11,21 @@
 
 namespace tisserand::reducer {
 
-/// All that a reduction knows of the inside.
+/// Data of the inside that a reduction needs.
 struct Inside {
   Partition partition;
   Blocks blocks;
-  Factor S_II;  ///< of a part with a mechanism: of what its pins leave
+  Factor S_II;  ///< if the part has a mechanism, of the inside held by pins
   BoundaryModes boundary;
   InternalModes internal;
   std::vector<std::string> notes, warnings;  ///< whole sentences
 };
 
-/// Takes S and M apart, factors S_II, finds what has no stiffness, solves for the modes. `system` loses its matrices as
+/// Splits S and M, factors S_II, finds motions without stiffness and computes the modes. `system` loses its matrices as
 /// in take_apart(). Throws Error if something inside moves without stiffness and the part does not allow that.
 Inside reduce_inside(const Mesh& mesh, System& system, const formats::Part& part, const PhaseListener& begin);
 
-/// What consumers of the modes take.
+/// Arguments for the functions that use the modes.
 InternalProblem problem_of(const Mesh& mesh, const System& system, const Inside& inside, const formats::Part& part,
                            const PhaseListener& begin);
 

@@ -19,7 +19,7 @@ class NodalForces {
   NodalForces(const Mesh& mesh, const Coordinates& coordinates)
       : mesh_(mesh), coordinates_(coordinates), force_(Eigen::VectorXd::Zero(coordinates.count())) {}
 
-  /// [force; moment], or a force alone, on a node that has such coordinates.
+  /// Adds [force; moment], or a force only, to a node that has these coordinates.
   void add(int node, const Eigen::Ref<const Eigen::VectorXd>& value) {
     const Index size = coordinates_.rotates(node) ? value.size() : 3;
     force_.segment(coordinates_.of(node, 0), size) += value.head(size);
@@ -104,7 +104,7 @@ LoadVectors load_vectors(const Mesh& mesh, const System& system) {
     loads.q.col(c) = gather(system.T, nodal.force());
     loads.applied.col(c) = R.transpose() * loads.q.col(c);
     const double far = system.length + system.middle.norm();
-    const Vector6 lost = loads.applied.col(c) - resultant;  // what coordinates without stiffness and mass take
+    const Vector6 lost = loads.applied.col(c) - resultant;  // share on coordinates without stiffness and mass
     if (lost.head<3>().norm() + lost.tail<3>().norm() / far > negligible * loads.size[c])
       fail_lost(mesh, system, load, nodal);
     if (load.gravity.isZero(0.0)) continue;

@@ -10,7 +10,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Components that follow a rigid spider, and its row; of turned axes all of a triple.
+/// Components that follow a rigid spider, and its row; for turned axes all components of a triple.
 struct Follower {
   Components components = 0;
   int spider = 0;

@@ -1,4 +1,4 @@
-// Supports of a part as coordinates of its mesh that are held.
+// Supports of a part as held coordinates of its mesh.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace tisserand::reducer {
 
-/// Each coordinate once, ascending, with the first support that holds it. Throws Error for rotations that a node does
-/// not have and for nodes that follow a rigid spider.
+/// Held coordinates, each once, ascending, with the first support that holds it. Throws Error for rotations that a node
+/// does not have and for nodes that follow a rigid spider.
 std::vector<OwnedCoordinate> held_coordinates(const Mesh& mesh, const Coordinates& coordinates);
 
 }  // namespace tisserand::reducer

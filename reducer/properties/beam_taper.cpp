@@ -20,7 +20,7 @@ constexpr std::array<double Section::*, 16> interpolated{
 }  // namespace
 
 std::vector<Section> taper_stations(const Section& first, const Section& second) {
-  const bool of_points = first.shape == "polygon" || first.shape == "walls";  // sizes are corners, no measures
+  const bool of_points = first.shape == "polygon" || first.shape == "walls";  // sizes are corners, not dimensions
   const bool same_shape = !first.shape.empty() && first.shape == second.shape && !of_points;
   if (!same_shape || first.sizes.size() != second.sizes.size()) return {first, second};
   constexpr int count = 5;

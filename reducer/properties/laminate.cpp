@@ -16,7 +16,7 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Matrix3d;
 
-/// Columns turn strains of the laminate's axes into those of the fibres, [11 22 12] with engineering shear.
+/// Matrix from strains in the laminate's axes to strains in the fibres' axes, [11 22 12] with engineering shear.
 Matrix3d strain_in_fibre_axes(double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   Matrix3d T;
@@ -44,9 +44,9 @@ Matrix2d shear_compliance(const Ply& ply) {
   return R.transpose() * Eigen::Vector2d(1.0 / ply.G13, 1.0 / ply.G23).asDiagonal() * R;
 }
 
-/// ∫ fᵀ G⁻¹ f dz inverted. F(z) = a(z) A⁻¹B − b(z) with a = ∫ Q dz, b = ∫ Q z dz from the bottom up to z, then
-/// F (D − B A⁻¹ B)⁻¹ turns moment gradients into shear stress ([RR97]); of its entries those of M_x,x and M_y,y
-/// remain: f = [F11 F32; F31 F22]. f is quadratic in z, so three points per ply are exact.
+/// Inverse of ∫ fᵀ G⁻¹ f dz. F(z) = a(z) A⁻¹B − b(z) with a = ∫ Q dz, b = ∫ Q z dz from the bottom up to z. F (D − B
+/// A⁻¹ B)⁻¹ turns moment gradients into shear stress ([RR97]). Its entries of M_x,x and M_y,y are f = [F11 F32; F31
+/// F22]. f is quadratic in z, so three points per ply are exact.
 Matrix2d shear_stiffness(const std::vector<Ply>& plies, double bottom, const ShellSection& section) {
   constexpr std::array<std::pair<double, double>, 3> gauss{
       {{0.11270166537925831148, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.88729833462074168852, 5.0 / 18.0}}};

@@ -1,4 +1,4 @@
-// Sections of shells: from an isotropic sheet or a stack of orthotropic plies to the stiffness and mass per area.
+// Sections of shells: stiffness and mass per area of an isotropic sheet or a stack of orthotropic plies.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace tisserand::reducer {
 
-/// One layer: an orthotropic sheet in plane stress. 1 along the fibres, 2 across them, 3 the normal of the shell.
+/// Orthotropic sheet in plane stress, one layer. 1 along the fibres, 2 across them, 3 the normal of the shell.
 struct Ply {
   double E1 = 0.0;
   double E2 = 0.0;
@@ -21,14 +21,14 @@ struct Ply {
   double angle = 0.0;  ///< rad, from the x axis of the laminate to the fibres, right-handed about the normal
 };
 
-/// A, D and As = `shear_correction` G t of a homogeneous isotropic sheet; z from its middle.
+/// Section with A, D and As = `shear_correction` G t of a homogeneous isotropic sheet; z from its middle.
 ShellSection isotropic_shell(double youngs_modulus, double poisson_ratio, double density, double thickness,
                              double shear_correction);
 
-/// Classical lamination theory ([Jon99] chapter 4) about the reference surface z = 0, the first ply lowest, from
-/// z = `bottom` up (bottom = -thickness/2: the middle). Transverse shear from the complementary energy of the stresses
-/// that equilibrium gives in cylindrical bending along x and along y ([RR97]): τ(z) = f(z) Q, and
-/// As = (∫ fᵀ G⁻¹ f dz)⁻¹; 5/6 G t for a homogeneous sheet. Plies must have passed check_plies.
+/// Section by classical lamination theory ([Jon99] chapter 4) about the reference surface z = 0. The first ply is the
+/// lowest, from z = `bottom` up (bottom = -thickness/2: the middle). Transverse shear: equilibrium in cylindrical
+/// bending along x and along y gives τ(z) = f(z) Q, and its complementary energy gives As = (∫ fᵀ G⁻¹ f dz)⁻¹ ([RR97]).
+/// That is 5/6 G t for a homogeneous sheet. check_plies must accept the plies.
 ShellSection laminate(const std::vector<Ply>& plies, double bottom);
 
 /// Throws Error naming the ply and the quantity unless every ply has finite values, thickness, E1, E2, G12, G13, G23 >

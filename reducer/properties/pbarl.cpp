@@ -1,4 +1,4 @@
-// The figures of PBARL as polygons.
+// Figures of PBARL as polygons.
 #include "reducer/properties/pbarl.hpp"
 
 #include <cmath>
@@ -29,7 +29,7 @@ const std::map<std::string_view, int>& size_counts() {
   return counts;
 }
 
-/// A shape of formats/sections/profiles.hpp with its sizes, in the figure's axes (right, up), and a quarter turn if the
+/// Shape of formats/sections/profiles.hpp with its sizes, in the figure's axes (right, up), and quarter turns if the
 /// figure shows it lying.
 struct Drawn {
   std::string_view shape;
@@ -58,7 +58,7 @@ std::optional<Drawn> drawn_profile(std::string_view type, const Sizes& d) {
   return std::nullopt;
 }
 
-/// Top flange to the left, bottom flange to the right: the mirror image of the profile "zed".
+/// Z with the top flange to the left and the bottom flange to the right: mirror image of the profile "zed".
 SectionPolygon zed(const Sizes& d) {
   const double t = 0.5 * (d[3] - d[2]), w = 0.5 * d[1], b = d[0] + w, h = 0.5 * d[3];
   return {{{-w, -h}, {b, -h}, {b, t - h}, {w, t - h}, {w, h}, {-b, h}, {-b, h - t}, {-w, h - t}}, {}};
@@ -78,7 +78,7 @@ SectionPolygon double_box(const Sizes& d) {
           {cell(d[3], d[7], middle - half, d[1] - d[6]), cell(middle + half, d[9], d[0] - d[5], d[1] - d[8])}};
 }
 
-/// From the figure's axes (right, up) to (y, z) = (up, right), after the quarter turns.
+/// Polygon in (y, z) = (up, right) from the figure's axes (right, up), after the quarter turns.
 SectionPolygon to_element_axes(SectionPolygon polygon, int quarter_turns) {
   const auto move = [quarter_turns](Ring& ring) {
     for (Eigen::Vector2d& p : ring) {
@@ -128,7 +128,7 @@ Section pbarl_section(std::string_view type, const Sizes& sizes, const std::stri
   if (count == 0) throw Error(fmt::format("section type '{}' is not known", type), where, list_of_types());
   if (count_of(sizes) != count) refuse(type, sizes, fmt::format("{} sizes instead of {}", sizes.size(), count), where);
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    const bool may_vanish = type == "TUBE" && i == 1;  // a full circle
+    const bool may_vanish = type == "TUBE" && i == 1;  // 0 means a full circle
     if (!std::isfinite(sizes[i]) || sizes[i] < 0.0 || (sizes[i] == 0.0 && !may_vanish))
       refuse(type, sizes, fmt::format("DIM{} {:g} must be positive", i + 1, sizes[i]), where);
   }

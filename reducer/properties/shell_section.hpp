@@ -1,12 +1,12 @@
-// What a shell is across its thickness: resultants per unit length from membrane strain, curvature and shear strain.
+// Section of a shell: resultants per unit length from membrane strain, curvature and shear strain.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace tisserand::reducer {
 
-/// [N; M; Q] = [A B 0; B D 0; 0 0 As] [ε; κ; γ] in the axes of the laminate, per unit length; engineering shear
-/// strains. z from the middle surface along the normal; B = ∫ z Q dz.
+/// [N; M; Q] = [A B 0; B D 0; 0 0 As] [ε; κ; γ] in the axes of the laminate, per unit length, with engineering shear
+/// strains. z counts from the middle surface along the normal; B = ∫ z Q dz.
 struct ShellSection {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();   ///< force / length
   Eigen::Matrix3d B = Eigen::Matrix3d::Zero();   ///< force

@@ -1,4 +1,4 @@
-// Elastic matrices of solids with material axes of their own: from the constants of a deck to C in part axes.
+// Elastic matrices of solids with material axes: C in part axes from the constants of a deck.
 #pragma once
 
 #include <string>
@@ -22,8 +22,8 @@ struct OrthotropicConstants {
 /// definite; `where` is the place of the constants in the input.
 Matrix6 orthotropic_elasticity(const OrthotropicConstants& constants, const std::string& where);
 
-/// C in part axes of a material with C_M in axes M: C = Tᵀ C_M T, where T maps strains by ε_M = R_PMᵀ ε_P R_PM
-/// (columns of R_PM: material axes in part axes).
+/// C in part axes of a material with C_M in axes M: C = Tᵀ C_M T. T maps strains, ε_M = R_PMᵀ ε_P R_PM (columns of
+/// R_PM: material axes in part axes).
 Matrix6 rotated_elasticity(const Matrix6& C_M, const Eigen::Matrix3d& R_PM);
 
 /// Material with the 21 constants C_M ([xx yy zz xy yz zx] of axes M). Throws Error, naming `where`, unless C_M is

@@ -1,4 +1,4 @@
-// Elastic matrices of solids: isotropic, orthotropic and fully anisotropic materials turned into part axes.
+// Elastic matrices of solids in part axes: isotropic, orthotropic and fully anisotropic materials.
 #include "reducer/properties/solid_material.hpp"
 
 #include <array>

@@ -5,13 +5,13 @@
 
 namespace tisserand::reducer {
 
-/// σ = C ε with [xx yy zz xy yz zx] and engineering shear strains, in part axes.
+/// σ = C ε with [xx yy zz xy yz zx], engineering shear strains, part axes.
 struct SolidMaterial {
   Eigen::Matrix<double, 6, 6> C = Eigen::Matrix<double, 6, 6>::Zero();
   double density = 0.0;
 };
 
-/// C of an isotropic material.
+/// Isotropic material from its constants.
 SolidMaterial isotropic_solid(double youngs_modulus, double poisson_ratio, double density);
 
 }  // namespace tisserand::reducer

@@ -1,5 +1,5 @@
-// Assembly: graph of the nodes, then element matrices in batches, computed and added by all threads; of several ranks
-// each computes the rows of its share of the nodes.
+// Assembly: graph of the nodes, then element matrices in batches, computed and added by all threads. If there are
+// several ranks, each computes the rows of its share of the nodes.
 #include "reducer/system/assembly.hpp"
 
 #include <algorithm>
@@ -16,13 +16,13 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr int batch_size = 1024;  ///< elements whose matrices are held at a time: at most 60 MB (20-node bricks)
+constexpr int batch_size = 1024;  ///< elements whose matrices are held together: at most 60 MB (20-node bricks)
 
-/// Per node of a share its neighbours of higher number, itself first, and where their columns begin in the node's first
-/// row.
+/// Neighbours with a number not below its own for each node of a share, the node itself first, and the places of their
+/// columns in the node's first row.
 struct NodeGraph {
   Share nodes;
-  std::vector<int> begin{0};  ///< of the share's first node, ...
+  std::vector<int> begin{0};  ///< ... of the share's first node, and so on
   std::vector<int> neighbour;
   std::vector<int> shift;
 };
@@ -72,7 +72,7 @@ NodeGraph share_of_graph(const Mesh& mesh, const Coordinates& coordinates, const
   return graph;
 }
 
-/// Share t of `threads` of those nodes.
+/// Share of thread t of `threads` in those nodes.
 Share part_of(Share nodes, int t, int threads) {
   const Share part = share_of(nodes.end - nodes.first, t, threads);
   return {nodes.first + part.first, nodes.first + part.end};
@@ -94,8 +94,8 @@ NodeGraph find_graph(const Mesh& mesh, const Coordinates& coordinates, Share nod
   return graph;
 }
 
-/// The pattern of the rows of the graph's nodes with values 0. Row c of a node leaves out the first c columns of the
-/// node itself.
+/// Pattern of the rows of the graph's nodes, with values 0. Row c of a node omits the first c columns of the node
+/// itself.
 SymmetricPair empty_pair(const Coordinates& coordinates, const NodeGraph& graph) {
   SymmetricPair pair;
   long entries = 0;
@@ -125,7 +125,7 @@ void compute(const Mesh& mesh, int element, ElementMatrices& out) {
   with_element(mesh, element, [&](const auto& kind) { element_matrices(mesh, kind, out); });
 }
 
-/// Rows of some nodes of S and M while they are summed.
+/// Rows of S and M of some nodes during the summation.
 struct Rows {
   const Mesh& mesh;
   const Coordinates& coordinates;
@@ -139,7 +139,7 @@ struct Rows {
   void add_masses();
 };
 
-/// Adds to the rows of the nodes of `share` what an element contributes to them.
+/// Adds the contribution of an element to the rows of the nodes of `share`.
 void Rows::add(const ElementNodes& of, const ElementMatrices& element, Share share) {
   const int size = static_cast<int>(element.S.rows()) / of.count;
   const int first_row = coordinates.first[graph.nodes.first];
@@ -164,7 +164,7 @@ void Rows::add(const ElementNodes& of, const ElementMatrices& element, Share sha
   }
 }
 
-/// Elements with a node among those, ascending.
+/// Numbers of the elements that have a node among these, ascending.
 std::vector<int> elements_at(const Mesh& mesh, Share nodes) {
   std::vector<int> elements;
   for (int e = 0; e < mesh.elements(); ++e) {
@@ -175,7 +175,7 @@ std::vector<int> elements_at(const Mesh& mesh, Share nodes) {
   return elements;
 }
 
-/// Rows of the nodes of `share`.
+/// Adds the elements to the rows of the nodes of `share`.
 void Rows::add_elements(Share share, const std::function<void(double)>& done) {
   const std::vector<int> elements = elements_at(mesh, share);
   const int total = count_of(elements);
@@ -203,7 +203,7 @@ void Rows::add_masses() {
   }
 }
 
-/// A number that tells meshes apart: all ranks must have made the same one.
+/// Hash value of a mesh, by which ranks verify that all have made the same mesh.
 int fingerprint(const Mesh& mesh) {
   std::size_t hash = std::hash<std::string_view>()({reinterpret_cast<const char*>(mesh.position.data()),
                                                     sizeof(double) * static_cast<std::size_t>(mesh.position.size())});
@@ -212,7 +212,7 @@ int fingerprint(const Mesh& mesh) {
   return static_cast<int>(hash >> 33);
 }
 
-/// What the ranks add to the rows of their nodes.
+/// Adds elements on all ranks: each adds those of its own nodes, and the leader collects the rows.
 void add_by_ranks(const std::function<void(double)>& share, Rows& all) {
   const int nodes = all.mesh.nodes();
   call_followers({Task::assemble, 0, fingerprint(all.mesh)});

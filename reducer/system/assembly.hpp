@@ -1,4 +1,4 @@
-// From the mesh to the sparse matrices S and M of all its coordinates, ties not yet regarded.
+// Assembly of the sparse matrices S and M of all coordinates of the mesh, before ties are eliminated.
 #pragma once
 
 #include <functional>
@@ -9,15 +9,14 @@
 
 namespace tisserand::reducer {
 
-/// Sum of the elements and of the nodal masses. Memory is reserved exactly from the graph of the nodes. Every entry is
-/// summed in the order of the elements, so the result is the same for any number of threads and ranks.
-/// By several ranks it needs that many followers in help_to_assemble(). `share` hears how much of the elements is
-/// added.
+/// Sum of the elements and the nodal masses. Memory is reserved exactly from the graph of the nodes. Every entry is
+/// summed in the order of the elements, so the result is the same for any number of threads and ranks. With several
+/// ranks all followers must be in help_to_assemble(). `share` receives the share of the elements that is added.
 SymmetricPair assemble(
     const Mesh& mesh, const Coordinates& coordinates, int threads,
     const std::function<void(double)>& share = [](double /*done*/) {});
 
-/// What the followers do meanwhile, with their own copy of the mesh. Throws Error if the leader has another one.
+/// Follower's share of assemble(), with its own copy of the mesh. Throws Error if the leader has another mesh.
 void help_to_assemble(const Mesh& mesh, int leaders_fingerprint);
 
 }  // namespace tisserand::reducer

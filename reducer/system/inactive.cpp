@@ -1,4 +1,4 @@
-// Null directions of the nodes' blocks.
+// Null directions of the nodes' blocks of S and M.
 #include "reducer/system/inactive.hpp"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ Block block_of(const System& system, int node, int base) {
   return block;
 }
 
-/// The block scaled to order 1: S and M over their largest entries, left out if these are below `least`.
+/// Block scaled to order 1: sum of S and M, each over its largest entry and omitted if that is below `least`.
 Eigen::MatrixXd scaled_sum(const Block& block, double least_S, double least_M) {
   const auto size = static_cast<Eigen::Index>(block.q.size());
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size);
@@ -53,7 +53,7 @@ Eigen::MatrixXd scaled_sum(const Block& block, double least_S, double least_M) {
   return sum;
 }
 
-/// Whether a Cholesky decomposition meets no small pivot: true for nearly all blocks, and much cheaper than
+/// Whether a Cholesky decomposition finds no small pivot. This is true for nearly all blocks and much cheaper than
 /// eigenvalues.
 bool clearly_regular(Eigen::MatrixXd A) {
   for (Eigen::Index k = 0; k < A.rows(); ++k) {
@@ -83,13 +83,13 @@ Eigen::MatrixXd null_directions(const Eigen::MatrixXd& A) {
                     : "connect something to the node");
 }
 
-/// What becomes of each coordinate q.
+/// Treatment of each coordinate q.
 struct Choice {
   std::vector<bool> kept;   ///< on the boundary
   std::vector<bool> fixed;  ///< without stiffness and mass
 };
 
-/// Fixes one coordinate for each column of `null` and turns the rigid motions of the block. Returns whether it could.
+/// Fixes one coordinate per column of `null` and adapts the block's rigid motions. Returns whether it was possible.
 bool fix_directions(const Block& block, Eigen::MatrixXd null, Choice& choice, System& system) {
   const auto size = null.rows();
   for (Eigen::Index k = 0; k < null.cols(); ++k) {
@@ -109,7 +109,7 @@ bool fix_directions(const Block& block, Eigen::MatrixXd null, Choice& choice, Sy
   return true;
 }
 
-/// T of the coordinates q without the fixed ones.
+/// Transformation T of the coordinates q without the fixed ones.
 Transformation without(const std::vector<bool>& fixed) {
   Transformation T;
   for (int q = 0; q < std::ssize(fixed); ++q) {
@@ -124,7 +124,7 @@ Transformation without(const std::vector<bool>& fixed) {
   return T;
 }
 
-/// x from q and q from the new q, joined.
+/// Joins the transformation from the new q to q with that from q to x.
 void compose(const Transformation& second, System& system) {
   Transformation& T = system.T;
   for (std::vector<Term>& terms : T.dependent) {
@@ -160,7 +160,7 @@ void remove_inactive(const Mesh& mesh, const std::vector<int>& boundary, const s
     const Eigen::MatrixXd null = null_directions(scaled_sum(block, least_S, least_M));
     if (null.cols() > 0 && !fix_directions(block, null, choice, system)) fail_boundary(mesh, block, system, where);
   };
-  const double tiny = std::pow(1e-12 * system.length, 2);  // rotations beside translations
+  const double tiny = std::pow(1e-12 * system.length, 2);  // for rotations next to translations
   for (int n = 0; n < mesh.nodes(); ++n) {
     const Block moving = block_of(system, n, 0);
     look_at(moving, 0.0, 0.0);

@@ -1,4 +1,4 @@
-// The rigid motion that fits a null vector, and the words for it.
+// Rigid motion that fits a null vector, and its description in words.
 #include "reducer/system/mechanism.hpp"
 
 #include <algorithm>
@@ -22,10 +22,10 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double still = 1e-6;  ///< of the largest motion: rests
-constexpr double fits = 1e-4;   ///< of the largest motion: how well a rigid motion must fit
+constexpr double still = 1e-6;  ///< coordinates below this share of the largest motion are at rest
+constexpr double fits = 1e-4;   ///< error of a fitting rigid motion, share of the largest motion
 
-/// Coordinates of the mesh that move, and how: rotations times the length of the part.
+/// Coordinates of the mesh that move, and their motion; rotations are multiplied by the length of the part.
 struct Movement {
   std::vector<int> x;
   VectorXd u;
@@ -60,8 +60,8 @@ struct RigidFit {
   Vector3d center, t, omega;
 };
 
-/// The rigid motion of the nodes that move, if there is one that all of them follow; rotations that rest, as those of
-/// nodes without any, are left out.
+/// Finds the rigid motion that all moving nodes follow; returns whether there is one. Rotations at rest, as of nodes
+/// without rotations, are omitted.
 bool fit_rigid(const Mesh& mesh, const System& system, const Movement& m, RigidFit& fit) {
   fit.center.setZero();
   for (const int node : m.nodes) fit.center += mesh.position.col(node) / static_cast<double>(m.nodes.size());
@@ -96,7 +96,7 @@ std::string vector_words(Vector3d v, double least) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", v[0], v[1], v[2]);
 }
 
-/// Its largest entry positive.
+/// Unit vector along `direction` with its largest entry positive.
 Vector3d upright(const Vector3d& direction) {
   Index largest = 0;
   direction.cwiseAbs().maxCoeff(&largest);
@@ -117,7 +117,7 @@ std::string node_words(const Mesh& mesh, const std::vector<int>& nodes) {
   return join(names, ", ") + " and " + last;
 }
 
-/// "the line through a and b" if two boundary nodes lie on the axis, "the axis (1, 0, 0) through a" if one does.
+/// "the line through a and b" if two boundary nodes lie on the axis, otherwise "the axis (1, 0, 0) through a".
 std::string axis_words(const Mesh& mesh, const Vector3d& point, const Vector3d& direction, double length) {
   constexpr double on_axis = 1e-4;
   std::vector<std::string> names;
@@ -137,7 +137,7 @@ std::string axis_words(const Mesh& mesh, const Vector3d& point, const Vector3d& 
 std::string rigid_words(const Mesh& mesh, const Movement& m, const RigidFit& fit) {
   const bool one = m.nodes.size() == 1;
   const std::string who = node_words(mesh, m.nodes);
-  double reach = one ? m.length : 0.0;  // a node that moves and turns tells its axis
+  double reach = one ? m.length : 0.0;  // a single node that moves and turns defines its axis
   for (const int node : m.nodes) reach = std::max(reach, (mesh.position.col(node) - fit.center).norm());
   const double turn = fit.omega.norm(), slide = fit.t.norm();
   if (turn * std::max(reach, still * m.length) <= fits * slide)
@@ -150,7 +150,7 @@ std::string rigid_words(const Mesh& mesh, const Movement& m, const RigidFit& fit
   return words;
 }
 
-/// The coordinates that move most.
+/// Names of the coordinates that move most.
 std::string coordinate_words(const Mesh& mesh, const System& system, const Movement& m) {
   constexpr std::size_t most = 4;
   std::vector<std::string> places;

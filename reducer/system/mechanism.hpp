@@ -1,4 +1,4 @@
-// Mechanisms inside a part: motions without stiffness, in words.
+// Messages about mechanisms inside a part: motions without stiffness.
 #pragma once
 
 #include <string>
@@ -11,30 +11,30 @@
 
 namespace tisserand::reducer {
 
-/// What moves when the internal coordinates of `part` move by `v` (n_I) and the others rest: "grid 3, grid 4 and 420
-/// nodes more turn about the line through grid 1 and grid 422", where one rigid motion fits all nodes that move; else
-/// the coordinates that move most.
+/// Description of the motion `v` (n_I) of the internal coordinates of `part` while the others are at rest. If one rigid
+/// motion fits all nodes that move: "grid 3, grid 4 and 420 nodes more turn about the line through grid 1 and grid
+/// 422". Otherwise it names the coordinates that move most.
 std::string motion_words(const PartitionedPart& part, const Eigen::VectorXd& v);
 
-/// All of a null space, the first three in words.
+/// Description of the motions of a null space, the first three in words.
 std::string mechanism_words(const PartitionedPart& part, const NullSpace& null);
 
-/// What the messages call the state in which a motion was looked for.
+/// Words of the messages for the state in which motions without stiffness were searched for.
 struct HeldState {
   std::string who;     ///< "the part"
   std::string how;     ///< "while its boundary is held"
-  std::string remedy;  ///< of a mechanism
+  std::string remedy;  ///< remedy for a mechanism
 };
 
-/// Of the inside of a part.
+/// Words for a part with its boundary held.
 HeldState boundary_held();
 
-/// Throws Error if the stiffness has a null space (its motions named), is indefinite, or has a motion that is so soft
-/// that `factor` holds round-off in place of its stiffness.
+/// Throws Error if the stiffness has a null space (the message names its motions), is indefinite, or has a motion so
+/// soft that `factor` holds round-off in place of its stiffness.
 void require_stiffness(const NullSpace& null, const Factor& factor, const PartitionedPart& part, const HeldState& state,
                        const std::string& where);
 
-/// A warning where round-off is more than a thousandth of the softest motion's stiffness; else empty.
+/// Warning if round-off is more than a thousandth of the softest motion's stiffness, otherwise empty.
 std::string softness_doubt(const NullSpace& null, const PartitionedPart& part);
 
 }  // namespace tisserand::reducer

@@ -9,7 +9,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Where a coordinate stands: among the internal ones, or −1 − its place among those of the boundary.
+/// Place of each coordinate: its index among the internal ones, or −1 − its index on the boundary.
 std::vector<int> places(const Partition& p) {
   std::vector<int> place(p.boundary.size() + p.internal.size());
   for (int i = 0; i < std::ssize(p.internal); ++i) place[p.internal[i]] = i;
@@ -56,7 +56,7 @@ SymmetricPair internal_matrices(SymmetricPair matrices, const Partition& p) {
   const std::vector<int> place = places(p);
   std::vector<int> begin{0};
   begin.reserve(p.internal.size() + 1);
-  int to = 0;  // rows and columns that stay keep their order: every entry moves down
+  int to = 0;  // remaining rows and columns keep their order: every entry moves down
   for (const int i : p.internal) {
     for (int k = matrices.begin[i]; k < matrices.begin[i + 1]; ++k) {
       if (place[matrices.column[k]] < 0) continue;

@@ -1,5 +1,5 @@
-// Which coordinates other bodies will see (boundary, B) and which are condensed (internal, I), and the blocks of S and
-// M.
+// Partition into boundary coordinates (B), which other bodies see, and internal ones (I), which are condensed, and the
+// blocks of S and M.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@
 namespace tisserand::reducer {
 
 /// Numbers of the system's coordinates q. Boundary: in the order of the boundary nodes, translations before rotations.
-/// Internal: ascending; coordinates that a boundary node does not retain are among them.
+/// Internal: ascending, including coordinates that a boundary node does not retain.
 struct Partition {
   std::vector<int> boundary;
   std::vector<int> boundary_node;       ///< row of Mesh::boundary (::held, ::supports)
@@ -23,7 +23,7 @@ struct Partition {
   Eigen::Index n_I() const { return static_cast<Eigen::Index>(internal.size()); }
 };
 
-/// A part with its coordinates told apart.
+/// A part with its partitioned coordinates.
 struct PartitionedPart {
   const Mesh& mesh;
   const System& system;
@@ -32,13 +32,13 @@ struct PartitionedPart {
 
 Partition partition(const Mesh& mesh, const System& system);
 
-/// The same of other coordinates than those of Mesh::boundary. Those without stiffness and mass rest anyway.
+/// Partition with `boundary` in place of Mesh::boundary; coordinates without stiffness and mass are omitted.
 Partition partition(const System& system, const std::vector<OwnedCoordinate>& boundary);
 
-/// Six coordinates whose rigid motions are as independent as possible: pivots of R.
+/// Six coordinates whose rigid motions are as independent as possible: the pivots of R.
 std::vector<int> six_coordinates(const System& system);
 
-/// S_II, M_II symmetric sparse; S_IB, M_IB (n_I x n_B); S_BB, M_BB.
+/// Blocks S_II, M_II symmetric sparse; S_IB, M_IB (n_I x n_B); S_BB, M_BB.
 struct Blocks {
   Matrix S_II, M_II;
   Eigen::SparseMatrix<double> S_IB, M_IB;
@@ -48,10 +48,10 @@ struct Blocks {
 /// S_II and M_II, in the arrays of `matrices`.
 SymmetricPair internal_matrices(SymmetricPair matrices, const Partition& p);
 
-/// Moved from, `matrices` become the blocks: large ones are not held twice.
+/// Blocks of `matrices`, whose memory is reused if it is moved in, so that large blocks are not held twice.
 Blocks split(SymmetricPair matrices, const Partition& p);
 
-/// Rows of a matrix over all coordinates.
+/// The rows `which` of a matrix over all coordinates.
 Eigen::MatrixXd rows(const Eigen::MatrixXd& all, const std::vector<int>& which);
 
 }  // namespace tisserand::reducer

@@ -1,4 +1,4 @@
-// From the mesh to S and M in independent coordinates.
+// S and M in independent coordinates, from the mesh.
 #include "reducer/system/system.hpp"
 
 #include <utility>
@@ -19,7 +19,7 @@ Eigen::VectorXd mass_diagonal(const SymmetricPair& pair) {
   return Eigen::VectorXd::NullaryExpr(pair.size(), [&](Eigen::Index i) { return pair.M[pair.begin[i]]; });
 }
 
-/// Finite numbers everywhere: elements of sound shape can still overflow through their materials.
+/// Throws Error unless all numbers are finite: sound elements can still overflow through their materials.
 void check_finite(const SymmetricPair& pair, const Mesh& mesh, const Coordinates& coordinates,
                   const std::string& where) {
   for (int i = 0; i < pair.size(); ++i)
@@ -30,7 +30,7 @@ void check_finite(const SymmetricPair& pair, const Mesh& mesh, const Coordinates
             where, "check units and values of materials, sections and masses there");
 }
 
-/// Coordinates of the mesh that ties leave independent, and those that stay although they have no stiffness and mass.
+/// Coordinates of the mesh that ties leave independent, and those that remain although they have no stiffness and mass.
 struct Kept {
   std::vector<int> independent, present;
 };
@@ -62,7 +62,7 @@ System assembled(const Mesh& mesh, const Kept& kept, const std::string& where,
   return system;
 }
 
-/// R, or M R, for another point.
+/// R, or M R, moved to another point.
 Eigen::MatrixXd about(const System& system, const Eigen::Vector3d& point, Eigen::MatrixXd R) {
   R.rightCols<3>() *= system.length;
   R.rightCols<3>() += R.leftCols<3>() * skew<double>(Eigen::Vector3d(point - system.middle));
