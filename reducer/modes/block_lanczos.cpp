@@ -8,13 +8,13 @@
 #include <petscsys.h>
 #include <Eigen/Cholesky>
 
-// Does not compile before the others, so it has a block of its own.
+// In a block of its own because it does not compile before the others.
 #include <petscblaslapack.h>
 
 #include "common/error.hpp"
 #include "reducer/algebra/tall.hpp"
 
-// By divide and conquer; PETSc's header lacks it.
+// Eigenvalue solver by divide and conquer, which PETSc's header lacks.
 extern "C" void dsyevd_(const char*, const char*, const PetscBLASInt*, double*, const PetscBLASInt*, double*, double*,
                         const PetscBLASInt*, PetscBLASInt*, const PetscBLASInt*, PetscBLASInt*);
 
@@ -26,7 +26,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 using ColumnRange = Eigen::Ref<const MatrixXd>;
-using Columns = Eigen::Map<MatrixXd, 0, Eigen::OuterStride<>>;  ///< of the array that is given
+using Columns = Eigen::Map<MatrixXd, 0, Eigen::OuterStride<>>;  ///< views of the caller's array
 
 /// C := A B.
 void multiply_wide(const ColumnRange& A, const MatrixXd& B, MatrixXd& C) {
@@ -44,7 +44,7 @@ void divide_by(const MatrixXd& R, MatrixXd& W) {
   BLAStrsm_("R", "U", "N", "N", &m, &n, &one, R.data(), &n, W.data(), &m);
 }
 
-/// The first columns of V := V Z, in place, a few rows at a time.
+/// Replaces the first columns of V by V Z, a few rows at a time.
 void combine_columns(const MatrixXd& Z, Eigen::Ref<MatrixXd> V) {
   constexpr Index rows = 512;
   MatrixXd part;
@@ -117,13 +117,13 @@ class BlockLanczos {
   }
 
  private:
-  /// Columns at which Ritz pairs are first looked at: no sooner than so many can have converged.
+  /// Columns at the first computation of Ritz pairs; fewer cannot have converged.
   int first_look() const { return control_.wanted + 3 * block_; }
-  /// When to look again: a pair takes two columns more or less, so this is two thirds of the way.
+  /// Columns at the next one: a further pair needs about two columns, so this is two thirds of the way.
   int next_look(int converged) const { return size_ + std::max(block_, (control_.wanted - converged) * 4 / 3); }
 
-  /// The first block: one application of the operator to random vectors, so that it has nothing without mass. Initial
-  /// vectors take the place of random ones; those beyond the block are added to them.
+  /// Makes the first block by one application of the operator to random vectors, which removes parts without mass.
+  /// Initial vectors replace random ones; those beyond the block are added to them.
   bool start() {
     std::mt19937_64 random(20260101);
     MatrixXd X(op_.size, block_);
@@ -153,7 +153,7 @@ class BlockLanczos {
     return normalise();
   }
 
-  /// W = V_next R, V_next orthonormal and orthogonal to V (by M); P = M V_next.
+  /// Computes V_next with W = V_next R, orthonormal and orthogonal to V (by M), and P = M V_next.
   bool normalise() {
     R_ = MatrixXd::Identity(block_, block_);
     for (int pass = 0; pass < 5; ++pass) {
@@ -170,8 +170,8 @@ class BlockLanczos {
       divide_by(R, P_);
       R_ = (R * R_).eval();
       if (!op_.agree(R_.diagonal().minCoeff() > 0.0)) return false;
-      // What the pass removed was small and the block well conditioned: the next would change round-off only. (What
-      // was removed is not in T. With 1e-5 in place of 1e-9 residuals of 250 pairs were 1e-7.)
+      // If the pass removed little and the block is well conditioned, the next would change round-off only. The removed
+      // part is not in T: with 1e-5 in place of 1e-9 residuals of 250 pairs were 1e-7.
       const VectorXd diagonal = R.diagonal();
       const double removed = H.size() > 0 ? H.cwiseAbs().maxCoeff() : 0.0;
       if (op_.agree(removed < 1e-9 * diagonal.minCoeff() && diagonal.minCoeff() > 1e-3 * diagonal.maxCoeff())) {
@@ -182,7 +182,7 @@ class BlockLanczos {
     return false;
   }
 
-  /// Keeps the leading Ritz vectors and goes on from the last block.
+  /// Keeps the leading Ritz vectors and continues from the last block.
   void restart(const VectorXd& mu, const MatrixXd& Z, const MatrixXd& residual) {
     const int kept = std::min(size_ - block_, control_.wanted + (size_ - control_.wanted) / 3);
     combine_columns(Z.leftCols(kept), V_);
@@ -193,7 +193,7 @@ class BlockLanczos {
     size_ = kept;
   }
 
-  /// Aᵀ B over the rows of all.
+  /// Aᵀ B, summed over the rows of all processes.
   MatrixXd inner_products(const ColumnRange& A, const ColumnRange& B) const {
     MatrixXd C = tall_inner_products(A, B);
     op_.sum(C.data(), C.size());
@@ -204,16 +204,16 @@ class BlockLanczos {
   const LanczosControl& control_;
   int block_;    ///< columns of a block
   int most_;     ///< columns of V at which the iteration is restarted
-  int initial_;  ///< vectors given to begin with
+  int initial_;  ///< number of initial vectors
   Columns all_;  ///< constraints and V
   Columns V_;
   MatrixXd T_;
-  MatrixXd W_;      ///< what becomes the next block
+  MatrixXd W_;      ///< vectors from which the next block is made
   MatrixXd P_;      ///< M times the last block of V
   MatrixXd R_;      ///< block x block
   MatrixXd arrow_;  ///< after a restart: coupling of the kept vectors to the first block that follows them
   int size_ = 0;    ///< columns of V before its last block
-  int steps_ = 0;   ///< blocks solved for
+  int steps_ = 0;   ///< number of solved blocks
 };
 
 }  // namespace

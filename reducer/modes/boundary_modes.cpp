@@ -8,9 +8,9 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr Eigen::Index columns_at_once = 32;  ///< of products with n_I rows: they are not kept
+constexpr Eigen::Index columns_at_once = 32;  ///< of products with n_I rows, which are not kept
 
-/// S, M and flexibility from Ψ.
+/// Computes S, M and flexibility from Ψ.
 void condense_inside(const Factor& S_II, const Blocks& b, const std::function<void(double)>& share,
                      BoundaryModes& modes) {
   const Eigen::MatrixXd& Psi = modes.Psi;
@@ -18,7 +18,7 @@ void condense_inside(const Factor& S_II, const Blocks& b, const std::function<vo
   for (Eigen::Index first = 0; first < Psi.cols(); first += columns_at_once) {
     const Eigen::Index count = std::min(columns_at_once, Psi.cols() - first);
     const Eigen::MatrixXd part = Psi.middleCols(first, count);
-    const Eigen::MatrixXd force = multiply(b.S_II, part) + b.S_IB.middleCols(first, count);  // round-off, 0 in theory
+    const Eigen::MatrixXd force = multiply(b.S_II, part) + b.S_IB.middleCols(first, count);  // 0 in theory: round-off
     modes.S.middleCols(first, count) += b.S_IB.transpose() * part + Psi.transpose() * force;
     const Eigen::MatrixXd X = multiply(b.M_II, part) + b.M_IB.middleCols(first, count);
     modes.M.middleCols(first, count) += b.M_IB.transpose() * part + Psi.transpose() * X;

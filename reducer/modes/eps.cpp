@@ -1,4 +1,4 @@
-// Set-up of EPS with a shell around the factor, and its pairs.
+// Set-up of EPS with a shell matrix around the factor, and its pairs.
 #include "reducer/modes/eps.hpp"
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 namespace tisserand::reducer {
 namespace {
 
-/// A tenth of the residual that modes may have: one step of inverse iteration follows, which need not lower it, and
-/// measures it with another norm.
+/// Tolerance, a tenth of the permitted residual of modes. One step of inverse iteration follows, which need not lower
+/// it, and measures it in another norm.
 constexpr double block_tolerance = 1e-9;
 constexpr int most_blocks = 1000;
 constexpr double krylov_tolerance = 1e-12;
@@ -40,7 +40,7 @@ std::string slepc_version() {
   return fmt::format("SLEPc {}.{}.{}", major, minor, subminor);
 }
 
-/// No exception leaves them: `failure_` keeps it until EPSSolve returns.
+/// Functions that SLEPc calls. They throw no exceptions: `failure_` keeps one until EPSSolve returns.
 struct Eps::Calls {
   static Eps& owner(PC preconditioner) {
     void* context = nullptr;
@@ -97,7 +97,7 @@ struct Eps::Calls {
     });
   }
 
-  /// Pairs converge late: at first the columns count, of three times as many as pairs and 60 that it usually takes.
+  /// Pairs converge late, so at first the columns measure the progress: usually three per pair and 60 are needed.
   static PetscErrorCode monitor(EPS, PetscInt, PetscInt converged, PetscScalar*, PetscScalar*, PetscReal*, PetscInt,
                                 void* context) {
     Eps& eps = *static_cast<Eps*>(context);
@@ -157,10 +157,10 @@ void Eps::deflate(const Eigen::MatrixXd& known) {
     petsc_check(VecPlaceArray(v, known.col(k).data()));
   }
   petsc_check(EPSSetDeflationSpace(eps_, static_cast<PetscInt>(known.cols()), vectors.data()));
-  for (Vec& v : vectors) VecDestroy(&v);  // EPS has references, until EPSSetUp copies them
+  for (Vec& v : vectors) VecDestroy(&v);  // EPS holds references until EPSSetUp copies them
   petsc_check(EPSSetUp(eps_));
-  // What is softer than 1.5e-7, in whatever units, SLEPc takes for a null space of A − target B and the linear solver
-  // would leave it out.
+  // SLEPc takes motions softer than 1.5e-7, in any units, for a null space of A − target B, and the linear solver would
+  // omit them.
   ST transformation = nullptr;
   KSP solver = nullptr;
   Mat shifted = nullptr;

@@ -1,4 +1,4 @@
-// The owner of an EPS, SLEPc's eigenvalue solver: what vibration modes and buckling share.
+// Owner of an EPS, SLEPc's eigenvalue solver, for vibration modes and buckling.
 #pragma once
 
 #include <exception>
@@ -14,47 +14,47 @@ struct _p_EPS;
 
 namespace tisserand::reducer {
 
-/// Types of EPS in use.
+/// Types of EPS that are used.
 enum class EigenSolver { lapack, block_lanczos, krylov_schur };
 
-/// The name that EPSSetType takes.
+/// Name of the type for EPSSetType.
 const char* eps_type(EigenSolver solver);
 
-/// "SLEPc 3.18.2", of the library that is loaded.
+/// Version of the loaded library, such as "SLEPc 3.18.2".
 std::string slepc_version();
 
-/// How the solver inverts A − target B.
+/// Inverse of A − target B as the solver applies it.
 struct ShiftInvert {
   double target = 0.0;
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> solve;  ///< (A − target B)⁻¹ X, on the rows of this process
-  /// Whether Krylov-Schur solves once more for each vector, which removes what has no share in B.
+  /// Whether Krylov-Schur solves once more per vector, which removes parts without a share in B.
   bool purify = true;
 };
 
-/// A x = λ B x, B positive (semi)definite. Types by shift and inversion find the λ nearest to the target; of
-/// block_lanczos the target lies below the spectrum. If A and B are spread over several processes, all members are
-/// collective and vectors are the rows of this process. A and B must outlive it.
+/// A x = λ B x, B positive (semi)definite. Types by shift and inversion find the λ nearest to the target, which for
+/// block_lanczos lies below the spectrum. If A and B are spread over several processes, all members are collective and
+/// vectors are the rows of this process. A and B must outlive it.
 class Eps {
  public:
   Eps(const Matrix& A, const Matrix& B, ShiftInvert inverse);
-  /// By LAPACK, the largest λ first: A and B dense, B positive definite.
+  /// Problem for LAPACK, which finds the largest λ first: A and B dense, B positive definite.
   Eps(const Matrix& A, const Matrix& B);
   ~Eps();
   Eps(const Eps&) = delete;
   Eps& operator=(const Eps&) = delete;
 
-  /// Hears how much of a solve() is done, about; never less than before.
+  /// Sets a function that receives the approximate share of solve() that is done, which never decreases.
   void share(std::function<void(double)> done) { share_ = std::move(done); }
-  /// Whether `count` pairs were found, orthogonal to those that are known (xᵀ B x = 1; there may be none).
+  /// Finds pairs orthogonal to the known vectors (xᵀ B x = 1; may be empty). Returns whether `count` were found.
   bool solve(EigenSolver type, int count, const Eigen::MatrixXd& known);
-  /// The pairs that converged in the last solve(), nearest to the target first; at most `most` of them.
+  /// Pairs that converged in the last solve(), nearest to the target first, at most `most`.
   EigenPairs pairs(int most) const;
-  /// Their residuals: of block_lanczos as iterate_once() gives them.
+  /// Residuals of these pairs; for block_lanczos those of iterate_once().
   Eigen::VectorXd residuals() const;
   int iterations() const;
 
  private:
-  struct Calls;  ///< from SLEPc back to here
+  struct Calls;  ///< callbacks from SLEPc
   void create(const Matrix& A, const Matrix& B);
   void tell(double done);
   void deflate(const Eigen::MatrixXd& known);
@@ -64,9 +64,9 @@ class Eps {
   _p_EPS* eps_ = nullptr;
   Eigen::Index rows_ = 0;
   int wanted_ = 1;
-  int columns_ = 0;             ///< solved for by solve()
+  int columns_ = 0;             ///< columns solved for by solve()
   double done_ = 0.0;           ///< share of solve() that was last reported
-  std::exception_ptr failure_;  ///< of a function that SLEPc called
+  std::exception_ptr failure_;  ///< exception in a function that SLEPc called
 };
 
 }  // namespace tisserand::reducer

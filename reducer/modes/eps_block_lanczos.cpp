@@ -1,5 +1,5 @@
-// What SLEPc asks of a type of EPS. The only file with SLEPc's private header, which its manual prescribes for new
-// solvers.
+// Functions of the EPS type that SLEPc calls. Only this file includes SLEPc's private header, as its manual prescribes
+// for new solvers.
 #include "reducer/modes/eps_block_lanczos.hpp"
 
 #ifndef TISSERAND_EPS_TYPES
@@ -29,10 +29,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// eps->data.
+/// Data of the solver in eps->data.
 struct BlockLanczosData {
-  PetscInt block = 0;  ///< 0: by the number of pairs
-  VectorXd lambda;     ///< of the pairs found
+  PetscInt block = 0;  ///< 0: chosen by the number of pairs
+  VectorXd lambda;     ///< eigenvalues of the pairs found
   std::exception_ptr failure;
 };
 
@@ -57,7 +57,7 @@ PetscErrorCode set_up(EPS eps) {
   PetscFunctionReturn(0);
 }
 
-/// Ascending eigenvalues: nearest to the target first.
+/// Sets ascending order of eigenvalues: nearest to the target first.
 PetscErrorCode set_up_sorting(EPS eps) {
   eps->sc->comparison = SlepcCompareTargetMagnitude;
   eps->sc->comparisonctx = &eps->target;
@@ -66,7 +66,7 @@ PetscErrorCode set_up_sorting(EPS eps) {
   return 0;
 }
 
-/// B X: by our own product for a symmetric matrix of this process, else column by column.
+/// B X: by our own product for a symmetric matrix of this process, otherwise column by column.
 MatrixXd product(Mat B, const MatrixXd& X) {
   if (B == nullptr) return X;
   PetscBool own = PETSC_FALSE;
@@ -106,7 +106,7 @@ VectorXd error_estimates(EPS eps, const VectorXd& mu, const VectorXd& residual) 
   return error;
 }
 
-/// The stopping test, then the monitors; a target inside the spectrum has Ritz values of both signs.
+/// Runs the stopping test, then the monitors. A target inside the spectrum shows by Ritz values of both signs.
 bool ends(EPS eps, int steps, int converged, const VectorXd& mu, const VectorXd& error) {
   constexpr double negative = 1e-8;
   eps->its = steps;
@@ -120,7 +120,7 @@ bool ends(EPS eps, int steps, int converged, const VectorXd& mu, const VectorXd&
   return eps->reason != EPS_CONVERGED_ITERATING;
 }
 
-/// X without its share of the constraints D, orthonormal again.
+/// Removes the share of the constraints D from X and makes X orthonormal.
 void leave_constraints(const ShiftedOperator& op, const Eigen::Ref<const MatrixXd>& D, Eigen::Ref<MatrixXd> X) {
   const auto products = [&op](const Eigen::Ref<const MatrixXd>& A, const MatrixXd& B) {
     MatrixXd C = A.transpose() * B;
@@ -135,7 +135,7 @@ void iterate(EPS eps) {
   const ShiftedOperator op = operator_of(eps);
   BlockLanczosData& data = data_of(eps);
   PetscScalar* array = nullptr;
-  petsc_check(BVGetArray(eps->V, &array));  // constraints first, columns without gaps
+  petsc_check(BVGetArray(eps->V, &array));  // constraints first, no gaps between columns
   const int constraints = eps->nds, block = data.block > 0 ? data.block : lanczos_block(eps->nev);
   Eigen::Map<MatrixXd> columns(array, op.rows, constraints + eps->ncv);
   const LanczosControl control{
@@ -162,7 +162,7 @@ void iterate(EPS eps) {
   petsc_check(BVRestoreArray(eps->V, &array));
 }
 
-/// No exception leaves it: block_lanczos_failure() has it.
+/// Solves the problem. It throws no exception: block_lanczos_failure() returns it.
 PetscErrorCode solve(EPS eps) {
   data_of(eps).failure = nullptr;
   try {
@@ -174,14 +174,14 @@ PetscErrorCode solve(EPS eps) {
   }
 }
 
-/// The eigenvalues as found: 1/(1/(λ − shift)) + shift would round them.
+/// Returns the eigenvalues as found, since 1/(1/(λ − shift)) + shift would round them.
 PetscErrorCode back_transform(EPS eps) {
   const VectorXd& lambda = data_of(eps).lambda;
   std::copy_n(lambda.data(), std::min<Index>(lambda.size(), eps->nconv), eps->eigr);
   return 0;
 }
 
-/// The type of the options differs between releases of PETSc.
+/// Reads the options, whose type differs between releases of PETSc.
 template <class Options>
 PetscErrorCode set_from_options(EPS eps, Options PetscOptionsObject) {
   PetscFunctionBegin;

@@ -1,4 +1,4 @@
-// From modes of the reduced part to those of the system.
+// Modes of the system from modes of the reduced part.
 #include "reducer/modes/free_motions.hpp"
 
 #include <algorithm>
@@ -26,9 +26,9 @@ FreeMotions free_motions(const ReducedPart& part, int most) {
   try {
     pairs = free_modes(part.element.stiffness, part.element.mass, rigid + most, rigid);
   } catch (const Error&) {
-    return held_motions(part, most);  // a rigid motion without mass, something loose: FileCertificate says
+    return held_motions(part, most);  // a rigid motion without mass, or loose: FileCertificate reports it
   }
-  constexpr double resolved = 1e13;  // eigenvalues farther above the first are round-off of massless directions
+  constexpr double resolved = 1e13;  // larger multiples of the first are round-off of massless directions
   Eigen::Index count = 0;
   while (rigid + count < pairs.value.size() && pairs.value[rigid + count] > 0.0 &&
          pairs.value[rigid + count] < resolved * pairs.value[rigid])

@@ -55,8 +55,8 @@ std::optional<FreeModes> full_free_modes(const System& system, const FreeSearch&
       !is_dense && most + sought_beyond <= sought.finite ? count_of(system) : finite_mode_count(matrices.mass);
   const int wanted = std::min(available, most);
   if (wanted <= rigid_motions) return FreeModes{};
-  // As far below the rigid motions as the first mode above: a solution errs by ε λ_max/(λ − shift), 7e-8 for bricks
-  // with a tenth of it.
+  // The shift is as far below the rigid motions as the first mode is above: a solution has the error ε λ_max/(λ −
+  // shift), which was 7e-8 for bricks with a tenth of this shift.
   const double shift = -sought.scale;
   const Factor factor(combine(matrices.stiffness, -shift, matrices.mass));
   const Spectrum spectrum = lowest_pairs({matrices.stiffness, matrices.mass, factor, shift, share}, wanted, available,
@@ -83,7 +83,7 @@ ModeComparison compare_free_modes(const System& system, const FreeSearch& sought
     result.assurance = (pairs->vector.leftCols(kept).transpose() * Mu).cwiseAbs2();
     return result;
   } catch (const Error&) {
-    return {};  // a comparison only: nearly massless parts have no frequencies that can be resolved beside the first
+    return {};  // only a comparison: frequencies of nearly massless parts cannot be resolved
   }
 }
 

@@ -1,4 +1,4 @@
-// Internal modes: how many, which, and in which basis.
+// Internal modes: their number, selection and basis.
 #include "reducer/modes/internal_modes.hpp"
 
 #include <algorithm>
@@ -16,12 +16,12 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Fixed numbers without simple ratios: equal roles of x, y and z become unequal. Rotations ascend, so that bending in
+/// Fixed numbers without simple ratios, so that x, y and z never have equal roles. Rotations ascend, so that bending in
 /// x-y (translation y, rotation z) comes before bending in x-z.
 const Eigen::Matrix<double, 6, 1> component_weight =
     (Eigen::Matrix<double, 6, 1>() << 1.0, 0.83, 0.67, 0.31, 0.41, 0.53).finished();
 
-/// Fixed functions that choose a basis inside clusters and signs; all depend on the body, none on its node numbers.
+/// Fixed functions that choose the basis inside clusters, and signs. They depend on the body, not on its node numbers.
 struct Gauge {
   Eigen::MatrixXd rigid;   ///< n_I x 6: (M R)_I, weighted; R about the centre of mass, rotations scaled
   Eigen::VectorXd square;  ///< coordinates of the mesh: weights of a quadratic form
@@ -29,7 +29,7 @@ struct Gauge {
   double mass = 0.0;
 };
 
-/// Weights by place, on the coordinates of the mesh: which of them ties made dependent plays no role.
+/// Sets weights by place on the coordinates of the mesh, independent of which of them ties made dependent.
 void set_place_weights(const InternalProblem& problem, const Eigen::Vector3d& center, Gauge& gauge) {
   const System& system = problem.system;
   gauge.square.resize(system.coordinates.count());
@@ -37,8 +37,7 @@ void set_place_weights(const InternalProblem& problem, const Eigen::Vector3d& ce
   for (int x = 0; x < system.coordinates.count(); ++x) {
     const Eigen::Vector3d X = (problem.mesh.position.col(system.coordinates.node[x]) - center) / system.length;
     const int component = system.coordinates.component[x];
-    const double place =
-        X.dot(Eigen::Vector3d(0.9, 0.7, 0.5));  // exp: all powers, so no symmetry of a mode hides from it
+    const double place = X.dot(Eigen::Vector3d(0.9, 0.7, 0.5));  // exp has all powers: no symmetry hides a mode
     gauge.square[x] = system.mesh_mass[x] * component_weight[component] * std::exp(place);
     gauge.linear[x] = gauge.square[x] * (component < 3 ? 1.0 : 1.0 / system.length);
   }
@@ -60,14 +59,14 @@ Gauge make_gauge(const InternalProblem& problem) {
   return gauge;
 }
 
-/// Motion of the mesh's coordinates when the inside moves by `Phi` and the boundary is held.
+/// Motion of the mesh's coordinates for motions `Phi` of the inside with the boundary held.
 Eigen::MatrixXd mesh_motion(const InternalProblem& problem, const Eigen::MatrixXd& Phi) {
   Eigen::MatrixXd q = Eigen::MatrixXd::Zero(problem.system.size(), Phi.cols());
   q(problem.partition.internal, Eigen::all) = Phi;
   return expand(problem.system.T, q).topRows(problem.system.coordinates.count());
 }
 
-/// Orthogonal basis (k x k) that diagonalises `form`, largest value first, and those values.
+/// Orthogonal basis (k x k) that diagonalises `form`, largest value first, and these values.
 std::pair<Eigen::MatrixXd, Eigen::VectorXd> descending_basis(const Eigen::MatrixXd& form) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(form);
   return {solver.eigenvectors().rowwise().reverse(), solver.eigenvalues().reverse()};
@@ -89,7 +88,7 @@ void rotate_cluster(const InternalProblem& problem, const Gauge& gauge, Eigen::R
   }
 }
 
-/// The number whose sign a mode takes: the first of participation, place and largest entry that is not close to 0.
+/// Number whose sign a mode gets: the first of participation, place and largest entry that is not close to 0.
 double decisive_number(const InternalProblem& problem, const Gauge& gauge, const Eigen::VectorXd& phi) {
   const double limit = 1e-5 * std::sqrt(gauge.mass);
   const double participation = (gauge.rigid.transpose() * phi).sum();
@@ -108,12 +107,12 @@ Pencil pencil_of(const InternalProblem& problem) {
   return {problem.blocks.S_II, problem.blocks.M_II, problem.S_II, 0.0, problem.share, problem.begin};
 }
 
-/// ω² below which modes are wanted.
+/// ω² below which modes are requested.
 double limit_of(const formats::ModeSelection& selection) {
   return eigenvalue_of(selection.cutoff ? *selection.cutoff : selection.accuracy->up_to);
 }
 
-/// Number of modes to begin with, from the selection.
+/// Initial number of modes from the selection.
 int wanted_modes(const InternalProblem& problem, const formats::ModeSelection& selection, int available) {
   if (selection.cutoff || selection.accuracy) {
     if (problem.partition.n_I() == 0) return 0;
@@ -126,23 +125,23 @@ int wanted_modes(const InternalProblem& problem, const formats::ModeSelection& s
                           available < problem.partition.n_I() ? " or masses with rotary inertia" : ""));
 }
 
-/// The lowest pairs and their coupling to the boundary, before their basis is fixed.
+/// Lowest pairs and their coupling to the boundary, before their basis is fixed.
 struct Candidates {
   Spectrum spectrum;
   Eigen::MatrixXd coupling;  ///< n_B x pairs
-  int available = 0;         ///< finite eigenvalues in all
-  int kept = 0;              ///< modes of them
-  int moments = 0;           ///< vectors beside those
+  int available = 0;         ///< total number of finite eigenvalues
+  int kept = 0;              ///< number of kept modes
+  int moments = 0;           ///< number of moment vectors in addition
 };
 
-/// G of LeftOut when these pairs are kept.
+/// G of LeftOut if these pairs are kept.
 Eigen::MatrixXd dropped_flexibility(const BoundaryModes& boundary, const Eigen::MatrixXd& coupling,
                                     const Eigen::VectorXd& lambda) {
   return boundary.flexibility - coupling * lambda.cwiseInverse().asDiagonal() * coupling.transpose();
 }
 
-/// What no eigenvalue is below that is left out when the first `kept` are kept and that moves the boundary: modes that
-/// do not, such as those of a cylinder between two rings, change nothing that it is attached to.
+/// Lower bound of the omitted eigenvalues whose modes move the boundary, if the first `kept` are kept. Other modes,
+/// such as those of a cylinder between two rings, do not affect the bodies attached to it.
 double first_coupled(const BoundaryModes& boundary, const Candidates& c, Eigen::Index kept, double lambda) {
   constexpr double negligible = 1e-10;  ///< share of a mode's mass
   const Eigen::VectorXd& all = c.spectrum.pairs.value;
@@ -167,7 +166,7 @@ double error_with(const BoundaryModes& boundary, const Candidates& c, int kept, 
   return attached_error({boundary.S, boundary.M, value, L}, out, first_coupled(boundary, c, kept, lambda), lambda);
 }
 
-/// The least number in [least, most] that meets the accuracy; −1 if `most` does not.
+/// Least number in [least, most] that meets the accuracy; −1 if `most` does not.
 template <class Meets>
 int fewest(int least, int most, const Meets& meets) {
   int fails = least - 1, good = most;
@@ -179,7 +178,7 @@ int fewest(int least, int most, const Meets& meets) {
   return good;
 }
 
-/// As few moment vectors beside the first `kept` candidates as meet the accuracy; −1 if all of them do not.
+/// Least number of moment vectors that meets the accuracy with the first `kept` candidates; −1 if all of them do not.
 int moments_for(const InternalProblem& problem, const BoundaryModes& boundary, const Candidates& c, int kept,
                 const formats::Accuracy& accuracy) {
   const Eigen::VectorXd &all = c.spectrum.pairs.value, value = all.head(kept);
@@ -197,7 +196,8 @@ int moments_for(const InternalProblem& problem, const BoundaryModes& boundary, c
   return count < 0 ? count : static_cast<int>(moments.whole(count));
 }
 
-/// Whichever needs fewer coordinates of the pairs that are there: more modes, or the `least` and moment vectors.
+/// Chooses the option with fewer coordinates: more of the pairs, or the `least` pairs and moment vectors. Returns
+/// success.
 bool meets_accuracy(const InternalProblem& problem, const BoundaryModes& boundary,
                     const formats::ModeSelection& selection, int least, Candidates& c) {
   const formats::Accuracy& accuracy = *selection.accuracy;
@@ -214,8 +214,8 @@ bool meets_accuracy(const InternalProblem& problem, const BoundaryModes& boundar
   return true;
 }
 
-/// Whether none is missing among those kept: by the first count, `below`, if they are the modes below the frequency of
-/// the accuracy, else by one more, which is noted.
+/// Whether no kept mode is missing. If the kept modes are those below the frequency of the accuracy, the first count
+/// `below` shows it, otherwise one more, which is noted.
 bool none_missing(const Pencil& pencil, const formats::ModeSelection& selection, int below, Candidates& c) {
   std::optional<int>& counted = c.spectrum.counted;
   if (counted) return true;
@@ -228,7 +228,7 @@ bool none_missing(const Pencil& pencil, const formats::ModeSelection& selection,
   return count == c.kept;
 }
 
-/// Computes ever more pairs until they meet the accuracy.
+/// Computes more and more pairs until they meet the accuracy.
 Candidates candidates_for(const InternalProblem& problem, const BoundaryModes& boundary,
                           const formats::ModeSelection& selection, int least, int available) {
   constexpr int most = 1000;
@@ -245,7 +245,7 @@ Candidates candidates_for(const InternalProblem& problem, const BoundaryModes& b
     c.coupling = mass_coupling(problem.blocks, boundary, c.spectrum.pairs.vector);
     if (meets_accuracy(problem, boundary, selection, least, c)) {
       if (none_missing(pencil, selection, below, c)) return c;
-      verify = Count::always;  // which looks for those that hid
+      verify = Count::always;  // searches for the missing modes
       sought = (sought + 1) / 2;
       continue;
     }
@@ -254,11 +254,11 @@ Candidates candidates_for(const InternalProblem& problem, const BoundaryModes& b
                               selection.accuracy->error, selection.accuracy->up_to, c.spectrum.kept,
                               error_with(boundary, c, c.spectrum.kept, *selection.accuracy)),
                   selection.where, "ask for a larger error or a lower frequency");
-    least = std::max(least, sought / 2);  // moment vectors beside more modes, too
+    least = std::max(least, sought / 2);  // moment vectors with more modes, too
   }
 }
 
-/// The leading `count` moment vectors behind the modes, fewer if there are no more.
+/// Adds the leading `count` moment vectors after the modes, fewer if there are no more.
 void add_moment_vectors(const InternalProblem& problem, const BoundaryModes& boundary, int count, double lambda,
                         InternalModes& modes) {
   const MomentSpace moments = moment_space(problem, boundary, modes.Phi, modes.left_out.G, lambda);
@@ -272,7 +272,7 @@ void add_moment_vectors(const InternalProblem& problem, const BoundaryModes& bou
   modes.Phi.rightCols(p) = moments.space.vectors(values);
 }
 
-/// A cut-off asks how many: that count also verifies the search, unless it found too few.
+/// Spectrum for a selection. The count for a cut-off also verifies the search, unless the search found too few.
 Spectrum spectrum_for(const Pencil& pencil, const formats::ModeSelection& selection, Eigen::Index n_I, int sought,
                       int available) {
   const EigenSolver solver = choose_solver(n_I, sought, selection);

@@ -30,7 +30,7 @@ void take_columns(const std::vector<Index>& order, VectorXd& value, Eigen::Ref<M
   X.leftCols(count) = MatrixXd(X(Eigen::all, order));
 }
 
-/// Returns the order: where each pair was before.
+/// Sorts pairs by value. Returns the order: the former index of each pair.
 std::vector<Index> sort_pairs(VectorXd& value, Eigen::Ref<MatrixXd> X) {
   std::vector<Index> order(static_cast<std::size_t>(value.size()));
   std::iota(order.begin(), order.end(), 0);
@@ -39,7 +39,7 @@ std::vector<Index> sort_pairs(VectorXd& value, Eigen::Ref<MatrixXd> X) {
   return order;
 }
 
-/// Expects and leaves ascending order.
+/// Removes pairs that round-off hides. Expects and keeps ascending order.
 void discard_unresolved(double shift, VectorXd& value, Eigen::Ref<MatrixXd> X) {
   constexpr double resolved = 1e-13;
   const Eigen::ArrayXd mu = (value.array() - shift).inverse();

@@ -1,4 +1,4 @@
-// Bracketed and counted by inertia, found by shift-invert Krylov-Schur iteration from just below the lowest factor.
+// Load factors: bracketed and counted by inertia, found by shift-invert Krylov-Schur iteration below the lowest.
 #include "reducer/modes/load_factors.hpp"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double most_apart = 1e3;         ///< of the lowest factor: near μ = 0 lies what the stress hardly reaches
-constexpr double largest_residual = 1e-6;  ///< λ errs by its square
+constexpr double most_apart = 1e3;         ///< multiple of the lowest; stress hardly affects motions near μ = 0
+constexpr double largest_residual = 1e-6;  ///< the error of λ is its square
 
 /// The load (sign 1) or the reversed load (−1): (S + sign λ K_g) φ = 0.
 struct Side {
@@ -29,15 +29,15 @@ struct Side {
   double sign = 1.0;
   double limit = 0.0;  ///< LoadFactors::limit
   int exist = 0;       ///< factors up to the limit
-  double below = 0.0;  ///< λ below the lowest factor, and near it if there is one
+  double below = 0.0;  ///< λ below the lowest factor, and near it if it exists
 
   Matrix sum(double lambda) const { return combine(pencil.S, sign * lambda, pencil.K_g); }
-  /// Factors below `lambda`: negative eigenvalues of the sum, by Sylvester's law of inertia.
+  /// Number of factors below `lambda`: negative eigenvalues of the sum, by Sylvester's law of inertia.
   int count(double lambda) const { return Factor::indefinite(sum(lambda)).negative(); }
 };
 
-/// The largest |μ| of K_g φ = μ S φ, from below: power iteration with S⁻¹ K_g on a few vectors, whose growth in the
-/// norm of S does not mind that μ has two signs. Some per cent suffice; 0 if there is no stress.
+/// Lower estimate of the largest |μ| of K_g φ = μ S φ, to some per cent; 0 without stress. Power iteration with S⁻¹ K_g
+/// on a few vectors: their growth in the norm of S is the same for both signs of μ.
 double largest_stress(const StressPencil& pencil) {
   constexpr int most_steps = 30;
   constexpr double enough = 0.02;
@@ -45,7 +45,7 @@ double largest_stress(const StressPencil& pencil) {
   MatrixXd X = MatrixXd::NullaryExpr(n, std::min<Index>(n, 4), [](Index i, Index k) {
     return std::sin(static_cast<double>(i + 1) * (1.3 + static_cast<double>(k)));
   });
-  X = pencil.factor.solve(X);  // forces without order make displacements of like energy
+  X = pencil.factor.solve(X);  // random forces give displacements of similar energy
   double largest = 0.0;
   for (int step = 0; step < most_steps; ++step) {
     const VectorXd before = X.cwiseProduct(multiply(pencil.S, X)).colwise().sum();
@@ -62,8 +62,8 @@ double largest_stress(const StressPencil& pencil) {
   return largest;
 }
 
-/// Counts the factors of one side up to the limit and brackets the lowest; `lowest`: 1/|μ| of largest_stress(), which
-/// no factor of either side is far below.
+/// Counts the factors of one side up to the limit and brackets the lowest. `lowest` is 1/|μ| of largest_stress(); no
+/// factor of either side is far below it.
 Side find_side(const StressPencil& pencil, double sign, double lowest) {
   constexpr double near = 3.0;
   Side side{pencil, sign, most_apart * lowest, 0, 0.7 * lowest};
@@ -82,7 +82,7 @@ Side find_side(const StressPencil& pencil, double sign, double lowest) {
   return side;
 }
 
-/// λ ascending and φ, of pairs of K_g φ = μ S φ: λ = −1/(sign μ).
+/// Merges pairs of K_g φ = μ S φ into λ ascending and φ: λ = −1/(sign μ).
 void merge(const EigenPairs& more, const Side& side, EigenPairs& pairs) {
   std::vector<std::pair<double, VectorXd>> all;
   for (Index k = 0; k < pairs.value.size(); ++k) all.emplace_back(pairs.value[k], pairs.vector.col(k));
@@ -98,7 +98,7 @@ void merge(const EigenPairs& more, const Side& side, EigenPairs& pairs) {
   }
 }
 
-/// First and end of the group of equal factors that number `k` belongs to.
+/// First and end of the group of equal factors that contains number `k`.
 struct Group {
   int first = 0, end = 0;
 };
@@ -110,14 +110,14 @@ Group group_of(const VectorXd& lambda, int k) {
   return group;
 }
 
-/// λ between the factors `k` − 1 and `k`, or just beyond the ends.
+/// λ between the factors `k` − 1 and `k`, or just outside the ends.
 double between(const Side& side, const VectorXd& lambda, int k) {
   if (k == 0) return side.below;
   return k < lambda.size() ? std::sqrt(lambda[k - 1] * lambda[k]) : lambda[k - 1] * (1.0 + 10.0 * cluster_tolerance);
 }
 
-/// The `count` lowest factors of those that exist, with equal ones behind them if these are few, and how many more
-/// equal the last one.
+/// The `count` lowest existing factors, with equal ones after them if these are few, and the number of further ones
+/// that equal the last.
 std::pair<EigenPairs, int> lowest_factors(const Side& side, int count) {
   constexpr int attempts = 8, many_equal = 8;
   const StressPencil& pencil = side.pencil;
@@ -128,7 +128,7 @@ std::pair<EigenPairs, int> lowest_factors(const Side& side, int count) {
   for (int attempt = 0, missing = wanted; attempt < attempts; ++attempt) {
     // K_g − μ S = (S + shift K_g)/shift at μ = −1/shift.
     Eps eps(pencil.K_g, pencil.S, {-1.0 / shift, [&](const MatrixXd& X) { return MatrixXd(shift * factor.solve(X)); }});
-    eps.solve(EigenSolver::krylov_schur, missing, pairs.vector);  // equal ones hide from one Krylov sequence
+    eps.solve(EigenSolver::krylov_schur, missing, pairs.vector);  // one Krylov sequence misses equal ones
     merge(eps.pairs(std::numeric_limits<int>::max()), side, pairs);
     pencil.share(0.3 + 0.5 * (attempt + 1) / attempts);
     const auto found = count_of(pairs.value);
@@ -147,7 +147,7 @@ std::pair<EigenPairs, int> lowest_factors(const Side& side, int count) {
               "eigenvalue solver", "ask for fewer or for more, or report this with the part file");
 }
 
-/// φᵀ S φ = 1, factors as Rayleigh's quotients, and the residual.
+/// Normalises φᵀ S φ = 1 and computes factors as Rayleigh's quotients, and the residual.
 void finish(const StressPencil& pencil, const EigenPairs& pairs, LoadFactors& result) {
   const Index kept = pairs.value.size();
   result.shape = pairs.vector;

@@ -1,4 +1,4 @@
-// The change of coordinates from held pins to free ones.
+// Change of coordinates from held pins to free ones.
 #include "reducer/modes/loose_modes.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Rows of the internal coordinates that are no pins.
+/// Rows of the internal coordinates without the pins.
 std::vector<Index> stiff_rows(Index n_I, const std::vector<int>& pins) {
   std::vector<Index> rows;
   for (int i = 0; i < n_I; ++i)
@@ -28,7 +28,7 @@ std::vector<Index> stiff_rows(Index n_I, const std::vector<int>& pins) {
   return rows;
 }
 
-/// Rows of all internal coordinates from those that are no pins and from the pins.
+/// Rows of all internal coordinates, joined from those without the pins and those of the pins.
 MatrixXd whole(const InternalProblem& problem, const std::vector<int>& pins, const MatrixXd& stiff,
                const MatrixXd& at_pins) {
   MatrixXd all(problem.partition.n_I(), stiff.cols());
@@ -37,7 +37,7 @@ MatrixXd whole(const InternalProblem& problem, const std::vector<int>& pins, con
   return all;
 }
 
-/// Each motion must move some of the mass: the least eigenvalue of its mass with unit diagonal is no round-off.
+/// Throws Error unless each motion moves mass: the mass matrix with unit diagonal is not singular to round-off.
 void require_mass_of(const InternalProblem& problem, const MatrixXd& N, const MatrixXd& mass) {
   constexpr double least = 1e-10;
   const VectorXd diagonal_mass = diagonal(problem.blocks.M_II);

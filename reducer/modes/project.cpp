@@ -1,4 +1,4 @@
-// Projection on T = [1 0; Ψ Φ] and canonical form.
+// Projection on T = [1 0; Ψ Φ], THEORY (79), and canonical form, THEORY (7).
 #include "reducer/modes/project.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ double relative_maximum(const Eigen::MatrixXd& part, const Eigen::MatrixXd& whol
   return part.size() == 0 || whole.size() == 0 ? 0.0 : part.cwiseAbs().maxCoeff() / whole.cwiseAbs().maxCoeff();
 }
 
-/// For people.
+/// Name of the method for readers.
 std::string method_text(formats::ReductionMethod method, const InternalModes& internal) {
   if (method == formats::ReductionMethod::rubin) return "rubin";
   if (method == formats::ReductionMethod::macneal) return "macneal";
@@ -20,7 +20,7 @@ std::string method_text(formats::ReductionMethod method, const InternalModes& in
   return internal.lambda.size() > 0 ? "craig_bampton" : "guyan";
 }
 
-/// Names, positions and rows of the superelement.
+/// Superelement with names, positions and rows.
 formats::Superelement describe(const formats::Part& part, const InternalProblem& problem, Eigen::Index modes,
                                const std::string& method) {
   formats::Superelement element;
@@ -42,8 +42,8 @@ formats::Superelement describe(const formats::Part& part, const InternalProblem&
   return element;
 }
 
-/// max |S̄ R| over the boundary, rotations scaled by `length`, relative to the stiffest entry or, if that is less (one
-/// boundary node: S̄_BB = 0), to m ω² of the softest mode.
+/// max |S̄ R| over the boundary, rotations scaled by `length`. It is relative to the stiffest entry or, if that is less
+/// (one boundary node: S̄_BB = 0), to m ω² of the softest mode.
 double rigid_residual(const formats::Superelement& element, double length, const InternalModes& internal) {
   const Eigen::Index n_B = element.size() - internal.lambda.size();
   const Eigen::VectorXd scale = Eigen::VectorXd::NullaryExpr(
@@ -59,7 +59,7 @@ double rigid_residual(const formats::Superelement& element, double length, const
   return reference > 0.0 ? SR.cwiseAbs().maxCoeff() / reference : 0.0;
 }
 
-/// S̄ R = 0 by projection; then the canonical zeros and eigenvalues again as they are.
+/// Makes S̄ R = 0 by projection, then restores the canonical zeros and eigenvalues.
 void make_canonical(const InternalModes& internal, formats::Superelement& element) {
   const Eigen::Index m = internal.lambda.size(), n_B = element.size() - m;
   formats::filter_rigid_motions(element);

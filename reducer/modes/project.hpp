@@ -1,4 +1,4 @@
-// Projection of S and M on boundary and internal modes: the reduced matrices of the superelement file.
+// Projection of S and M on boundary and internal modes: reduced matrices of the superelement file.
 #pragma once
 
 #include "formats/part/part.hpp"
@@ -8,7 +8,7 @@
 
 namespace tisserand::reducer {
 
-/// How far the projection was from its exact form before it was put into it, relative to the largest entries.
+/// Deviations of the projection from its exact form before correction, relative to the largest entries.
 struct ProjectionDefects {
   double stiffness_coupling = 0.0;  ///< |S̄_BI|, exactly 0 in theory
   double orthonormality = 0.0;      ///< |Φᵀ M_II Φ − 1|
@@ -20,9 +20,9 @@ struct Projection {
   ProjectionDefects defects;
 };
 
-/// [Car00] (25), (38) with T = [1 0; Ψ Φ]: S̄ = diag(S_BB + S_BI Ψ + Ψᵀ(S_IB + S_II Ψ), Λ),
-/// M̄ = [M_BB + M_BI Ψ + Ψᵀ M_IB + Ψᵀ M_II Ψ, (M_BI + Ψᵀ M_II) Φ; ., 1], symmetrised; canonical form exactly: S̄_BI = 0,
-/// M̄_II = 1, S̄_II = Λ ascending, and S̄ R = 0 by projection.
+/// Projection [Car00] (25), (38) with T = [1 0; Ψ Φ]: S̄ = diag(S_BB + S_BI Ψ + Ψᵀ(S_IB + S_II Ψ), Λ), M̄ = [M_BB +
+/// M_BI Ψ + Ψᵀ M_IB + Ψᵀ M_II Ψ, (M_BI + Ψᵀ M_II) Φ; ., 1], symmetrised. The canonical form is exact: S̄_BI = 0, M̄_II
+/// = 1, S̄_II = Λ ascending, and S̄ R = 0 by projection.
 Projection project(const formats::Part& part, const InternalProblem& problem, const BoundaryModes& boundary,
                    const InternalModes& internal);
 

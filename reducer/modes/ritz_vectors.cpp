@@ -1,4 +1,4 @@
-// Rayleigh-Ritz inside of a held boundary, in the space of moment vectors or of modes of the free part.
+// Rayleigh-Ritz method for the inside with the boundary held, in the space of moment vectors or of free modes.
 #include "reducer/modes/ritz_vectors.hpp"
 
 #include <algorithm>
@@ -19,19 +19,19 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double independent = 1e-10;  ///< least square of what is new in a vector, of the vector's own
+constexpr double independent = 1e-10;  ///< least square of the new part of a vector, relative to the vector
 
-/// W less its share of the modes, in M_II; twice, since the first pass leaves round-off of what it takes away.
+/// Removes from W its share of the modes, in M_II. Two passes, since the first leaves round-off of what it removes.
 void make_orthogonal(const Matrix& M_II, const MatrixXd& Phi, MatrixXd& W) {
   if (Phi.cols() == 0) return;
   for (int pass = 0; pass < 2; ++pass) W -= Phi * (Phi.transpose() * multiply(M_II, W));
 }
 
-/// Wᵀ S W = 1 in the order of the columns (Cholesky); those that the ones before span are dropped.
+/// Makes Wᵀ S W = 1 in the order of the columns (Cholesky). Columns in the span of earlier ones are dropped.
 MatrixXd orthonormal_in(const Matrix& S, const MatrixXd& W) {
   const MatrixXd gram = W.transpose() * multiply(S, W);
   const Index n = gram.rows();
-  MatrixXd R = MatrixXd::Zero(n, n);  // rows of the factor, of the columns that are kept
+  MatrixXd R = MatrixXd::Zero(n, n);  // rows of the factor for the kept columns
   std::vector<Index> kept;
   for (Index k = 0; k < n; ++k) {
     const auto p = static_cast<Index>(kept.size());
@@ -58,7 +58,7 @@ void fail_without_mass(const InternalProblem& problem) {
               "give it mass, or write method: craig_bampton");
 }
 
-/// Elastic modes of the free part, by number or up to a frequency. `lambda_1`: an eigenvalue of the size of the first.
+/// Elastic modes of the free part, by number or up to a frequency. `lambda_1`: eigenvalue of the size of the first.
 FreeModes chosen_free_modes(const InternalProblem& problem, const formats::ModeSelection& selection, double lambda_1) {
   int count = selection.count;
   const Count verify = selection.cutoff ? Count::always : Count::if_cheap;
@@ -79,7 +79,7 @@ FreeModes chosen_free_modes(const InternalProblem& problem, const formats::ModeS
   return std::move(*pairs);
 }
 
-/// What the free modes and the six rigid accelerations leave inside when the boundary is held: n_I x (m + 6).
+/// Internal parts, with the boundary held, of the free modes and the six rigid accelerations: n_I x (m + 6).
 MatrixXd inside_of(const InternalProblem& problem, const BoundaryModes& boundary, const MatrixXd& modes) {
   const Partition& p = problem.partition;
   const Index m = modes.cols();
@@ -89,8 +89,8 @@ MatrixXd inside_of(const InternalProblem& problem, const BoundaryModes& boundary
   return raw;
 }
 
-/// Mass of rigid motions and kept free modes alone, from the mass with all of it: M Φ Φᵀ M, Φ the lowest 6 + `kept`
-/// modes of the reduced part, which hold them exactly; then Ritz vectors and boundary mass in canonical form again.
+/// Replaces the whole mass by MacNeal's, that of rigid motions and kept free modes alone: M Φ Φᵀ M with the lowest 6 +
+/// `kept` modes Φ of the reduced part, which it holds exactly. Ritz vectors and boundary mass become canonical again.
 void take_macneal_mass(const BoundaryModes& boundary, Index kept, InternalModes& modes) {
   const Index n_B = boundary.S.rows(), p = modes.lambda.size();
   MatrixXd S = MatrixXd::Zero(n_B + p, n_B + p), M = S;
@@ -194,7 +194,7 @@ InternalModes free_boundary_vectors(const InternalProblem& problem, const Bounda
   const MatrixXd before = modes.Phi;
   const VectorXd lambda = modes.lambda;
   fix_basis(problem, modes.lambda, modes.Phi);
-  // Φᵀ S_II Φ = Λ also where the mass is MacNeal's.
+  // Φᵀ S_II Φ = Λ also if the mass is MacNeal's.
   const MatrixXd turn =
       lambda.cwiseInverse().asDiagonal() * before.transpose() * multiply(problem.blocks.S_II, modes.Phi);
   modes.coupling = (modes.coupling * turn).eval();

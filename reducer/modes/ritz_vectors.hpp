@@ -1,5 +1,5 @@
-// Internal vectors that are no fixed-boundary modes: moment vectors in addition to these, and the internal part of the
-// modes of the free part (Rubin, MacNeal).
+// Internal vectors other than fixed-boundary modes: moment vectors in addition to these, and the internal part of free
+// modes (Rubin, MacNeal).
 #pragma once
 
 #include <Eigen/Core>
@@ -11,12 +11,12 @@
 
 namespace tisserand::reducer {
 
-/// A space of internal vectors (boundary held), leading vectors first, with their coupling to the boundary. `first(p)`
-/// gives the Ritz vectors of its leading p and the LeftOut that goes with them.
+/// Space of internal vectors (boundary held), leading vectors first, with their coupling to the boundary. `values(p)`
+/// gives the Ritz vectors of its leading p, left_out() their LeftOut.
 class RitzSpace {
  public:
-  /// `raw` (n_I x p): made orthogonal to `Phi` (n_I x m, M_II-orthonormal fixed-boundary modes) in M_II, then
-  /// orthonormal in S_II in their order; directions that others span to 1e-10 are dropped. One block of solutions.
+  /// Makes `raw` (n_I x p) orthogonal to `Phi` (n_I x m, M_II-orthonormal fixed-boundary modes) in M_II, then
+  /// orthonormal in S_II in this order. Directions that others span to 1e-10 are dropped. Costs one block of solutions.
   RitzSpace(const InternalProblem& problem, const BoundaryModes& boundary, const Eigen::MatrixXd& Phi,
             Eigen::MatrixXd raw);
 
@@ -39,26 +39,25 @@ class RitzSpace {
   Eigen::MatrixXd third_;     ///< Wᵀ M_II S_II⁻¹ M_II W
 };
 
-/// Moment vectors, sorted by the effect of their absence on frequencies, largest first.
+/// Moment vectors, sorted by the effect of their omission on frequencies, largest first.
 struct MomentSpace {
   RitzSpace space;
-  Eigen::VectorXd order;  ///< 1/γ of each, ascending: equal ones belong together
+  Eigen::VectorXd order;  ///< 1/γ of each, ascending: equal ones form groups
 
-  /// `count`, raised to the end of the group of equal ones that it would cut.
+  /// `count`, raised to the end of a group of equal ones that it would cut.
   Eigen::Index whole(Eigen::Index count) const;
 };
 
-/// Columns of S_II⁻¹ X, X = M_IB + M_II Ψ, without the kept modes `Phi`: the response of the inside to accelerations of
-/// the boundary. Their combinations by G y = γ (M_B + S_B/λ) y, γ descending: what leaving one out does at most to the
-/// frequency of a motion of the boundary of unit mass whose strain energy is that of an eigenvalue up to `lambda`.
+/// Moment vectors: columns of S_II⁻¹ X, X = M_IB + M_II Ψ, without the share of the kept modes `Phi`, the response of
+/// the inside to accelerations of the boundary. They are combined by G y = γ (M_B + S_B/λ) y, γ descending. γ bounds
+/// the effect of one's omission on the frequency of a boundary motion of unit mass with a strain energy up to `lambda`.
 MomentSpace moment_space(const InternalProblem& problem, const BoundaryModes& boundary, const Eigen::MatrixXd& Phi,
                          const Eigen::MatrixXd& G, double lambda);
 
-/// The inside by modes of the free part, [Mac71], [Rub75], [CC77]: `selection` counts elastic
-/// modes v of the free part; with the static modes of the boundary and the inertia relief of the six rigid
-/// accelerations the space holds them and the residual flexibility exactly. Internal vectors: v_I − Ψ v_B and S_II⁻¹ X
-/// R_B, Rayleigh-Ritz. Rubin (and Craig-Chang) takes the whole mass, MacNeal that of rigid motions and kept modes
-/// alone, M̄ = M v vᵀ M. The textbooks' matrices would invert the residual flexibility, which may be singular.
+/// Internal vectors by modes of the free part, [Mac71], [Rub75], [CC77]. `selection` counts elastic modes v of the free
+/// part. With the static modes of the boundary and the inertia relief of the six rigid accelerations, the space holds
+/// them and the residual flexibility exactly. Internal vectors: v_I − Ψ v_B and S_II⁻¹ X R_B, Rayleigh-Ritz. Rubin (and
+/// Craig-Chang) takes the whole mass, MacNeal that of rigid motions and kept modes, M̄ = M v vᵀ M.
 InternalModes free_boundary_vectors(const InternalProblem& problem, const BoundaryModes& boundary,
                                     const formats::ModeSelection& selection);
 

@@ -1,4 +1,4 @@
-// Searches by EPS: the same calls by all processes that share the rows.
+// Searches by EPS. All processes that share the rows make the same calls.
 #include "reducer/modes/search.hpp"
 
 #include <array>
@@ -17,12 +17,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Message of the leader to the followers of a search.
+/// Message from the leader to the followers of a search.
 struct Order {
   double shift = 0.0;
   EigenSolver type = EigenSolver::block_lanczos;
   int wanted = 0;
-  int known = 0;  ///< vectors
+  int known = 0;  ///< number of known vectors
 };
 
 Order agree(Order order) {
@@ -47,7 +47,7 @@ SearchResult search_by(Eps& eps, EigenSolver type, int wanted, const MatrixXd& k
   return result;
 }
 
-/// S and M of the leader; its vectors whole, before and after. Collective.
+/// Collective search. The leader has S and M and whole vectors, before and after.
 SearchResult search_by_ranks(const Mumps& factor, const std::array<SymmetricRows, 2>& whole, Order order,
                              const MatrixXd& known, std::function<void(double)> share) {
   order = agree(order);
@@ -91,8 +91,8 @@ void help_to_search(const Mumps& factor) {
 }
 
 SearchResult search_all(const Pencil& pencil) {
-  // M x = μ (S − shift M) x, μ = 1/(λ − shift): the lowest λ are the largest μ, found to full relative accuracy, and M
-  // may be semidefinite.
+  // M x = μ (S − shift M) x with μ = 1/(λ − shift). The lowest λ are the largest μ, which are found to full relative
+  // accuracy, and M may be semidefinite.
   constexpr double resolved = 1e-13;
   const MatrixXd M = dense(pencil.M), B = dense(pencil.S) - pencil.shift * M;
   const Matrix left = dense_view(pencil.M.get(), M.cols(), M.data()),

@@ -1,4 +1,4 @@
-// Eigenpairs by SLEPc, searched again where some are missing; counted by Sylvester's law of inertia.
+// Eigenpairs by SLEPc, counted by Sylvester's law of inertia. If some are missing, the search is repeated.
 #include "reducer/modes/spectrum.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <petscsys.h>
 
-// Does not compile before the others, so it has a block of its own.
+// In a block of its own because it does not compile before the others.
 #include <petscblaslapack.h>
 
 #include "common/error.hpp"
@@ -39,7 +39,7 @@ void append(const EigenPairs& more, EigenPairs& pairs) {
               "ask for fewer modes, or use fewer elements per line");
 }
 
-/// Between the last kept and the first dropped eigenvalue; nothing dropped: above the last.
+/// Value between the last kept and the first dropped eigenvalue; above the last if nothing is dropped.
 double value_in_gap(const EigenPairs& pairs, int kept, double shift) {
   const double below = pairs.value[kept - 1] - shift;
   if (kept == pairs.value.size()) return shift + below * (1.0 + 10.0 * cluster_tolerance);
@@ -60,14 +60,14 @@ Spectrum lapack_spectrum(const Pencil& pencil, int count, int available) {
   return s;
 }
 
-/// Whether one more factorisation costs less than a tenth of the solutions: their operations, of which the processor
-/// does a third as many a second, with the columns that block Lanczos iteration needs for `count` pairs.
+/// Whether one more factorisation costs less than a tenth of the solutions with the columns that block Lanczos
+/// iteration needs for `count` pairs. The processor does a third as many operations per second in solutions.
 bool counting_is_cheap(const Factor& factor, int count) {
   const double columns = 3.0 * count + 60.0;
   return factor.cost().operations < 0.1 * 3.0 * columns * 4.0 * factor.cost().entries;
 }
 
-/// Members of the largest cluster.
+/// Number of members of the largest cluster.
 int largest_cluster(const Eigen::VectorXd& value, double shift) {
   int largest = 0;
   for (int first = 0; first < value.size();) {
@@ -100,7 +100,7 @@ Spectrum iterated_spectrum(const Pencil& pencil, int count, int available, Eigen
       if (s.kept < available) s.counted = count_kept(pencil, s.pairs, s.kept);
       if (s.counted == s.kept) return s;
     }
-    // Repeated eigenvalues hide from one Krylov sequence: look for what is orthogonal.
+    // One Krylov sequence misses repeated eigenvalues, so search among orthogonal vectors.
     SearchResult more = search(pencil, solver, std::max(4, s.counted.value_or(0) - s.kept), s.pairs.vector);
     append(more.pairs, s.pairs);
     s.runs.insert(s.runs.end(), more.runs.begin(), more.runs.end());
@@ -109,7 +109,7 @@ Spectrum iterated_spectrum(const Pencil& pencil, int count, int available, Eigen
   fail_missing(count_of(s.pairs.value), std::max(count, s.counted.value_or(0)));
 }
 
-/// The kept pairs whose residual is above the usual one.
+/// Kept pairs whose residual is above the usual one.
 std::vector<Eigen::Index> unsharp_columns(const Spectrum& s) {
   std::vector<Eigen::Index> columns;
   for (Eigen::Index k = 0; k < s.kept; ++k)
@@ -135,20 +135,20 @@ void refine_unsharp(const Pencil& pencil, Spectrum& s) {
   }
 }
 
-/// Eigenvalues μ ascending and vectors, Xᵀ B X = 1, of A x = μ B x; `info` as LAPACK gives it: above n, B is not
-/// positive definite.
+/// Eigenvalues μ ascending and vectors, Xᵀ B X = 1, of A x = μ B x. `info` is LAPACK's: above n, B is not positive
+/// definite.
 struct DensePairs {
   Eigen::VectorXd mu;
   Eigen::MatrixXd X;
   PetscBLASInt info = 0;
 };
 
-/// The `count` largest ones, by bisection and inverse iteration.
+/// The `count` largest pairs, by bisection and inverse iteration.
 DensePairs largest_pairs(Eigen::MatrixXd A, Eigen::MatrixXd B, int count) {
   const auto n = static_cast<PetscBLASInt>(A.rows());
   const PetscBLASInt first = n - count + 1, last = n;
   PetscBLASInt found = 0, lwork = -1;
-  // Twice the least normal number: with 0 the inverse iteration of dsyevx fails now and then (its documentation).
+  // Twice the least normal number: with 0 the inverse iteration of dsyevx may fail (its documentation).
   const double unused = 0.0, tolerance = 2.0 * std::numeric_limits<double>::min();
   DensePairs pairs{Eigen::VectorXd(n), Eigen::MatrixXd(n, count)};
   std::vector<PetscBLASInt> iwork(static_cast<std::size_t>(5 * n)), fail(static_cast<std::size_t>(n));
@@ -166,7 +166,7 @@ DensePairs largest_pairs(Eigen::MatrixXd A, Eigen::MatrixXd B, int count) {
   return pairs;
 }
 
-/// All eigenvalues by the QR algorithm, which always finds all of them.
+/// The `count` largest pairs from all eigenvalues, by the QR algorithm, which always finds all of them.
 DensePairs largest_pairs_by_qr(Eigen::MatrixXd A, Eigen::MatrixXd B, int count) {
   const auto n = static_cast<PetscBLASInt>(A.rows());
   const PetscBLASInt type = 1;
@@ -253,7 +253,7 @@ EigenSolver choose_solver(Eigen::Index size, int count, const formats::ModeSelec
     case formats::EigenSolverChoice::automatic:
       break;
   }
-  // All modes by LAPACK cost less than the iteration from two fifths of the spectrum on (docs/PERFORMANCE.md).
+  // As measured, LAPACK is faster than the iteration from two fifths of the spectrum on (docs/PERFORMANCE.md).
   const bool small = size <= 200 || (size <= 4000 && 5 * (count + 8) > 2 * size);
   if (small) return EigenSolver::lapack;
   return has_block_lanczos() ? EigenSolver::block_lanczos : EigenSolver::krylov_schur;
@@ -274,7 +274,7 @@ Spectrum lowest_pairs(const Pencil& pencil, int count, int available, EigenSolve
 
 EigenPairs dense_lowest(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, double shift, int count) {
   // M x = μ (S − shift M) x, μ = 1/(λ − shift): the lowest λ are the largest μ, found to full relative accuracy.
-  // Inverse iteration fails now and then on groups of equal ones, such as the six rigid motions.
+  // Inverse iteration may fail on groups of equal ones, such as the six rigid motions.
   const Eigen::MatrixXd B = S - shift * M;
   DensePairs found = largest_pairs(M, B, count);
   if (found.info > 0 && found.info <= S.rows()) found = largest_pairs_by_qr(M, B, count);

@@ -1,4 +1,4 @@
-// Bounds of the error by dropped modes, from reduced matrices.
+// Bounds of the error by dropped modes, computed from reduced matrices.
 #include "reducer/modes/truncation.hpp"
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace {
 
 constexpr int rigid = 6;
 
-/// Below the spectrum, of the size of the first elastic eigenvalue; 0 if there is none. Begins with the largest
-/// quotient of a coordinate; where M is nearly singular, so much of it leaves S behind in round-off, and less is tried.
+/// Shift below the spectrum, of the size of the first elastic eigenvalue; 0 if there is none. Begins with the largest
+/// quotient of a coordinate. If M is nearly singular, it would bury S in round-off; then smaller ones are tried.
 double shift_of(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int rigid_motions) {
   double coarse = 0.0;
   for (Eigen::Index i = 0; i < S.rows(); ++i)
@@ -35,14 +35,14 @@ double shift_of(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int rigid_mo
   return -0.5 * dense_lowest(S, M, -coarse, rigid_motions + 1).value[rigid_motions];
 }
 
-/// All modes of the reduced part that have mass, and what the boundary sees of its directions without.
+/// All modes of the reduced part with mass, and the flexibility of its massless directions at the boundary.
 struct ReducedModes {
   EigenPairs pairs;
   Eigen::MatrixXd massless;  ///< n_B x n_B: their static flexibility
 };
 
 ReducedModes reduced_modes(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, double shift, Eigen::Index n_B) {
-  constexpr double least_mass = 1e-13;  // of the largest 1/(λ − shift)
+  constexpr double least_mass = 1e-13;  // relative to the largest 1/(λ − shift)
   ReducedModes modes{dense_lowest(S, M, shift, static_cast<int>(S.rows())), {}};
   EigenPairs& pairs = modes.pairs;
   Eigen::Index count = 0;
@@ -58,9 +58,9 @@ ReducedModes reduced_modes(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, d
   return modes;
 }
 
-/// Number of eigenvalues below `s` of the reduced part with modes (μ, u on the boundary) when `taken` = C Cᵀ (n_B x
-/// n_B) is taken off its dynamic stiffness: those of diag(μ − s) − uᵀ C Cᵀ u that are negative are as many as those of
-/// diag(μ − s) and of 1 − Cᵀ u (μ − s)⁻¹ uᵀ C together (Haynsworth).
+/// Number of eigenvalues below `s` of the reduced part with modes (μ, u on the boundary) after `taken` = C Cᵀ (n_B x
+/// n_B) is subtracted from its dynamic stiffness. It is the number of negative eigenvalues of diag(μ − s) plus that of
+/// 1 − Cᵀ u (μ − s)⁻¹ uᵀ C, as for diag(μ − s) − uᵀ C Cᵀ u (Haynsworth).
 Eigen::Index count_with(const ReducedModes& modes, const Eigen::MatrixXd& taken, double s) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(taken);
   const Eigen::MatrixXd C = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
@@ -73,21 +73,21 @@ Eigen::Index count_with(const ReducedModes& modes, const Eigen::MatrixXd& taken,
   return (value.array() < s).count() + (signs.eigenvalues().array() < 0.0).count();
 }
 
-/// Round-off of eigenvalues: no enclosure is narrower.
+/// Round-off of eigenvalues, the least width of an enclosure.
 constexpr double resolution = 1e-11;
-/// Shares above which what is of first order in them may not be enough: neighbours mix.
+/// Share above which first order may not suffice, because neighbours mix.
 constexpr double first_order = 1e-6;
-/// Part of what the upper side adds to the lower one that estimates take: measured, true errors are nearer to the
-/// lower.
+/// Part of the difference of both sides of the bound in estimates: as measured, true errors are nearer to the lower
+/// side.
 constexpr double likely = 0.25;
-/// The upper side of the bound.
+/// Upper side of the bound THEORY (88).
 Eigen::MatrixXd upper_side(const LeftOut& out, double lambda) {
   return lambda * lambda / (1.0 - lambda / out.first_dropped) * out.residual(lambda);
 }
 
-/// Share of λ by which the full part's eigenvalue `k` is below that of the reduced part at most: λ (1 − share) has no
-/// more than k eigenvalues below it when the upper side of the bound is taken off. From `first` on, twice as much until
-/// it does.
+/// Upper bound of the share of λ by which the full part's eigenvalue `k` is below that of the reduced part: at most k
+/// eigenvalues are below λ (1 − share) after the upper side of the bound is subtracted. The search doubles the share
+/// from `first` on until this holds.
 double largest_share(const ReducedModes& modes, const LeftOut& out, Eigen::Index k, double first) {
   const double lambda = modes.pairs.value[k];
   const auto holds = [&](double share) {
@@ -104,11 +104,11 @@ double largest_share(const ReducedModes& modes, const LeftOut& out, Eigen::Index
   return good;
 }
 
-/// First order in the bound and a little more.
+/// Share by first order in the bound, slightly increased.
 double first_share(double bound) { return 2.02 * bound + resolution; }
 
-/// Share of λ by which eigenvalue `k` is below that of the reduced part when λ² R(λ) and the part `middle` (0: none, 1:
-/// all) of what the upper side adds to it is taken off; between 0 and `largest`, to 1/256 of that.
+/// Share of λ by which eigenvalue `k` is lowered by λ² R(λ) and the part `middle` (0: none, 1: all) of the difference
+/// to the upper side. It lies between 0 and `largest`, with an error of 1/256 of that.
 double share_with(const ReducedModes& modes, const LeftOut& out, Eigen::Index k, double middle, double largest) {
   const double lambda = modes.pairs.value[k];
   constexpr int steps = 8;
@@ -121,10 +121,10 @@ double share_with(const ReducedModes& modes, const LeftOut& out, Eigen::Index k,
   return good;
 }
 
-/// Relative error of the frequency whose square is too high by this share of it; infinite for the whole.
+/// Relative error of a frequency whose square is too high by this share of itself; infinite for share 1.
 double error_of(double share) { return 1.0 / std::sqrt(1.0 - share) - 1.0; }
 
-/// By which it is below at least, to first order in the estimate.
+/// Lower bound of the share, to first order in the estimate.
 double least_share(const ReducedModes& modes, const LeftOut& out, Eigen::Index k, double estimate) {
   const double share = 1.98 * estimate, s = modes.pairs.value[k] * (1.0 - share);
   return share > resolution && count_with(modes, s * s * out.residual(s), s) > k ? share : -resolution;
@@ -135,7 +135,7 @@ double estimate_of(const EigenPairs& pairs, const LeftOut& out, Eigen::Index k) 
   return std::max(0.0, 0.5 * pairs.value[k] * u.dot(out.residual(pairs.value[k]) * u));
 }
 
-/// W and E of attached_error(), the least up to Λ: λ/Λ times W(λ) and E(λ) are not below them.
+/// W and E of attached_error(), the least for all λ up to Λ: λ/Λ times W(λ) and E(λ) are not below them.
 struct Weights {
   Eigen::MatrixXd mass, strain;
 };
@@ -144,7 +144,7 @@ void add_vectors(const Eigen::VectorXd& value, const Eigen::MatrixXd& coupling, 
   Eigen::VectorXd mass(value.size()), strain(value.size());
   for (Eigen::Index k = 0; k < value.size(); ++k) {
     const double a = value[k], apart = std::pow(lambda - a, 2);
-    // (λ_k²/(λ_k − λ)² − 1)/λ and λ_k/(λ_k − λ)²: grow up to the pole at λ_k and fall behind it.
+    // (λ_k²/(λ_k − λ)² − 1)/λ and λ_k/(λ_k − λ)² increase up to the pole at λ_k and decrease after it.
     const double at_end = (2.0 * a - lambda) * lambda / apart;
     mass[k] = lambda < a ? 2.0 * lambda / a : lambda > 2.0 * a ? at_end : std::min(2.0 * lambda / a, at_end);
     strain[k] = lambda < a ? lambda / a : std::min(lambda / a, lambda * a / apart);
@@ -160,7 +160,7 @@ Weights weights_of(const BoundaryView& part, const LeftOut* out, double lambda) 
   return w;
 }
 
-/// Coordinates in which `weight` has a unit diagonal, and the regularised weight there.
+/// Scale that gives `weight` a unit diagonal, and the regularised weight in these units.
 struct ScaledWeight {
   Eigen::VectorXd unit;
   Eigen::MatrixXd weight;
@@ -177,7 +177,7 @@ ScaledWeight scaled_weight(const Eigen::MatrixXd& weight) {
   return s;
 }
 
-/// Largest eigenvalue of (A, weight).
+/// Largest eigenvalue of the pencil (A, weight).
 double largest_quotient(const Eigen::MatrixXd& A, const Eigen::MatrixXd& weight) {
   const ScaledWeight s = scaled_weight(weight);
   const Eigen::LLT<Eigen::MatrixXd> factor(s.weight);
@@ -246,10 +246,10 @@ TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::Matrix
 double attached_error(const BoundaryView& part, const LeftOut& out, double first_coupled, double lambda) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   constexpr std::array<double, 5> parts_of_mass{0.5, 0.25, 0.75, 0.1, 0.9};
-  constexpr std::array<double, 3> instants{1.0, 0.5, 0.25};  // of λ: λ R(λ) falls below it, except for oddities
+  constexpr std::array<double, 3> instants{1.0, 0.5, 0.25};  // of λ: λ R(λ) decreases below it, with rare exceptions
   constexpr Eigen::Index most_for_all = 100;
   if (!(lambda < first_coupled)) return infinite;
-  if (!std::isfinite(out.first_dropped) || out.G.rows() == 0) return 0.0;  // nothing is left out
+  if (!std::isfinite(out.first_dropped) || out.G.rows() == 0) return 0.0;  // nothing is omitted
   const Weights w = weights_of(part, &out, lambda);
   const bool small = out.G.rows() <= most_for_all;
   double least = infinite;
