@@ -27,7 +27,7 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Every element with a lumped mass matrix; the held nodes in place of the boundary.
+/// Mesh with lumped mass matrices for all elements, and with the held nodes as its boundary.
 Mesh lumped_mesh(Mesh mesh) {
   for (BeamProperty& property : mesh.beam_properties) property.data.mass_matrix = formats::MassMatrix::lumped;
   for (ShellProperty& property : mesh.shell_properties) property.mass_matrix = formats::MassMatrix::lumped;
@@ -56,7 +56,7 @@ std::vector<Matrix6> nodal_blocks(const Mesh& mesh, const Coordinates& coordinat
   return blocks;
 }
 
-/// The mass of a node as a rigid body whose centre of mass lies `offset` beside it. Throws Error if it is none.
+/// Mass of a node as a rigid body with its centre of mass at `offset` from the node. Throws Error if it is none.
 NodalMass rigid_mass(const Matrix6& block, int node, const Mesh& mesh, double length, const std::string& where) {
   NodalMass mass;
   mass.node = node;
@@ -79,7 +79,7 @@ NodalMass rigid_mass(const Matrix6& block, int node, const Mesh& mesh, double le
 struct LumpedModes {
   Eigen::VectorXd lambda;
   Eigen::MatrixXd q;
-  std::string solver;  ///< what found them
+  std::string solver;  ///< report of the solver
 };
 
 Partition held_partition(const Mesh& mesh, const System& system) {
@@ -123,7 +123,7 @@ LumpedModes held_modes(const Mesh& mesh, const System& system, const formats::Mo
   return modes;
 }
 
-/// What round-off left of rigid motions is taken out; then Xᵀ M X = 1 again.
+/// Removes the round-off along rigid motions and restores Xᵀ M X = 1.
 void make_orthogonal_to_rigid_motions(const System& system, Eigen::MatrixXd& q) {
   const Eigen::MatrixXd rigid = system.R.transpose() * system.MR;
   q -= system.R * rigid.ldlt().solve(system.MR.transpose() * q);
@@ -149,7 +149,7 @@ LumpedModes free_modes(const Mesh& mesh, const System& system, const formats::Mo
   return modes;
 }
 
-/// A row of the file: a node of the mesh, or the centre of mass of what lies beside one.
+/// Row of the file: a node of the mesh, or the centre of mass of a mass with an offset from one.
 struct LumpedNode {
   std::string name;
   NodalMass mass;
@@ -157,7 +157,7 @@ struct LumpedNode {
   bool kept = false;
 };
 
-/// Boundary and held nodes by their names, the others numbered. A mass beside its node follows as a row of its own.
+/// Nodes of the file: boundary and held nodes by name, others by number, masses with an offset in rows of their own.
 std::vector<LumpedNode> lumped_nodes(const Mesh& mesh, const Mesh& lumped, const System& system,
                                      const formats::ModalBodyRequest& body) {
   std::vector<std::string> name(static_cast<std::size_t>(mesh.nodes()));
@@ -178,7 +178,7 @@ std::vector<LumpedNode> lumped_nodes(const Mesh& mesh, const Mesh& lumped, const
   return nodes;
 }
 
-/// Nodes of the file; positions still those of the part.
+/// Fills in the nodes of the file, with their positions in the part.
 void fill(const Mesh& mesh, const System& system, const LumpedModes& modes, const std::vector<LumpedNode>& nodes,
           formats::ModalBody& body) {
   const Eigen::MatrixXd x = expand(system.T, modes.q);
@@ -229,7 +229,7 @@ void set_reference(const Mesh& mesh, formats::ModalBody& body) {
     }
 }
 
-/// What the certificate tells.
+/// Data for the certificate.
 ModalBodyCertificate describe(const formats::ModalBody& body, const std::string& solver) {
   ModalBodyCertificate c;
   c.eigenvalue_solver = solver;
@@ -243,7 +243,7 @@ ModalBodyCertificate describe(const formats::ModalBody& body, const std::string&
   return c;
 }
 
-/// What the modes leave out, at all nodes that the part names.
+/// Static answers that the modes omit, for all nodes that the part names.
 LumpedAnswers answers_of(const Mesh& mesh, const System& system, const LumpedModes& modes,
                          const std::vector<LumpedNode>& nodes, const formats::ModalBody& body) {
   AnsweredBody asked{
@@ -256,7 +256,7 @@ LumpedAnswers answers_of(const Mesh& mesh, const System& system, const LumpedMod
   return lumped_answers(asked);
 }
 
-/// Of a large number of nodes the file would be large and nobody holds them all: none is written.
+/// Sets the residual flexibility, except for many named nodes, whose matrices would make the file large.
 void set_residual(const LumpedAnswers& answers, formats::ModalBody& body) {
   constexpr std::size_t most = 600;
   if (answers.forces.size() > most) return;

@@ -1,4 +1,4 @@
-// Loads of lumped masses and of nodes, and their static answers on the reference.
+// Loads of lumped masses and of nodes, and their static answers under the reference conditions.
 #include "reducer/modal_body/static_answers.hpp"
 
 #include <algorithm>
@@ -16,8 +16,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-/// Force and moment of a mass on its node under each of the twelve loads (RECOVERY.md, inertia loads), as the equations
-/// of modal bodies have them: rotary inertia feels angular accelerations, not products of angular velocities.
+/// Force and moment of a mass on its node under each of the twelve loads (RECOVERY.md, inertia loads), as in the
+/// equations of modal bodies: rotary inertia feels angular accelerations, but not products of angular velocities.
 Eigen::Matrix<double, 6, formats::inertia_loads> loads_of(const LumpedMass& lumped, const Vector3d& b) {
   Eigen::Matrix<double, 6, formats::inertia_loads> g;
   g.setZero();
@@ -28,14 +28,14 @@ Eigen::Matrix<double, 6, formats::inertia_loads> loads_of(const LumpedMass& lump
     g.col(3 + k).head<3>() = m * e.cross(b);
     g.col(3 + k).tail<3>() = lumped.mass.inertia * e;
     g.col(6 + k).head<3>() = m * (b - e * b[k]);
-    const Index i = (k + 1) % 3, j = (k + 2) % 3;  // of the product that leaves out axis k: yz, xz, xy
+    const Index i = (k + 1) % 3, j = (k + 2) % 3;  // of the product without axis k: yz, xz, xy
     g.col(9 + k).head<3>() = -0.5 * m * (Vector3d::Unit(i) * b[j] + Vector3d::Unit(j) * b[i]);
   }
   for (Index k = 0; k < g.cols(); ++k) g.col(k).tail<3>() += lumped.arm.cross(g.col(k).head<3>());
   return g;
 }
 
-/// Loads on coordinates of the mesh: twelve of inertia, then forces of size 1 on the nodes.
+/// Loads on coordinates of the mesh: twelve of inertia, then unit forces on the nodes.
 MatrixXd unit_loads(const AnsweredBody& body, std::vector<formats::AppliedLoad>& forces) {
   const Coordinates& numbers = body.system.coordinates;
   std::vector<int> place;
@@ -56,7 +56,7 @@ MatrixXd unit_loads(const AnsweredBody& body, std::vector<formats::AppliedLoad>&
   return g;
 }
 
-/// K_II⁻¹ of all coordinates but the held ones, which stay.
+/// Displacements K_II⁻¹ g of all coordinates, with the held ones at rest.
 MatrixXd answers_on(const System& system, const std::vector<int>& held, const MatrixXd& g) {
   Partition p;
   p.boundary = held;

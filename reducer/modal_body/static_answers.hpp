@@ -1,4 +1,4 @@
-// What the modes of a modal body leave out: static answers to inertia loads of its frame and to forces on its nodes.
+// Static answers that the modes of a modal body omit: to inertia loads of its frame and to forces on its nodes.
 #pragma once
 
 #include <string>
@@ -13,38 +13,38 @@
 
 namespace tisserand::reducer {
 
-/// A mass of the body: that of a node, with its arm from the node.
+/// Mass of the body: that of a node, with its arm from the node.
 struct LumpedMass {
   NodalMass mass;
   Eigen::Vector3d arm = Eigen::Vector3d::Zero();
 };
 
-/// A node at which joints and forces of a scene may act.
+/// Node at which joints and forces of a scene may act.
 struct NamedNode {
   std::string name;
   int node = 0;
 };
 
-/// What answers are asked of.
+/// Body whose static answers are computed.
 struct AnsweredBody {
   const System& system;           ///< of the mesh with lumped masses
-  std::vector<int> held;          ///< coordinates q of the reference; none: mean axis
+  std::vector<int> held;          ///< held coordinates q of the reference; none: mean axis
   const Eigen::VectorXd& lambda;  ///< ω² of the modes
   const Eigen::MatrixXd& q;       ///< modes
   std::vector<LumpedMass> masses;
   std::vector<NamedNode> nodes;
   const Eigen::Matrix3Xd& position;                  ///< of all nodes of the mesh
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< of mass
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< centre of mass
 };
 
-/// Static answers of the elastic body on its reference, w = K⁺ g − Φ ω⁻² Φᵀ g. Of a mean axis K⁺ is that of the free
-/// body under loads without resultant: rigid accelerations balance the others, and the answer has no part in rigid
-/// motions.
+/// Static answers of the elastic body under its reference conditions, w = K⁺ g − Φ ω⁻² Φᵀ g. For a mean axis K⁺ is that
+/// of the free body under loads without resultant: rigid accelerations balance the others, and the answer has no rigid
+/// part.
 struct LumpedAnswers {
-  std::vector<formats::AppliedLoad> forces;  ///< of each node in turn, three or six components
+  std::vector<formats::AppliedLoad> forces;  ///< for each node three or six components
   Eigen::MatrixXd x;                         ///< displacements of all coordinates x (12 + forces): inertia loads first
   Eigen::MatrixXd share;                     ///< m x (12 + forces): Φᵀ g
-  /// Of the forces: what the file of the body holds of the answers.
+  /// Answers to the forces, as in the file of the body.
   Eigen::MatrixXd flexibility;  ///< forces x forces: fᵀ w
   Eigen::MatrixXd mass;         ///< forces x forces: wᵀ M w
   Eigen::MatrixXd coupling;     ///< 6 x forces: Rᵀ M w about the centre of mass

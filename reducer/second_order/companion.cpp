@@ -1,4 +1,4 @@
-// From modes to the arrays of the companion file.
+// Arrays of the companion file from the modes.
 #include "reducer/second_order/companion.hpp"
 
 #include <algorithm>
@@ -29,19 +29,19 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr int batch_rows = 1024;  ///< stresses of a batch of elements, about; a multiple of eight elements
+constexpr int batch_rows = 1024;  ///< approximate number of stresses in a batch; a multiple of eight elements
 constexpr int largest_batch = 64;
 
-constexpr double told_left_out = 0.01;  ///< of second-order displacement
-constexpr double large_file = 20e6;     ///< bytes of a companion that is not written unasked
+constexpr double told_left_out = 0.01;  ///< share of the second-order displacement above which a note reports it
+constexpr double large_file = 20e6;     ///< bytes above which a companion is written on request only
 
-/// Bytes of the arrays before compression, for n coordinates.
+/// Size of the arrays in bytes before compression, for n coordinates.
 double companion_bytes(Index coordinates) {
   const auto n = static_cast<double>(coordinates);
   return 8.0 * (0.5 * n * n * (n + 1.0) + 3.0 * n * n + 9.0 * n * (n + 1.0));
 }
 
-/// Values of all q for the reduced coordinates: those of the boundary are coordinates themselves.
+/// Values of all q for the reduced coordinates; boundary coordinates are reduced coordinates themselves.
 MatrixXd reduced_displacements(const ReducedPart& part) {
   const Partition& p = part.partition;
   const Index m = part.internal.lambda.size();
@@ -54,7 +54,7 @@ MatrixXd reduced_displacements(const ReducedPart& part) {
   return Phi;
 }
 
-/// Stresses and gradients of the elements, in batches of one layout each, a block of elements at a time.
+/// Stresses and gradients of the elements, computed by blocks of elements, in batches of one layout each.
 class ElementBatches {
  public:
   ElementBatches(const Mesh& mesh, const Coordinates& coordinates, const MatrixXd& displacements, Index n, int threads)
@@ -65,7 +65,7 @@ class ElementBatches {
         threads_(threads),
         scratch_(static_cast<std::size_t>(threads)) {}
 
-  /// Calls use(batches) for all elements in their order; `done` hears the share of them that is behind.
+  /// Calls use(batches) for all elements in their order; `done` receives the share of them that is finished.
   template <class Use>
   void for_each(const Use& use, const std::function<void(double)>& done) {
     for (int first = 0; first < mesh_.elements(); first += block) {
@@ -83,7 +83,7 @@ class ElementBatches {
  private:
   static constexpr int block = 256;
 
-  /// Where an element of the block goes.
+  /// Place of an element of the block.
   struct Place {
     std::size_t batch = 0;
     int at = 0;
@@ -94,7 +94,7 @@ class ElementBatches {
     MatrixXd product;
   };
 
-  /// Cuts the block into batches and sets their sizes; returns how many.
+  /// Divides the block into batches and sets their sizes; returns their number.
   int start_batches(int count) {
     int batches = 0;
     for (int begin = 0; begin < count; ++batches) {
@@ -125,7 +125,7 @@ class ElementBatches {
     put(scratch.product, place_[e].at, batch.count, batch.gradient);
   }
 
-  /// Row r of element number `at` of a batch at row r · count + at.
+  /// Copies row r of element number `at` of a batch to row r · count + at.
   static void put(const MatrixXd& product, int at, int count, MatrixXd& all) {
     for (Index c = 0; c < product.cols(); ++c)
       for (Index r = 0; r < product.rows(); ++r) all(r * count + at, c) = product(r, c);
@@ -142,8 +142,8 @@ class ElementBatches {
   std::vector<Scratch> scratch_;
 };
 
-/// Inertial loads, load cases and those of shapes of second order (none: without columns), on x; the weight of a load
-/// case is that of translations.
+/// Loads on x: inertial loads, load cases (weight as translation), and those of shapes of second order (none: without
+/// columns).
 MatrixXd all_loads(const Mesh& mesh, const LoadVectors& cases, const MatrixXd& inertial, const MatrixXd& of_shapes) {
   const Index shapes = of_shapes.cols();
   MatrixXd g = MatrixXd::Zero(std::max(inertial.rows(), of_shapes.rows()), inertial_loads + cases.x.cols() + shapes);
@@ -167,7 +167,7 @@ std::vector<formats::LoadCase> reduced_cases(const ReducedPart& part, const Load
 
 void sort_by_name(std::vector<formats::LoadCase>& cases) { std::ranges::sort(cases, {}, &formats::LoadCase::name); }
 
-/// Second order of the weights of masses beside their nodes, on ½ θ × (θ × c).
+/// Second order of the weights of masses with an offset from their nodes, on ½ θ × (θ × c).
 MatrixXd weight_on_arms(const Mesh& mesh, const Coordinates& coordinates, const Eigen::Vector3d& gravity,
                         const MatrixXd& Phi) {
   MatrixXd sum = MatrixXd::Zero(Phi.cols(), Phi.cols());
@@ -179,7 +179,7 @@ MatrixXd weight_on_arms(const Mesh& mesh, const Coordinates& coordinates, const 
   return sum;
 }
 
-/// mass, S0, S1 of M̄.
+/// Sets mass, S0 and S1 of M̄.
 void set_integrals(const formats::Superelement& element, formats::Companion& c) {
   const formats::RigidProperties rigid = formats::rigid_properties(element);
   c.mass = rigid.mass;
@@ -187,7 +187,7 @@ void set_integrals(const formats::Superelement& element, formats::Companion& c) 
   c.S1 = formats::rigid_motions(element, c.reference_point).leftCols<3>().transpose() * element.mass;
 }
 
-/// One node without internal coordinates moves rigidly; then there is nothing but round-off to write.
+/// Whether the part can deform. One node without internal coordinates moves rigidly, so its arrays are only round-off.
 bool deforms(const formats::Superelement& element) {
   return element.node_position.rows() > 1 || std::ranges::any_of(element.dof_node, [](int node) { return node < 0; });
 }
@@ -202,7 +202,7 @@ formats::Companion companion_head(const formats::Superelement& element, const Ei
   return c;
 }
 
-/// What the rows hold, and what not: nothing is left out where all shapes of deformation are looked at.
+/// Number of rows, and the omitted shapes; nothing is omitted if all shapes of deformation are included.
 std::string trapped_text(const formats::Companion& companion, int shapes) {
   const Index all = companion.S1.cols() - 6;
   return fmt::format(
@@ -339,7 +339,7 @@ std::optional<formats::Companion> companion_if_asked(const formats::Part& part, 
                                                      std::optional<SecondOrderDisplacement>* displacement) {
   const formats::Superelement& element = reduced.element;
   const bool wanted = wants_second_order(part, element), has_own_mass = reduced.internal.boundary_mass.size() > 0;
-  const bool loose = reduced.internal.loose() > 0;  // no stress follows from its turns
+  const bool loose = reduced.internal.loose() > 0;  // no stress follows from the turns of a mechanism
   if (!loose && wanted && has_own_mass)
     model.notes.push_back(
         "No second order in a companion file (stiffening, exact inertia): method macneal leaves out the mass that its "

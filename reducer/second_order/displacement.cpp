@@ -1,4 +1,4 @@
-// From sample deformations to the shapes of their displacements of second order.
+// Shapes of second-order displacement from sample deformations.
 #include "reducer/second_order/displacement.hpp"
 
 #include <algorithm>
@@ -23,10 +23,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int most_samples = 48, most_shapes = 32;
-constexpr double tolerance = 2e-4;   ///< of what shapes leave out, root mean square
-constexpr double small_mode = 1e-3;  ///< of what internal coordinates move, of the largest
-constexpr double nothing =
-    1e-12;  ///< of displacements of second order, of those of first order squared over the length
+constexpr double tolerance = 2e-4;   ///< root mean square of the part that shapes omit
+constexpr double small_mode = 1e-3;  ///< motion of an internal coordinate, relative to the largest
+constexpr double nothing = 1e-12;    ///< relative to displacements of first order squared over the length
 
 /// Numbers between −1 and 1, equal on all machines.
 class Numbers {
@@ -45,7 +44,7 @@ std::vector<Index> translations(const Coordinates& coordinates) {
   return rows;
 }
 
-/// Sample deformations y (n x p).
+/// Sample deformations y (n x p), as second_order_shapes() describes them.
 MatrixXd sample_deformations(const ReducedPart& part, const MatrixXd& Phi) {
   const formats::Superelement& element = part.element;
   const FreeShapes shapes = lowest_shapes(element, count_of(element));
@@ -81,7 +80,7 @@ MatrixXd tie_constants(const InternalProblem& problem, const TieForces& ties, co
   return c2;
 }
 
-/// f(d, d) of the columns d on all x: elements under their second-order strain, and S `moved` of those at ties.
+/// f(d, d) of the columns d on all x: from the second-order strain of the elements, and from S `moved` at ties.
 class SampleForces {
  public:
   SampleForces(const InternalProblem& problem, const TieForces& ties, const MatrixXd& d, const MatrixXd& moved)

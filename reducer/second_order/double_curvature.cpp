@@ -1,4 +1,4 @@
-// From pairs of shapes to the Gram matrix of the stress that they trap, and its rows.
+// Gram matrix of the stress that pairs of shapes trap, and its rows.
 #include "reducer/second_order/double_curvature.hpp"
 
 #include <algorithm>
@@ -25,15 +25,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Solver = Eigen::SelfAdjointEigenSolver<MatrixXd>;
 
-constexpr double no_strain = 1e-9;        ///< of scaled eigenvalues of S̄, as in mechanisms
-constexpr double no_force = 1e-12;        ///< of eigenvalues of an element's stiffness: rigid motions
-constexpr double shared_accepted = 1e-5;  ///< what shared displacements relax is part of what the elements have
-constexpr double round_off = 1e-8;  ///< of eigenvalues of the Gram matrix, in what elements on their own would relax
-constexpr double no_stiffness = 1e-13;  ///< of diagonal entries, in the largest of their kind: round-off
-constexpr double only_rigid = 1e-10;    ///< of the square of a unit motion that rigid motions do not hold
-constexpr double small_row = 1e-3;      ///< of eigenvalues of the Gram matrix, in the largest
+constexpr double no_strain = 1e-9;        ///< limit for scaled eigenvalues of S̄, as for mechanisms
+constexpr double no_force = 1e-12;        ///< limit for eigenvalues of an element's stiffness: rigid motions
+constexpr double shared_accepted = 1e-5;  ///< shared displacements cannot relax more than the elements have
+constexpr double round_off = 1e-8;        ///< limit for eigenvalues of the Gram matrix, relative to `own`
+constexpr double no_stiffness = 1e-13;    ///< limit for diagonal entries, relative to the largest of their kind
+constexpr double only_rigid = 1e-10;      ///< limit for the square of a unit motion without its rigid part
+constexpr double small_row = 1e-3;        ///< limit for eigenvalues of the Gram matrix, relative to the largest
 
-/// E2 of (k, l) and of (l, k) of all pairs k ≤ l of shapes with these gradients: a row per stress.
+/// E2 of (k, l) plus (l, k) for all pairs k ≤ l of shapes with these gradients: a row per stress.
 void pair_strains(const std::vector<StrainSection>& sections, const MatrixXd& gradient, MatrixXd& strain) {
   const Index p = gradient.cols();
   strain.setZero(stress_rows(sections), p * (p + 1) / 2);
@@ -44,7 +44,7 @@ void pair_strains(const std::vector<StrainSection>& sections, const MatrixXd& gr
       });
 }
 
-/// −C_D⁻¹ c₂: how ties of second order move the coordinates that follow (rows of TieForces::dependent).
+/// −C_D⁻¹ c₂: motion of dependent coordinates by the second order of ties (rows of TieForces::dependent).
 MatrixXd following(const Mesh& mesh, const System& system, const TieForces& ties, const MatrixXd& shapes) {
   const auto equations = static_cast<Index>(ties.ties.equations.size());
   const Index p = shapes.cols();
@@ -56,7 +56,7 @@ MatrixXd following(const Mesh& mesh, const System& system, const TieForces& ties
   return dependents(ties, c2);
 }
 
-/// Which coordinates turn: their stiffness is of another unit than that of translations.
+/// Coordinates that are rotations: their stiffness has another unit than that of translations.
 std::vector<bool> turns_of(const ElementRows& at) {
   std::vector<bool> turns;
   for (int i = 0; i < at.nodes; ++i)
@@ -64,8 +64,8 @@ std::vector<bool> turns_of(const ElementRows& at) {
   return turns;
 }
 
-/// 1/√K_kk: rotations and displacements alike. Zero for coordinates whose K_kk is negligible against the largest of
-/// their kind, such as those of a rod across its axis: round-off, by which no force may be divided.
+/// 1/√K_kk, which makes rotations and displacements comparable. Zero if K_kk is negligible against the largest of its
+/// kind, as for a rod across its axis: it is round-off, by which no force may be divided.
 VectorXd unit_of(const MatrixXd& K, const std::vector<bool>& turns) {
   double largest[2] = {0.0, 0.0};
   for (Index k = 0; k < K.rows(); ++k) {
@@ -114,8 +114,8 @@ BoundaryMotions boundary_motions(const InternalProblem& problem) {
   return motions;
 }
 
-/// inverse_root() of S of the boundary, whose rigid motions have no force exactly: what they alone move (a turn about
-/// the line through all nodes) has a diagonal of round-off, which is no scale.
+/// inverse_root() of S of the boundary, with exactly no force for rigid motions. A coordinate that only they move (a
+/// turn about the line through all nodes) has a diagonal of round-off, which is no scale.
 MatrixXd boundary_root(const InternalProblem& problem, const MatrixXd& S) {
   const Index n = S.rows();
   const BoundaryMotions rigid = boundary_motions(problem);
@@ -135,7 +135,7 @@ struct PairForces {
   MatrixXd gram;
 };
 
-/// Adds the elements one after the other, some at a time on all threads.
+/// Adds the elements one after the other; all threads load several at a time.
 class PairAssembly {
  public:
   PairAssembly(const InternalProblem& problem, const TieForces& ties, const MatrixXd& shapes)
@@ -161,15 +161,15 @@ class PairAssembly {
   }
 
  private:
-  static constexpr int block = 32;     ///< elements at a time
-  static constexpr Index piece = 128;  ///< columns of the Gram matrix of one product: the same for any threads
+  static constexpr int block = 32;     ///< number of elements at a time
+  static constexpr Index piece = 128;  ///< columns of the Gram matrix in one product, the same for any threads
 
   struct Work {
     SecondOrderRows rows;
     ElementMatrices matrices;
     MatrixXd d, strain;
   };
-  /// f_e of all pairs, and F_e⁺ f_e.
+  /// f_e of all pairs, and A f_e with the A of inverse_root().
   struct Loaded {
     ElementRows at;
     MatrixXd f, root;
@@ -225,7 +225,7 @@ class PairAssembly {
   PairForces out_;
 };
 
-/// fᵀ K⁺ f with the part free: inside with the boundary held, and what the boundary feels.
+/// fᵀ K⁺ f of the free part: energy inside with the boundary held, and energy of the resulting boundary forces.
 MatrixXd shared_energy(const InternalProblem& problem, const BoundaryModes& boundary, const MatrixXd& force) {
   const MatrixXd q = gather(problem.system.T, force);
   MatrixXd h = rows(q, problem.partition.boundary);
@@ -263,7 +263,7 @@ std::vector<MatrixXd> trapped_stress(const ReducedPart& part, const TieForces& t
   const FreeShapes shapes = lowest_shapes(part.element, count);
   const Index p = shapes.Z.cols();
   const TrappedEnergy energy = trapped_energy(part, part.boundary, ties, Phi * shapes.Z);
-  VectorXd weight(energy.gram.rows());  // of pairs in the norm of symmetric matrices
+  VectorXd weight(energy.gram.rows());  // weight of pairs in the norm of symmetric matrices
   for (Index k = 0, pair = 0; k < p; ++k)
     for (Index l = k; l < p; ++l) weight[pair++] = k == l ? 1.0 : std::sqrt(2.0);
   const Solver solver(weight.asDiagonal() * energy.gram * weight.asDiagonal());

@@ -1,4 +1,4 @@
-// Two eigenproblems of the reduced matrices: without the motions that have no strain, then by mass.
+// Two eigenproblems of the reduced matrices: the first removes motions without strain, the second is by mass.
 #include "reducer/second_order/free_shapes.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Solver = Eigen::SelfAdjointEigenSolver<MatrixXd>;
 
-constexpr double strainless = 1e-9;  ///< of scaled eigenvalues of S̄, as in mechanisms
+constexpr double strainless = 1e-9;  ///< limit for scaled eigenvalues of S̄, as for mechanisms
 
 }  // namespace
 
@@ -34,7 +34,7 @@ FreeShapes lowest_shapes(const formats::Superelement& element, int p) {
   const MatrixXd MR = element.mass * R;
   const MatrixXd M =
       element.mass - MR * (R.transpose() * MR).completeOrthogonalDecomposition().pseudoInverse() * MR.transpose();
-  const Solver mass(V.transpose() * M * V);  // 1/ω²
+  const Solver mass(V.transpose() * M * V);  // its eigenvalues are 1/ω²
   const Index kept = std::min<Index>(p, strained);
   FreeShapes shapes;
   shapes.Z = V * mass.eigenvectors().rightCols(kept);

@@ -1,4 +1,4 @@
-// Elastic modes of the free reduced body in the scale of their strain energy.
+// Elastic modes of the free reduced body, scaled by their strain energy.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,11 +11,11 @@ namespace tisserand::reducer {
 struct FreeShapes {
   Eigen::MatrixXd Z;      ///< n x p
   Eigen::MatrixXd P;      ///< p x n, P R = 0
-  Eigen::VectorXd lower;  ///< p, ascending to 1: ω₁/ω of each; 0 of shapes without mass
+  Eigen::VectorXd lower;  ///< p, ascending to 1: ω₁/ω of each shape; 0 for shapes without mass
 };
 
-/// The p lowest elastic modes of the free reduced body, fewer where it has fewer; unlike free_modes() of full models
-/// also where a rigid motion has no mass.
+/// The p lowest elastic modes of the free reduced body, or all if there are fewer. A rigid motion may lack mass, unlike
+/// in free_modes().
 FreeShapes lowest_shapes(const formats::Superelement& element, int p);
 
 }  // namespace tisserand::reducer

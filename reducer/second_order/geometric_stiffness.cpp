@@ -1,4 +1,4 @@
-// Element by element, then ties and offset masses, into the pattern of the stiffness.
+// Geometric stiffness: elements, then ties and offset masses, in the pattern of the stiffness.
 #include "reducer/second_order/geometric_stiffness.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t most_averaged = 3000;  ///< coordinates of an average: its block is dense
+constexpr std::size_t most_averaged = 3000;  ///< coordinates of an average, whose block is dense
 
 /// A symmetric block and the free coordinates of its rows.
 struct FreeBlock {
@@ -32,7 +32,7 @@ struct FreeBlock {
   MatrixXd K;
 };
 
-/// Takes gradients for coordinates x of the mesh to blocks over free coordinates.
+/// Converts gradients for coordinates x of the mesh to blocks over free coordinates.
 class FreeBlocks {
  public:
   explicit FreeBlocks(const StressedPart& part) : T_(part.system.T), place_(static_cast<std::size_t>(T_.independent)) {
@@ -40,7 +40,7 @@ class FreeBlocks {
     for (int i = 0; i < std::ssize(part.free); ++i) place_[part.free[i]] = i;
   }
 
-  /// K_g of stresses σ on gradients, a column for each of `x`.
+  /// K_g of stresses σ; `gradient` has a column for each of `x`.
   FreeBlock block(const std::vector<int>& x, const std::vector<StrainSection>& sections, const MatrixXd& gradient,
                   const VectorXd& sigma) const {
     std::map<int, Index> column;
@@ -72,10 +72,10 @@ class FreeBlocks {
   }
 
   const Transformation& T_;
-  std::vector<int> place_;  ///< per q: its row, −1: held
+  std::vector<int> place_;  ///< row of each q; −1: held
 };
 
-/// The pattern of S, widened by the blocks of ties; values of S, K_g zero.
+/// Pattern of S with the blocks of ties added; values of S, K_g zero.
 SymmetricPair widened(const SymmetricRows& S, const std::vector<FreeBlock>& blocks) {
   std::map<int, std::vector<int>> more;  // columns by row
   for (const FreeBlock& block : blocks)
@@ -122,7 +122,7 @@ void add_block(const FreeBlock& block, SymmetricPair& pair) {
   }
 }
 
-/// Elements some at a time: blocks by all threads, added in the order of the elements.
+/// Adds elements by groups: all threads compute blocks, which are added in the order of the elements.
 void add_elements(const StressedPart& part, const FreeBlocks& free, const MatrixXd& w,
                   const std::function<void(double)>& share, SymmetricPair& pair) {
   constexpr int at_once = 256;
@@ -150,7 +150,7 @@ void add_elements(const StressedPart& part, const FreeBlocks& free, const Matrix
   }
 }
 
-/// Ties under the forces that they transmit.
+/// Blocks of ties under the forces that they transmit.
 std::vector<FreeBlock> tie_blocks(const StressedPart& part, const FreeBlocks& free, const MatrixXd& w,
                                   const MatrixXd& g) {
   std::vector<FreeBlock> blocks;
@@ -166,7 +166,7 @@ std::vector<FreeBlock> tie_blocks(const StressedPart& part, const FreeBlocks& fr
   return blocks;
 }
 
-/// Weights of masses off their nodes, on the second order ½ θ × (θ × c) of their arms.
+/// Blocks of masses with an offset under gravity, by the second order ½ θ × (θ × c) of their arms.
 std::vector<FreeBlock> offset_masses(const StressedPart& part, const FreeBlocks& free, const LoadedState& state) {
   std::vector<FreeBlock> blocks;
   if (state.gravity.isZero(0.0)) return blocks;
@@ -206,7 +206,7 @@ std::string monosymmetry_note(const Mesh& mesh) {
     formats::Section section = data.section;
     if (!data.stations.empty()) {
       section = data.stations.front();
-      section.shape.clear();  // along a taper the constants alone are joined
+      section.shape.clear();  // along a taper only the constants are known
     }
     if (!formats::lacks_monosymmetry(section)) continue;
     const std::string name =

@@ -31,17 +31,17 @@ struct StressedPart {
 /// Stiffness S (SymmetricPair::S) and geometric stiffness K_g (SymmetricPair::M) of the free coordinates with one
 /// pattern: the potential energy is ½ φᵀ (S + K_g) φ under loads that keep their size and direction. K_g is the sum of
 /// the terms that the companion file projects: second-order strains of the elements (elements/second_order.hpp), of
-/// ties under the forces that they transmit (tie_strain.hpp), and of masses off their nodes under gravity. `S` has rows
+/// ties under the forces that they transmit (tie_strain.hpp), and of masses with an offset under gravity. `S` has rows
 /// for the free coordinates. `share` receives the share of the elements that is added. Throws Error for averages of too
 /// many nodes.
 SymmetricPair stiffness_pair(const StressedPart& part, const LoadedState& state, const SymmetricRows& S,
                              const std::function<void(double)>& share);
 
-/// Note that names the sections of beams whose Wagner's β is not known, though their shear centre or axes show that it
-/// counts; empty if there are none.
+/// Note that names beam sections with unknown Wagner's β whose shear centre or axes show that it matters; empty if
+/// there are none.
 std::string monosymmetry_note(const Mesh& mesh);
 
-/// Weights of all masses, before ties: M times the rigid translations (coordinates of the mesh x 3), force per
+/// Weights of all masses before ties: M times the rigid translations (coordinates of the mesh x 3), force per
 /// acceleration.
 Eigen::MatrixXd mesh_weights(const Mesh& mesh, const System& system);
 

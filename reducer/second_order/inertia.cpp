@@ -1,4 +1,4 @@
-// Forms of elements on the displacements of the reduced coordinates, block by block.
+// Forms of elements for the displacements of the reduced coordinates, block by block.
 #include "reducer/second_order/inertia.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct ElementInertia {
   Index coordinates() const { return static_cast<Index>(rows.nodes) * rows.size; }
 };
 
-/// A part that turns about a point.
+/// A part in rotation about a point.
 struct TurningPart {
   const Mesh& mesh;
   const Coordinates& coordinates;
@@ -36,14 +36,14 @@ struct TurningPart {
   MatrixXd D = rigid_motions(mesh, coordinates, point);
 };
 
-/// Mass of elements that is equal in all directions.
+/// Inertia of an element with equal mass in all directions.
 void compute_alike(const MatrixXd& M, const TurningPart& part, ElementInertia& out) {
   MatrixXd D_e(M.rows(), 6);
   gather(out.rows, part.D, D_e);
   turning_mass(M, D_e, out.mass);
 }
 
-/// Elements first, then the masses of nodes.
+/// Inertia of an item; elements come first, then the masses of nodes.
 void compute_inertia(const TurningPart& part, int item, ElementInertia& out) {
   const Mesh& mesh = part.mesh;
   const Coordinates& coordinates = part.coordinates;
@@ -68,7 +68,7 @@ void compute_inertia(const TurningPart& part, int item, ElementInertia& out) {
   });
 }
 
-/// Rows of all elements of a block, times Φ.
+/// Rows of all elements of a block, multiplied by Φ.
 struct InertiaBlock {
   std::vector<ElementInertia> elements = std::vector<ElementInertia>(block_elements);
   int count = 0;
@@ -76,14 +76,14 @@ struct InertiaBlock {
   std::array<MatrixXd, 3> translation, momentum;
   MatrixXd turn, rotation;
   std::array<MatrixXd, inertial_loads> turned;
-  std::vector<MatrixXd> product;  ///< of each thread: forms of pivots times their rotations
+  std::vector<MatrixXd> product;  ///< one per thread: forms of pivots times their rotations
 };
 
 void grow(Index rows, Index columns, MatrixXd& matrix) {
   if (matrix.rows() < rows) matrix.resize(rows, columns);
 }
 
-/// Places of the elements' rows, and room for them.
+/// Assigns places to the elements' rows and allocates them.
 void start_block(Index n, InertiaBlock& block) {
   block.masses = block.turns = block.pivots = 0;
   for (int e = 0; e < block.count; ++e) {
@@ -103,7 +103,7 @@ void start_block(Index n, InertiaBlock& block) {
   for (MatrixXd& matrix : block.product) grow(block.pivots, n, matrix);
 }
 
-/// The rows of one element.
+/// Computes the rows of one element.
 void fill(const MatrixXd& Phi, ElementInertia& element, InertiaBlock& block) {
   const TurningMass& mass = element.mass;
   element.motion.resize(element.coordinates(), Phi.cols());
@@ -137,7 +137,7 @@ struct Sums {
   TurningForms pivots;
 };
 
-/// Form `item` of the pivots of the block; nothing where all have none.
+/// Adds form `item` of the pivots of the block, if any pivot has it.
 void add_pivots(const InertiaBlock& block, int item, MatrixXd& product, Sums& sums) {
   bool any = false;
   for (int e = 0; e < block.count; ++e) {

@@ -1,5 +1,5 @@
-// Inertia of the part in a turning frame, THEORY (81), (85): from masses of elements to C, E, W, to what their insides
-// add to N and T, and to the loads of rigid accelerations, THEORY (94).
+// Inertia of the part in a turning frame, THEORY (81), (85), by the masses of elements: C, E, W, contributions of
+// element interiors to N and T, and loads of rigid accelerations, THEORY (94).
 #pragma once
 
 #include <array>
@@ -13,20 +13,20 @@ namespace tisserand::reducer {
 
 /// Sums over the finite elements.
 struct FrameInertia {
-  TurningForms forms;    ///< ΦᵀAΦ of each
+  TurningForms forms;    ///< ΦᵀAΦ of each form A
   bool turns = false;    ///< whether any mass has rotary inertia
-  Eigen::MatrixXd load;  ///< x 12: the loads of TurningMass
+  Eigen::MatrixXd load;  ///< x 12: loads of TurningMass
 };
 
-/// `Phi`: displacements of the mesh's coordinates (rows; auxiliary ones behind them are without mass) for each reduced
-/// coordinate. Elements in blocks.
+/// Sums for `Phi`: displacements of the mesh's coordinates (rows; auxiliary ones after them have no mass) for each
+/// reduced coordinate. Elements are processed in blocks.
 FrameInertia frame_inertia(const Mesh& mesh, const Coordinates& coordinates, const Eigen::MatrixXd& Phi,
                            const Eigen::Vector3d& reference, int threads);
 
 /// M times the rigid translations (coordinates of the mesh x 3), force per acceleration.
 Eigen::MatrixXd translation_loads(const Mesh& mesh, const Coordinates& coordinates);
 
-/// The first coordinate of each node of an element, `size` coordinates (3 or 6) per node.
+/// First coordinates of the nodes of an element, with `size` coordinates (3 or 6) per node.
 struct ElementRows {
   std::array<int, 20> first{};
   int nodes = 0;
@@ -34,7 +34,7 @@ struct ElementRows {
 };
 ElementRows element_rows(const Mesh& mesh, const Coordinates& coordinates, int element, Eigen::Index coordinates_of_it);
 
-/// The element's rows of displacements of all coordinates.
+/// Copies the element's rows from the displacements of all coordinates.
 void gather(const ElementRows& rows, const Eigen::MatrixXd& all, Eigen::Ref<Eigen::MatrixXd> out);
 /// Adds the element's rows to those of all coordinates.
 void scatter(const ElementRows& rows, const Eigen::MatrixXd& of_element, Eigen::MatrixXd& all);

@@ -1,4 +1,4 @@
-// Loads of rigid accelerations and of spin, and their static answers.
+// Loads of rigid accelerations and of rotation, and their static answers.
 #include "reducer/second_order/inertia_loads.hpp"
 
 #include "common/parallel.hpp"

@@ -1,4 +1,4 @@
-// One matrix product per batch of elements and piece of the pairs of coordinates.
+// Quadratic forms by one matrix product per batch of elements and piece of the pairs of coordinates.
 #include "reducer/second_order/quadratic_forms.hpp"
 
 #include "common/parallel.hpp"
@@ -7,10 +7,10 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Columns of a piece: wide enough for matrix products, small enough for its strains to stay in the cache.
+/// Columns of a piece: enough for matrix products, few enough that its strains stay in the cache.
 constexpr Eigen::Index least_width = 64;
 
-/// E2 of one stress: its products, with the first row of each gradient.
+/// E2 of one stress: its products, with the first rows of both gradients.
 struct StressTerms {
   struct Product {
     Eigen::Index first;
@@ -20,7 +20,7 @@ struct StressTerms {
   std::vector<Product> products;
 };
 
-/// Stress by stress, all points of the sections; `count` elements in a row of gradients.
+/// Terms of each stress at all points of the sections; gradients have `count` elements in a row.
 std::vector<StressTerms> terms_of(const std::vector<StrainSection>& sections, Eigen::Index count) {
   std::vector<StressTerms> stresses(static_cast<std::size_t>(stress_rows(sections)));
   for_each_product(sections, [&](int stress, int first, int second, double coefficient) {
@@ -29,7 +29,7 @@ std::vector<StressTerms> terms_of(const std::vector<StrainSection>& sections, Ei
   return stresses;
 }
 
-/// One element, in the form of a Line.
+/// A number with the interface of Line, for a single element.
 struct Number {
   double value;
   static Number zero() { return {0.0}; }
@@ -40,7 +40,7 @@ struct Number {
   }
 };
 
-/// q_e = Σ c (g_k[a] g_l[b] + g_k[b] g_l[a]) of elements from e on, summed in registers.
+/// q_e = Σ c (g_k[a] g_l[b] + g_k[b] g_l[a]) for elements from e on, summed in registers.
 template <class Elements>
 void put_terms(const StressTerms& terms, Eigen::Index e, const double* g_k, const double* g_l, double* q) {
   Elements sum = Elements::zero();

@@ -1,5 +1,5 @@
-// Σ σ(w_j) Q(Φ_k, Φ_l) over all points of the part: from stresses and gradients of batches of elements to matrices over
-// the reduced coordinates.
+// Σ σ(w_j) Q(Φ_k, Φ_l) over all points of the part: matrices over the reduced coordinates from stresses and gradients
+// of batches of elements.
 #pragma once
 
 #include <span>
@@ -11,18 +11,18 @@
 
 namespace tisserand::reducer {
 
-/// Elements of one layout. Row s · count + e belongs to stress (gradient) s of element e.
+/// Elements of one layout. Row s · count + e contains stress (gradient) s of element e.
 struct StrainBatch {
   std::vector<StrainSection> sections;
   int count = 0;
-  Eigen::MatrixXd stress;    ///< of the displacements w: one column each
-  Eigen::MatrixXd gradient;  ///< of the coordinates' displacements Φ: one column each
+  Eigen::MatrixXd stress;    ///< a column per displacement w
+  Eigen::MatrixXd gradient;  ///< a column per displacement Φ of a coordinate
 };
 
-/// Rows of stress of one element.
+/// Number of stress rows of one element.
 int stress_rows(const std::vector<StrainSection>& sections);
 
-/// use(stress, first, second, coefficient) for the products of all points of the sections: rows of stress and gradient.
+/// Calls use(stress, first, second, coefficient) for all products of the sections, with rows of stress and gradients.
 template <class Use>
 void for_each_product(const std::vector<StrainSection>& sections, const Use& use) {
   int stress = 0, gradient = 0;
@@ -36,20 +36,20 @@ void for_each_product(const std::vector<StrainSection>& sections, const Use& use
 }
 
 /// Accumulates Φᵀ K_G[w_j] Φ of THEORY (82) for all w_j: per batch one matrix product (stresses of w)ᵀ (E2 of pairs
-/// Φ_k, Φ_l), about 2 · stresses · (number of w) · n²/2 operations. Columns are cut into fixed pieces, so that sums are
-/// the same for any number of threads.
+/// Φ_k, Φ_l), about 2 · stresses · (number of w) · n²/2 operations. Columns have fixed pieces, so sums are the same for
+/// any number of threads.
 class QuadraticForms {
  public:
   QuadraticForms(int coordinates, int displacements, int threads);
 
-  /// One after the other; each thread takes pieces of the pairs.
+  /// Adds the batches one after the other; each thread computes pieces of the pairs.
   void add(std::span<const StrainBatch> batches);
 
   /// Φᵀ K_G[w_j] Φ, n x n, symmetric.
   Eigen::MatrixXd matrix(int displacement) const;
 
  private:
-  /// Pairs k, l ≥ k of some k: columns from `column` on.
+  /// Pairs k, l ≥ k for some k: columns from `column` on.
   struct Piece {
     int first = 0;
     int end = 0;
@@ -61,7 +61,7 @@ class QuadraticForms {
   int n_ = 0;
   int threads_ = 1;
   std::vector<Piece> pieces_;
-  std::vector<Eigen::VectorXd> forms_;  ///< per thread: memory for E2 of the pairs of a piece
+  std::vector<Eigen::VectorXd> forms_;  ///< one per thread: E2 of the pairs of a piece
   Eigen::MatrixXd sum_;                 ///< displacements x pairs
 };
 

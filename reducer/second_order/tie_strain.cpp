@@ -1,4 +1,4 @@
-// Forces that ties transmit, and the second order that they work on.
+// Forces that ties transmit, and the second order on which they do work.
 #include "reducer/second_order/tie_strain.hpp"
 
 #include <bit>
@@ -53,7 +53,7 @@ std::vector<std::vector<int>> equations_of_ties(const TieSystem& ties) {
   return equations;
 }
 
-/// Displacements (part 0) or rotations (1) of a node for each column; zero where it has none.
+/// Motion of a node, one column each: displacements (part 0) or rotations (1); zero if it has none.
 using NodeMotion = std::function<MatrixXd(int node, int part)>;
 
 NodeMotion motion_of(const Coordinates& coordinates, const MatrixXd& x) {
@@ -72,7 +72,7 @@ StrainBatch start_batch(const QuadraticPattern& pattern, Eigen::Index displaceme
   return batch;
 }
 
-/// What the batches of a spider are made from.
+/// Input of the batches of a spider.
 struct SpiderContext {
   const Mesh& mesh;
   const Coordinates& coordinates;
@@ -81,13 +81,13 @@ struct SpiderContext {
   const MatrixXd& lambda;
 };
 
-/// Columns of gradients, and what moves the nodes for each.
+/// Columns of gradients, and the motion of nodes for each.
 struct Motions {
   Eigen::Index columns = 0;
   NodeMotion of;
 };
 
-/// The leg to node n, whose equations begin at `equation`; moves it behind them.
+/// Leg to node n; moves `equation`, which points to its first equation, past the last.
 StrainBatch rigid_leg(const SpiderContext& at, const Motions& motions, int n,
                       std::vector<int>::const_iterator& equation) {
   const Spider& spider = at.spider;
@@ -103,7 +103,7 @@ StrainBatch rigid_leg(const SpiderContext& at, const Motions& motions, int n,
   return batch;
 }
 
-/// J⁺ of a symmetric matrix: directions that the nodes do not define are left out.
+/// J⁺ of a symmetric matrix; directions that the nodes do not define are omitted.
 Matrix3d pseudo_inverse(const Matrix3d& J) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(J);
   Matrix3d result = Matrix3d::Zero();
@@ -161,7 +161,7 @@ StrainBatch mean_batch(const SpiderContext& at, const Motions& motions) {
 
   Rows3 force = Rows3::Zero(3, at.lambda.cols()), torque = force;
   const int components = std::popcount(spider.reference_components);
-  auto equation = at.equations.end() - components;  // behind those of its groups
+  auto equation = at.equations.end() - components;  // after those of its groups
   for (int c = 0; c < 6; ++c)
     if (((spider.reference_components >> c) & 1) != 0)
       (c < 3 ? force : torque) += spider.axes.col(c % 3) * at.lambda.row(*equation++);
@@ -196,7 +196,7 @@ class UnitMotions {
   std::vector<int> x_;
 };
 
-/// C_Dᵀ: a column per equation, a row per coordinate that they make dependent.
+/// C_Dᵀ: a column per equation, a row per dependent coordinate.
 Eigen::SparseMatrix<double> dependent_part(const TieForces& forces) {
   const auto size = static_cast<Eigen::Index>(forces.equation.size());
   std::vector<Eigen::Triplet<double>> entries;
@@ -265,7 +265,7 @@ MatrixXd multipliers(const TieForces& forces, const MatrixXd& residual) {
   if (forces.equation.empty()) return lambda;
   TieFactors factors;
   factor(forces, factors);
-  const MatrixXd solution = factors.solve(residual);  // Eigen 3.4 solves wrongly into rows by index
+  const MatrixXd solution = factors.solve(residual);  // Eigen 3.4 has a fault when it solves into rows by index
   lambda(forces.equation, Eigen::all) = solution;
   return lambda;
 }

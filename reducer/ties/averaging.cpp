@@ -1,4 +1,4 @@
-// Equations of an averaging spider, with a tree of groups for large ones.
+// Equations of an averaging spider. Large spiders have a tree of groups.
 #include "reducer/ties/averaging.hpp"
 
 #include <algorithm>
@@ -19,18 +19,18 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// A summand of Σ w s u: the coordinate u and its factor w s.
+/// Term of Σ w s u: the coordinate u and its factor w s.
 struct Item {
   int coordinate = 0;
   Vector6 factor;
 };
 
-/// The spider's sums, with moments divided and rotations multiplied by the length L.
+/// Sums of the spider. Moments are divided and rotations multiplied by the length L.
 struct Fit {
   double length = 1.0;
   Matrix6 matrix = Matrix6::Zero();       ///< Σ w s sᵀ
-  std::vector<std::vector<Item>> items;   ///< of each node
-  std::vector<Eigen::Vector3d> position;  ///< of each node, from the reference
+  std::vector<std::vector<Item>> items;   ///< items of each node
+  std::vector<Eigen::Vector3d> position;  ///< position of each node from the reference
 };
 
 double mean_distance(const std::vector<Eigen::Vector3d>& position) {
@@ -39,7 +39,7 @@ double mean_distance(const std::vector<Eigen::Vector3d>& position) {
   return sum > 0.0 ? sum / static_cast<double>(position.size()) : 1.0;
 }
 
-/// s of component c of a node at r: how a rigid motion of the reference moves it.
+/// s of component c of a node at r: its motion for a rigid motion of the reference.
 Vector6 motion_factor(const Spider& spider, int c, const Eigen::Vector3d& r, double length) {
   const Eigen::Vector3d e = spider.axes.col(c % 3);
   Vector6 s;
@@ -72,7 +72,7 @@ Fit make_fit(const Mesh& mesh, const Coordinates& coordinates, const Spider& spi
   return fit;
 }
 
-/// The sum over `nodes` (rows of Fit::items), as few items.
+/// Computes the sum over `nodes` (rows of Fit::items) with few items.
 class Gatherer {
  public:
   Gatherer(const Fit& fit, TieSystem& ties) : fit_(fit), ties_(ties) {}
@@ -94,7 +94,7 @@ class Gatherer {
     return items;
   }
 
-  /// Cuts the nodes across their longest extent until there are `pieces` or the pieces are small, and compresses each.
+  /// Divides the nodes across their longest extent until there are `pieces` or the pieces are small. Compresses each.
   std::vector<Item> parts(Iterator begin, Iterator end, int pieces) {
     if (pieces == 1 || end - begin <= averaging_group) return compress(inside(begin, end));
     Eigen::Array3d low = fit_.position[*begin], high = low;
@@ -127,7 +127,7 @@ class Gatherer {
     return result;
   }
 
-  /// Appends y = qᵀ x, one of the coordinates of a group that begin with number `group`.
+  /// Appends y = qᵀ x, a coordinate of the group that begins with number `group`.
   int define(const std::vector<Item>& items, const Eigen::VectorXd& q, int group) {
     const int y = ties_.coordinates++;
     LinearEquation equation{{{y, -1.0}}, -1, group};
@@ -150,14 +150,14 @@ class Gatherer {
   TieSystem& ties_;
 };
 
-/// (Σ w s sᵀ)⁺ and the projection on what the nodes cannot define.
+/// (Σ w s sᵀ)⁺, and the projection on motions that the nodes cannot define.
 struct Inverse {
   Matrix6 inverse = Matrix6::Zero();
   Matrix6 undefined = Matrix6::Zero();
 };
 
 Inverse invert(const Matrix6& matrix) {
-  constexpr double limit = 1e-10;  // nodes within 1e-5 of their mean distance from a line count as on the line
+  constexpr double limit = 1e-10;  // nodes within 1e-5 of their mean distance from a line count as collinear
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(matrix)};
   Inverse result;
   for (int k = 0; k < 6; ++k) {

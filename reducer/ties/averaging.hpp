@@ -7,18 +7,18 @@
 
 namespace tisserand::reducer {
 
-/// Largest number of nodes whose coordinates enter an equation of the reference directly; more are gathered in groups.
+/// Largest number of nodes whose coordinates enter an equation of the reference directly; more form groups.
 inline constexpr int averaging_group = 24;
 
-/// Appends the equations of the spider, the name of which is the last of `ties`: motion v of the reference = argmin Σ w
-/// (s_iᵀ v − u_i)², that is (Σ w s sᵀ) v = Σ w s u. s_iᵀ v is the component i that the rigid motion v = [translation;
-/// rotation] of the reference gives a node; a node's rotations, if they are averaged, have the weight w L² with L the
-/// mean distance of the nodes from the reference, which makes them comparable to translations (as Nastran has it:
-/// pyYeti, nastran/n2p.py, formrbe3, which is tested against Nastran's matrices).
+/// Appends the equations of the spider, whose name is the last of `ties`. Motion v of the reference = argmin Σ w (s_iᵀ
+/// v − u_i)², that is (Σ w s sᵀ) v = Σ w s u. s_iᵀ v is component i of a node for the rigid motion v = [translation;
+/// rotation] of the reference. If rotations of nodes are averaged, they have the weight w L², with L the mean distance
+/// of the nodes from the reference. This makes them comparable to translations, as in Nastran (pyYeti, nastran/n2p.py,
+/// formrbe3, which is tested against Nastran's matrices).
 ///
-/// With more nodes than a group holds, the sum on the right goes over groups of near nodes, groups of groups, and so
-/// on. Each group has up to six auxiliary coordinates y = Qᵀ x with orthonormal columns Q (pivoted QR decomposition of
-/// its share of the sum), so that elimination couples near nodes only. Nothing is approximated.
+/// With more nodes than a group holds, the sum on the right is taken over groups of near nodes, groups of groups, and
+/// so on. Each group has up to six auxiliary coordinates y = Qᵀ x with orthonormal columns Q (pivoted QR decomposition
+/// of its share of the sum). So elimination couples near nodes only. The result is exact.
 void append_averaging(const Mesh& mesh, const Coordinates& coordinates, const Spider& spider, const std::string& where,
                       TieSystem& ties);
 

@@ -1,4 +1,4 @@
-// Tᵀ A T for two matrices at a time, row by row of the result; most rows of T are those of a unit matrix.
+// Tᵀ A T for two matrices together, row by row of the result. Most rows of T are those of a unit matrix.
 #include "reducer/ties/condense.hpp"
 
 #include <algorithm>
@@ -8,26 +8,26 @@
 namespace tisserand::reducer {
 namespace {
 
-/// For flagged rows i of the full matrices the entries left of the diagonal: rows j < i and where (j, i) is stored.
+/// Entries left of the diagonal in flagged rows i of the full matrices: rows j < i and the place of (j, i).
 struct LowerParts {
   std::vector<int> begin;  ///< rows + 1
   std::vector<int> row;
   std::vector<int> entry;
 };
 
-/// What condense() works on.
+/// Input of condense().
 struct Problem {
   const SymmetricPair& full;
   const Transformation& T;
-  std::vector<bool> computed;            ///< per q: row of the result that differs from a row of `full`
-  std::vector<std::vector<Term>> moved;  ///< per computed q: the dependent x that follow it (coordinate: x)
+  std::vector<bool> computed;            ///< of each q: whether its row differs from a row of `full`
+  std::vector<std::vector<Term>> moved;  ///< of each computed q: the dependent x that follow it (coordinate: x)
   LowerParts lower;
 
   bool is_dependent(int x) const { return T.row[x] < 0; }
   const std::vector<Term>& terms(int x) const { return T.dependent[-1 - T.row[x]]; }
 };
 
-/// Rows that neighbour a dependent coordinate, or that one follows.
+/// Marks rows with a neighbouring dependent coordinate or a dependent coordinate that follows them.
 void mark_computed(Problem& problem) {
   const SymmetricPair& full = problem.full;
   problem.computed.assign(static_cast<std::size_t>(problem.T.independent), false);
@@ -72,7 +72,7 @@ void find_lower_parts(Problem& problem) {
       }
 }
 
-/// One row of S and M of the result, collected with dense look-up.
+/// One row of S and M of the result, summed with dense look-up.
 class RowSum {
  public:
   RowSum(const Problem& problem, int q) : problem_(problem), first_(q), S_(size()), M_(size()), used_(size()) {}
@@ -88,7 +88,7 @@ class RowSum {
   }
 
   void append_to(SymmetricPair& result) {
-    add(first_, 0.0, 0.0);  // every row has its diagonal
+    add(first_, 0.0, 0.0);  // every row must have its diagonal
     std::sort(touched_.begin(), touched_.end());
     for (const int q : touched_) {
       result.column.push_back(q);
@@ -126,7 +126,7 @@ class RowSum {
   std::vector<int> touched_;
 };
 
-/// Rows of one share; `begin` counts from 0.
+/// Rows of the result for one share; `begin` counts from 0.
 SymmetricPair condensed_rows(const Problem& problem, Share share) {
   SymmetricPair result;
   const SymmetricPair& full = problem.full;

@@ -6,8 +6,8 @@
 
 namespace tisserand::reducer {
 
-/// `full` has rows for the first coordinates x of T; later (auxiliary) ones have neither stiffness nor mass. Rows that
-/// no tie touches are copied. Same result for any number of threads.
+/// Condensed matrices of `full`, which has rows for the first coordinates x of T. Later (auxiliary) ones have neither
+/// stiffness nor mass. Rows without ties are copied. The result is the same for any number of threads.
 SymmetricPair condense(SymmetricPair full, const Transformation& T, int threads);
 
 }  // namespace tisserand::reducer

@@ -1,4 +1,4 @@
-// Elimination of ties in reduced row echelon form.
+// Elimination of ties to reduced row echelon form.
 #include "reducer/ties/elimination.hpp"
 
 #include <algorithm>
@@ -13,15 +13,15 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr double redundant = 1e-9;    ///< share of an equation's largest term below which what is left is round-off
+constexpr double redundant = 1e-9;    ///< share of an equation's largest term below which the remainder is round-off
 constexpr double negligible = 1e-13;  ///< share of a row's largest entry below which an entry is round-off
-constexpr double decisive = 1e-7;     ///< smallest pivot beside the largest entry of a row
+constexpr double decisive = 1e-7;     ///< smallest pivot relative to the largest entry of a row
 
-/// A dependent coordinate as a sum over coordinates that are independent so far.
+/// Dependent coordinate as a sum over coordinates that are independent so far.
 struct TieRow {
   int coordinate = 0;
   std::vector<Term> terms;
-  std::vector<int> ties;  ///< that led to it, ascending
+  std::vector<int> ties;  ///< ties from which it follows, ascending
 };
 
 /// Sparse sum with dense look-up, reused from row to row.
@@ -39,7 +39,7 @@ class Accumulator {
     magnitude_[k] += std::abs(amount);
   }
 
-  /// The terms larger than the round-off of their sum, and forgets all.
+  /// Returns the terms larger than the round-off of their sum, and clears the sum.
   std::vector<Term> take() {
     std::vector<Term> terms;
     for (const int coordinate : touched_) {
@@ -114,7 +114,7 @@ class Eliminator {
   }
 
  private:
-  /// Size of a coefficient of the coordinate taken as a length.
+  /// Size of a coefficient for the coordinate as a length.
   double scaled(const Term& term) const { return std::abs(term.coefficient) / ties_.scale[term.coordinate]; }
 
   void add_expanded(const Term& term, std::vector<int>& sources) {
@@ -132,7 +132,7 @@ class Eliminator {
     ties = std::move(all);
   }
 
-  /// Coefficient 0 if only boundary coordinates are left.
+  /// Pivot of a row, with coefficient 0 if only boundary coordinates are left.
   Term choose_pivot(const std::vector<Term>& terms, const LinearEquation& equation) const {
     Term best, preferred, last_resort;
     for (const Term& term : terms) {
@@ -149,7 +149,7 @@ class Eliminator {
     return preferred.coefficient != 0.0 && scaled(preferred) > 0.1 * scaled(best) ? preferred : best;
   }
 
-  /// Σ c x = 0 becomes x_pivot = Σ −c/c_pivot x.
+  /// Turns Σ c x = 0 into x_pivot = Σ −c/c_pivot x.
   void solve_for(const Term& pivot, double largest, TieRow& row) const {
     row.coordinate = pivot.coordinate;
     std::erase_if(row.terms,
@@ -157,7 +157,7 @@ class Eliminator {
     for (Term& term : row.terms) term.coefficient /= -pivot.coefficient;
   }
 
-  /// Puts the new row into the rows that contain its coordinate.
+  /// Substitutes the new row in the rows that contain its coordinate.
   void substitute(const TieRow& row) {
     const auto users = users_.find(row.coordinate);
     if (users == users_.end()) return;
@@ -184,7 +184,7 @@ class Eliminator {
     }
   }
 
-  /// Removes row k from the users of coordinates that cancelled.
+  /// Removes row k from the users of coordinates that have cancelled.
   void forget(const std::vector<int>& before, const std::vector<Term>& now, int pivot, int k) {
     std::vector<int> left;
     for (const Term& term : now) left.push_back(term.coordinate);
@@ -218,10 +218,10 @@ class Eliminator {
   const CoordinateNames& name_;
   const std::string& where_;
   Accumulator sum_;
-  std::vector<int> row_of_;  ///< per coordinate: row that gives it, −1: independent
+  std::vector<int> row_of_;  ///< row of each dependent coordinate; −1: independent
   std::vector<bool> kept_;
   std::vector<TieRow> rows_;
-  std::vector<int> equation_;                        ///< of each row
+  std::vector<int> equation_;                        ///< equation of each row
   std::unordered_map<int, std::vector<int>> users_;  ///< rows that contain an independent coordinate
   int redundant_ = 0;
 };

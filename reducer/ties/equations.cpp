@@ -1,4 +1,4 @@
-// Equations of rigid spiders and of the mesh's own ones; averaging spiders have a file of their own.
+// Equations of rigid spiders and of the mesh; averaging.cpp has those of averaging spiders.
 #include "reducer/ties/equations.hpp"
 
 #include <cmath>
@@ -32,7 +32,7 @@ void add_term(int coordinate, double coefficient, LinearEquation& equation) {
   if (coefficient != 0.0) equation.terms.push_back({coordinate, coefficient});
 }
 
-/// Component c of a node at r from the reference follows it: e·u − e·u_ref − (r × e)·θ_ref = 0, or e·θ − e·θ_ref = 0.
+/// Equation of component c of a node at r from the reference: e·u − e·u_ref − (r × e)·θ_ref = 0, or e·θ − e·θ_ref = 0.
 LinearEquation follow(const Coordinates& coordinates, const Spider& spider, int node, const Eigen::Vector3d& r, int c) {
   const Eigen::Vector3d e = spider.axes.col(c % 3);
   const int base = c < 3 ? 0 : 3;
@@ -63,7 +63,7 @@ LinearEquation own_equation(const Coordinates& coordinates, const TieEquation& t
   return equation;
 }
 
-/// Throws if a rigid motion of the part does not fulfil the equation. Coefficients of decks have about seven digits.
+/// Throws Error if a rigid motion of the part violates the equation. Coefficients of decks have about seven digits.
 void check_rigid(const Mesh& mesh, const Coordinates& coordinates, const TieSystem& ties,
                  const LinearEquation& equation, const std::string& where) {
   Vector6 sum = Vector6::Zero();

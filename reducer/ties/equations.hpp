@@ -1,4 +1,4 @@
-// Spiders and equations of a mesh as linear equations between its coordinates: between the mesh and elimination.
+// Spiders and equations of a mesh as linear equations between its coordinates, the input of elimination.
 #pragma once
 
 #include <string>
@@ -20,34 +20,34 @@ struct Term {
 /// Σ coefficient x(coordinate) = 0.
 struct LinearEquation {
   std::vector<Term> terms;
-  int preferred = -1;    ///< made dependent unless its coefficient is small beside another one
-  int last_resort = -1;  ///< coordinates from this number on are made dependent only if nothing else can be; −1: none
-  int tie = 0;           ///< row of TieSystem::name
+  int preferred = -1;    ///< made dependent unless its coefficient is small relative to another one
+  int last_resort = -1;  ///< coordinates from this number on become dependent only if no other can; −1: none
+  int tie = 0;           ///< index in TieSystem::name
 };
 
-/// The coordinates of the mesh and, behind them, auxiliary ones: weighted sums over groups of an averaging spider's
-/// nodes, which keep the equations of large spiders short.
+/// Coordinates of the mesh, followed by auxiliary ones: weighted sums over groups of an averaging spider's nodes, which
+/// keep the equations of large spiders short.
 struct TieSystem {
   int mesh_coordinates = 0;
-  int coordinates = 0;  ///< auxiliary ones included
+  int coordinates = 0;  ///< number of coordinates with auxiliary ones
   std::vector<LinearEquation> equations;
-  std::vector<std::string> name;   ///< of each spider and equation: "spider 'hub'"
-  std::vector<int> auxiliary_tie;  ///< of each auxiliary coordinate
+  std::vector<std::string> name;   ///< name of each spider and equation: "spider 'hub'"
+  std::vector<int> auxiliary_tie;  ///< index in `name` of each auxiliary coordinate
   /// Rigid motions of all coordinates about the mean of the nodes, rotations divided by the characteristic length l.
   std::vector<Eigen::Matrix<double, 6, 1>> rigid;
-  /// Of a coordinate, the factor to a length: l for rotations, 1 otherwise.
+  /// Factor of each coordinate to a length: l for rotations, 1 otherwise.
   std::vector<double> scale;
 
-  /// The spider or equation that was named last.
+  /// Index of the latest name, of a spider or equation.
   int last_tie() const { return count_of(name) - 1; }
-  /// Adds one of its equations.
+  /// Adds an equation of the latest tie.
   void add(LinearEquation equation) {
     equation.tie = last_tie();
     equations.push_back(std::move(equation));
   }
 };
 
-/// Collects the equations of all spiders and of Mesh::equations. Throws Error for spiders that grab nothing or cannot
+/// Collects the equations of all spiders and of Mesh::equations. Throws Error for spiders that hold no node or cannot
 /// define a component of their reference, and for equations that stop a rigid motion of the whole part.
 TieSystem collect_ties(const Mesh& mesh, const Coordinates& coordinates, const std::string& where);
 

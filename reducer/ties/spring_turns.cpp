@@ -1,4 +1,4 @@
-// Which springs have axes that matter, which of their nodes rotate, and spiders for those that do not.
+// Springs whose axes matter, rotations of their nodes, and spiders for nodes without rotations.
 #include "reducer/ties/spring_turns.hpp"
 
 #include <algorithm>
@@ -16,10 +16,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Whether translational stiffness K changes when the spring turns about an axis that the displacements of its nodes do
-/// not tell: any axis of coincident nodes, the line between distant ones.
+/// Whether translational stiffness K changes with a turn of the spring that the displacements of its nodes do not
+/// define: about any axis for coincident nodes, about the line between distant ones.
 bool has_axes(const Matrix3d& K, const Vector3d& first_to_second) {
-  constexpr double equal = 1e-9;  // of the stiffness: digits of a deck
+  constexpr double equal = 1e-9;  // relative to the stiffness: digits of a deck
   const double length = first_to_second.norm();
   const auto changes = [&](const Vector3d& axis) {
     const Matrix3d turn = skew<double>(axis);
@@ -29,7 +29,7 @@ bool has_axes(const Matrix3d& K, const Vector3d& first_to_second) {
   return changes(Vector3d::UnitX()) || changes(Vector3d::UnitY()) || changes(Vector3d::UnitZ());
 }
 
-/// Nodes with rotations that something defines: all three of them.
+/// Nodes with defined rotations about all three axes.
 std::vector<bool> turning_nodes(const Mesh& mesh) {
   std::vector<bool> turns(static_cast<std::size_t>(mesh.nodes()), false);
   const auto turn = [&turns](int node) { turns[node] = true; };
@@ -48,14 +48,14 @@ std::vector<bool> turning_nodes(const Mesh& mesh) {
       if (term.component >= 3) turn(term.node);
   for (const MeshBoundary& boundary : mesh.boundary)
     if (boundary.rotations) turn(boundary.node);
-  for (const Spring& spring : mesh.springs) {  // of springs that resist rotations
+  for (const Spring& spring : mesh.springs) {  // springs that resist rotations
     if (!spring.stiffness.middleRows<3>(3).isZero(0.0)) turn(spring.first);
     if (!spring.stiffness.bottomRows<3>().isZero(0.0)) turn(spring.second);
   }
   return turns;
 }
 
-/// Nodes without rotations at which a spring has axes that matter, with the name of one.
+/// Nodes without rotations that have a spring with axes that matter, and the name of one such spring.
 std::map<int, std::string> nodes_to_turn(const Mesh& mesh) {
   std::map<int, std::string> nodes;
   if (mesh.springs.empty()) return nodes;
@@ -69,7 +69,7 @@ std::map<int, std::string> nodes_to_turn(const Mesh& mesh) {
   return nodes;
 }
 
-/// The rotation of `node` is that which fits the motion of `others` best.
+/// Spider that gives `node` the rotation that fits the motion of `others` best.
 Spider fitted(int node, const std::vector<int>& others, const std::vector<double>& weight) {
   Spider spider;
   spider.kind = SpiderKind::averaging;
@@ -81,7 +81,7 @@ Spider fitted(int node, const std::vector<int>& others, const std::vector<double
   return spider;
 }
 
-/// As the average of translations, or the rigid spider of translations, that moves the node; none: no spider does.
+/// Rotation by the average or the rigid spider that moves the node's translations; empty: no spider does.
 std::vector<Spider> turned_by_spider(const Mesh& mesh, int node) {
   for (const Spider& spider : mesh.spiders) {
     if (spider.kind == SpiderKind::averaging && spider.reference == node && spider.nodes.size() > 2)
