@@ -1,4 +1,4 @@
-// Linear user elements and node-component lists to matrices.
+// Matrices from linear user elements and node-component lists.
 #include "reducer/exchange/abaqus_matrix.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace tisserand::reducer::exchange {
 namespace {
 
-/// Components of Abaqus are 1 to 6; rows of modes may have any number.
+/// Key of a row. Components of Abaqus are 1 to 6; rows of modes may have any number.
 RowKey make_key(long node, long component, const std::set<long>& modal, const std::string& where) {
   const bool internal = node < 0 || modal.contains(node);
   if (node == 0 || component < 1 || (!internal && component > 6) || component > 1000)
@@ -26,7 +26,7 @@ RowKey make_key(long node, long component, const std::set<long>& modal, const st
   return {node, static_cast<int>(component) - 1};
 }
 
-/// Node numbers after the comment "** ELEMENT NODES": comment lines of numbers.
+/// Node numbers in the comment lines after the comment "** ELEMENT NODES".
 std::vector<long> commented_nodes(TextLines& lines) {
   std::vector<long> nodes;
   std::string_view line;
@@ -62,7 +62,7 @@ long whole(std::string_view field, const abaqus::Input& input, const abaqus::Lin
   throw Error(fmt::format("'{}' is not a whole number", shown(field)), input.where(line), "correct the number");
 }
 
-/// Numbers of the nodes of the only element: its comment, or *ELEMENT.
+/// Node numbers of the only element, from its comment or *ELEMENT.
 std::vector<long> element_nodes(const abaqus::Input& input, const abaqus::Block& user, const std::string& path) {
   const std::string* text = user.find("NODES");
   const std::optional<long> count = text == nullptr ? std::nullopt : abaqus::to_integer(*text);
@@ -74,7 +74,7 @@ std::vector<long> element_nodes(const abaqus::Input& input, const abaqus::Block&
   if (const abaqus::Block* element = only(input, "ELEMENT"); nodes.empty() && element != nullptr) {
     for (const abaqus::Line& line : element->data)
       for (const std::string_view field : abaqus::split(line.text)) nodes.push_back(whole(field, input, line));
-    if (!nodes.empty()) nodes.erase(nodes.begin());  // the number of the element
+    if (!nodes.empty()) nodes.erase(nodes.begin());  // number of the element
   }
   if (static_cast<long>(nodes.size()) != *count)
     throw Error(fmt::format("NODES={}, but {} node numbers are given", *count, nodes.size()), input.where(user),
@@ -82,7 +82,7 @@ std::vector<long> element_nodes(const abaqus::Input& input, const abaqus::Block&
   return nodes;
 }
 
-/// Data lines of *USER ELEMENT: components of the first node; then position of a node and components from there on.
+/// Rows from the data lines of *USER ELEMENT: components of the first node, then position of a node and its components.
 std::vector<RowKey> element_rows(const abaqus::Input& input, const abaqus::Block& user, const std::vector<long>& nodes,
                                  const std::set<long>& modal) {
   std::map<std::size_t, std::vector<long>> from;
@@ -110,7 +110,7 @@ std::vector<RowKey> element_rows(const abaqus::Input& input, const abaqus::Block
   return rows;
 }
 
-/// Numbers of the data lines, one after the other: rows of the lower triangle, or columns of the square.
+/// Matrix from the numbers of the data lines in sequence: rows of the lower triangle, or columns of the square.
 TextMatrix block_matrix(const abaqus::Input& input, const abaqus::Block& block, const std::vector<RowKey>& rows,
                         Storage storage) {
   TextMatrix matrix{
@@ -139,7 +139,7 @@ TextMatrix block_matrix(const abaqus::Input& input, const abaqus::Block& block, 
   return matrix;
 }
 
-/// The matrices of a linear user element in the order STIFFNESS, MASS; entries are empty if there is none.
+/// Matrices of a linear user element in the order STIFFNESS, MASS; entries are empty if there is none.
 struct UserElement {
   std::vector<RowKey> rows;
   TextMatrix stiffness;

@@ -1,4 +1,4 @@
-// Matrix text of Abaqus, and of CalculiX where it writes the same: linear user elements, and node-component lists.
+// Matrix text of Abaqus and, if it is the same, of CalculiX: linear user elements, and node-component lists.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 namespace tisserand::reducer::exchange {
 
 struct AbaqusSource {
-  std::string path;  ///< both matrices, or the stiffness
-  std::string mass;  ///< may be empty if `path` holds both
+  std::string path;  ///< file of both matrices, or of the stiffness
+  std::string mass;  ///< may be empty if `path` contains both
 };
 
-/// Either *USER ELEMENT, LINEAR with *MATRIX, TYPE=STIFFNESS and TYPE=MASS (*SUBSTRUCTURE MATRIX OUTPUT, OUTPUT
+/// Reads either *USER ELEMENT, LINEAR with *MATRIX, TYPE=STIFFNESS and TYPE=MASS (*SUBSTRUCTURE MATRIX OUTPUT, OUTPUT
 /// FILE=USER DEFINED; node numbers from the comment ** ELEMENT NODES or from *ELEMENT), or lines "node, component,
-/// node, component, value" (*MATRIX OUTPUT, FORMAT=MATRIX INPUT). Components 1 to 6. Places are left empty, except for
-/// *NODE in the same deck. Throws Error.
+/// node, component, value" (*MATRIX OUTPUT, FORMAT=MATRIX INPUT). Components 1 to 6. Places are empty, except for *NODE
+/// in the same deck. Throws Error.
 ReducedMatrices read_abaqus_matrices(const AbaqusSource& source, const std::set<long>& modal);
 
 }  // namespace tisserand::reducer::exchange

@@ -1,4 +1,4 @@
-// Lines of .sti, .mas and .dof files to matrices.
+// Matrices from the lines of .sti, .mas and .dof files.
 #include "reducer/exchange/calculix_matrix.hpp"
 
 #include <array>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* job_files = "give the three files that CalculiX wrote for one job with SOLVER=MATRIXSTORAGE";
 
-/// "12.3": node 12, direction 3.
+/// Reads rows: "12.3" is node 12, direction 3.
 void read_directions(const std::string& path, ReducedMatrices& matrices) {
   TextLines lines(path);
   std::string_view line;

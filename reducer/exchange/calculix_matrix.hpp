@@ -7,8 +7,8 @@
 
 namespace tisserand::reducer::exchange {
 
-/// `stiffness` is job.sti; job.mas and job.dof lie beside it. Lines "row column value", one triangle; lines
-/// "node.direction", one for each row. Places are left empty. Throws Error.
+/// `stiffness` is job.sti; job.mas and job.dof are in the same folder. Lines "row column value", one triangle; lines
+/// "node.direction", one per row. Places are empty. Throws Error.
 ReducedMatrices read_calculix_matrices(const std::string& stiffness, const std::set<long>& modal);
 
 }  // namespace tisserand::reducer::exchange

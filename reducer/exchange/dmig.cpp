@@ -1,4 +1,4 @@
-// DMIG header and column cards to matrices, and back.
+// Matrices from DMIG header and column cards, and the reverse.
 #include "reducer/exchange/dmig.hpp"
 
 #include <algorithm>
@@ -16,10 +16,10 @@ namespace tisserand::reducer::exchange {
 namespace {
 
 constexpr long first_scalar_point = 1000001;
-constexpr int first_term = 4;  ///< fields 0 to 3 are name, GJ, CJ, blank; then four for each term
+constexpr int first_term = 4;  ///< fields 0 to 3 are name, GJ, CJ, blank; then four per term
 constexpr long largest_range = 100000;
 
-/// What the cards say about the points: grids have places, scalar points have none.
+/// Points of the cards: grids have places, scalar points have none.
 struct Points {
   Places places;
   std::set<long> scalar;
@@ -35,7 +35,7 @@ void read_scalar_points(NastranModel& model, Points& points) {
     });
 }
 
-/// A fault with the number of further cards that have it.
+/// A fault, and the number of further cards that have it.
 struct Repeated {
   std::string text, where, remedy;
   std::size_t more = 0;
@@ -44,9 +44,9 @@ struct Repeated {
 struct Reader {
   NastranModel& model;
   const Points& points;
-  std::map<std::string, TextMatrix> matrices = {};  ///< by name in capitals
-  std::set<std::string> refused = {};               ///< matrices whose header is told as a fault: columns are skipped
-  std::map<std::string, Repeated> faults = {};      ///< by what is wrong: a wrong value stands in many columns
+  std::map<std::string, TextMatrix> matrices = {};  ///< key: name in capitals
+  std::set<std::string> refused = {};               ///< matrices with a fault in the header: their columns are skipped
+  std::map<std::string, Repeated> faults = {};      ///< key: kind of fault; a wrong value may occur in many columns
 
   void fault(CardFields& fields, const std::string& what, const std::string& remedy);
   void raise_faults();
@@ -131,12 +131,12 @@ const TextMatrix& find_matrix(const Reader& reader, const std::string& wanted, c
               path, "name the matrices with --matrices K,M");
 }
 
-/// What files of this program say of a matrix in a comment before it: a text that lost a line is still a legal one.
+/// Comment with the number of terms before a matrix, in files of this program: a text that lost a line is still valid.
 std::string count_comment(const std::string& name, std::size_t terms) {
   return fmt::format("$ {} below has {} terms", name, terms);
 }
 
-/// Throws Error if a comment before the matrix names another number of terms than were read.
+/// Throws Error if the comment before the matrix gives another number of terms than were read.
 void check_count(const NastranModel& model, const TextMatrix& matrix) {
   const std::string before = fmt::format("$ {} below has ", matrix.title);
   for (const std::unique_ptr<std::string>& text : model.cards.texts) {

@@ -1,4 +1,4 @@
-// Nastran DMIG cards, the punch form of reduced matrices: in and out.
+// Nastran DMIG cards, the punch form of reduced matrices: import and export.
 #pragma once
 
 #include <string>
@@ -16,16 +16,16 @@ struct DmigSource {
 };
 
 /// Reads the two matrices (IFO 1 or 6, TIN 1 or 2; small, large and free field), GRID with coordinate systems, SPOINT
-/// and EPOINT. Without SPOINT and EPOINT in the files, a point with component 0 that is no GRID is a scalar point.
+/// and EPOINT. If the files have no SPOINT and EPOINT, a point with component 0 that is no GRID is a scalar point.
 /// Throws Error.
 ReducedMatrices read_dmig(const DmigSource& source);
 
 /// Bulk data with GRID (numbers 1, 2, ...), SPOINT (from 1000001), ASET1 and DMIG KAAX and MAAX, IFO 6, TIN 2, large
-/// field. A value keeps as many digits as 16 characters hold, 11 to 14
-/// (exponents of up to two digits).
+/// field. A value has as many digits as 16 characters hold, 11 to 14 (exponents of up to two digits).
 std::string dmig_text(const formats::Superelement& element);
 
-/// `value` in at most 16 characters with exponent letter `letter` (E or D), without it (1.5-10) where that saves a digit.
+/// `value` in at most 16 characters with exponent letter `letter` (E or D), or without it (1.5-10) if that saves a
+/// digit.
 std::string real_field(double value, char letter);
 
 }  // namespace tisserand::reducer::exchange

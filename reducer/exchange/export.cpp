@@ -1,4 +1,4 @@
-// The story of `reducer export`: from a superelement file to files of another program.
+// `reducer export`: files of another program from a superelement file.
 #include <algorithm>
 #include <list>
 #include <numeric>
@@ -32,7 +32,7 @@ struct Outcome {
   std::string remark;  ///< what is kept and what is lost
 };
 
-/// Rows by node and component, internal coordinates by number behind them: the order that FEDEM expects.
+/// Superelement with rows sorted by node and component, then internal coordinates by number: the order of FEDEM.
 formats::Superelement ordered(const formats::Superelement& element) {
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(element.size()));
   std::iota(rows.begin(), rows.end(), 0);

@@ -1,4 +1,4 @@
-// FEDEM's binary files of reduced matrices (*.fmx): in and out, bit for bit.
+// FEDEM's binary files of reduced matrices (*.fmx): import and export, bit for bit.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace tisserand::reducer::exchange {
 
-/// Of ..._S.fmx, ..._M.fmx and the table of rows. Throws Error.
+/// Matrices of ..._S.fmx, ..._M.fmx and the table of rows. Throws Error.
 ReducedMatrices read_fmx(const TabledFiles& files);
 
 enum class FmxKind { stiffness, mass, gravity };
 
-/// The bytes of a file: tag of 30 characters "#FEDEM stiffness matrix", the 16-bit number 0x1234 that shows the order
-/// of bytes, two 32-bit numbers 0 and `checksum`, the line ";1.0;", then the values column by column.
+/// Bytes of a file: tag of 30 characters "#FEDEM stiffness matrix", the 16-bit number 0x1234 that shows the byte order,
+/// two 32-bit numbers 0 and `checksum`, the line ";1.0;", then the values column by column.
 std::string fmx_bytes(FmxKind kind, std::uint32_t checksum, const Eigen::MatrixXd& values);
 
 }  // namespace tisserand::reducer::exchange

@@ -1,4 +1,4 @@
-// The story of `reducer import`: from files of another program to a superelement file with certificate.
+// `reducer import`: a superelement file with certificate from files of another program.
 #include <algorithm>
 #include <filesystem>
 
@@ -27,7 +27,7 @@ namespace {
 constexpr long longest_node_range = 100000;
 const std::vector<std::string> formats_known{"dmig", "abaqus", "calculix", "matrixmarket", "fmx"};
 
-/// `path` with `ending` replaced, or nothing.
+/// `path` with `ending` replaced by `by`, or empty if it has another ending.
 std::string replaced(const std::string& path, const std::string& ending, const std::string& by) {
   const bool ends = path.size() > ending.size() && path.ends_with(ending);
   return ends ? path.substr(0, path.size() - ending.size()) + by : "";
@@ -100,7 +100,7 @@ DmigSource dmig_source(const ImportRequest& request) {
   return source;
 }
 
-/// The file that belongs to the stiffness matrix: as asked for, or by its name.
+/// File that belongs to the stiffness matrix: the requested one, or `guess` from its name.
 std::string companion(const ImportRequest& request, const std::string& asked, const std::string& guess,
                       const std::string& option) {
   if (!asked.empty()) return asked;

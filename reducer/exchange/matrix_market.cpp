@@ -40,7 +40,7 @@ Header read_header(TextLines& lines) {
   return {coordinate ? Layout::coordinate : Layout::array, symmetric ? Storage::one_triangle : Storage::square};
 }
 
-/// The next line with words on it; empty at the end.
+/// Words of the next line that has any; empty at the end.
 std::vector<std::string_view> next_words(TextLines& lines) {
   std::string_view line;
   while (lines.next(line)) {

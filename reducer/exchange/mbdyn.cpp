@@ -1,4 +1,4 @@
-// Free elastic modes and the record groups of MBDyn's FEM data file.
+// Free elastic modes, and the record groups of MBDyn's FEM data file.
 #include "reducer/exchange/mbdyn.hpp"
 
 #include <array>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double massless = 1e-12;  ///< share of the largest
 
-/// Columns of an orthonormal basis (scaled coordinates) of all y with Rᵀ M y = 0.
+/// Orthonormal basis (columns, scaled coordinates) of all y with Rᵀ M y = 0.
 Eigen::MatrixXd elastic_basis(const Eigen::MatrixXd& M, const Eigen::MatrixXd& R) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> inertia(R.transpose() * M * R);
   Eigen::MatrixXd C(R.rows(), 6);
@@ -32,7 +32,7 @@ Eigen::MatrixXd elastic_basis(const Eigen::MatrixXd& M, const Eigen::MatrixXd& R
   return Q.rightCols(R.rows() - 6);
 }
 
-/// Six numbers on a line at most.
+/// Values as text with at most six numbers per line.
 std::string numbers(const Eigen::VectorXd& values) {
   std::string text;
   for (Eigen::Index i = 0; i < values.size(); ++i)
@@ -40,7 +40,7 @@ std::string numbers(const Eigen::VectorXd& values) {
   return text;
 }
 
-/// Rows of a node, x y z rx ry rz. Throws Error if some are missing.
+/// Rows of a node in the order x y z rx ry rz. Throws Error if some are missing.
 std::array<Eigen::Index, 6> rows_of_node(const formats::Superelement& element, int node, const std::string& where) {
   std::array<Eigen::Index, 6> rows{-1, -1, -1, -1, -1, -1};
   for (std::size_t i = 0; i < element.dof_node.size(); ++i)

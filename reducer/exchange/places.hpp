@@ -11,14 +11,14 @@ struct NastranModel;
 
 namespace tisserand::reducer::exchange {
 
-/// By content: Abaqus and CalculiX input with *NODE, Nastran bulk data with GRID, else a table of lines
-/// "number, x, y, z" or "number, x, y, z, name" (# begins a comment; a first line of words is skipped). Throws Error.
+/// Places from Abaqus or CalculiX input with *NODE, Nastran bulk data with GRID, else a table of lines "number, x, y,
+/// z" or "number, x, y, z, name" (# begins a comment; a first line of words is skipped). Throws Error.
 Places read_places(const std::string& path);
 
 /// Reads the cards of a deck and sorts them by name. Throws Error for faults of single lines.
 void read_cards(const std::string& path, NastranModel& model);
 
-/// GRID and coordinate systems of cards that have been read, with axes from CD. Throws Error.
+/// Places from GRID and coordinate systems of cards that have been read, with axes from CD. Throws Error.
 Places places_of(NastranModel& model);
 
 }  // namespace tisserand::reducer::exchange

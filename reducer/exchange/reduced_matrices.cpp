@@ -1,4 +1,4 @@
-// Entries of foreign matrices become S and M over one list of rows.
+// S and M over one list of rows from the entries of foreign matrices.
 #include "reducer/exchange/reduced_matrices.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace tisserand::reducer::exchange {
 namespace {
 
-constexpr double symmetry_accepted = 1e-6;  ///< texts of single precision; more is no rounding
+constexpr double symmetry_accepted = 1e-6;  ///< for texts of single precision; more is no rounding
 
 std::string where(const TextMatrix& matrix, const MatrixEntry& entry) {
   return entry.line > 0 ? fmt::format("{}:{}", matrix.file, entry.line) : matrix.file;
@@ -59,7 +59,7 @@ Eigen::MatrixXd dense(const TextMatrix& matrix, const RowNumbers& numbers) {
   return A;
 }
 
-/// Replaces A by its symmetric part; returns what was removed. Throws Error if it was more than rounding.
+/// Replaces A by its symmetric part and returns the removed part. Throws Error if it was more than rounding.
 double symmetrise(const TextMatrix& matrix, const std::vector<RowKey>& rows, Eigen::MatrixXd& A) {
   double worst = 0.0;
   for (Eigen::Index j = 0; j < A.cols(); ++j)

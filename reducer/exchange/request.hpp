@@ -1,4 +1,4 @@
-// What the command line asks of import and export, between main() and the work.
+// Arguments of import and export on the command line.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@ namespace tisserand::reducer::exchange {
 
 struct ImportRequest {
   std::string input;
-  std::string output;     ///< empty: beside the input
-  std::string from;       ///< dmig, abaqus, calculix, matrixmarket, fmx; empty: by content
+  std::string output;     ///< empty: next to the input
+  std::string from;       ///< dmig, abaqus, calculix, matrixmarket, fmx; empty: from the content
   std::string units;      ///< "mm,t,s" or "consistent"
   std::string matrices;   ///< DMIG names: "KAAX,MAAX"
   std::string mass;       ///< file of the mass matrix
@@ -20,14 +20,14 @@ struct ImportRequest {
 
 struct ExportRequest {
   std::string input;
-  std::string output;  ///< empty: beside the input
+  std::string output;  ///< empty: next to the input
   std::string to;      ///< dmig, matrixmarket, fmx, mbdyn
 };
 
-/// Reads, checks, writes the superelement and its certificate, tells. Throws Error.
+/// Reads and checks matrices, writes the superelement and its certificate, and prints a report. Throws Error.
 void import_matrices(const ImportRequest& request);
 
-/// Reads a superelement, writes the files of the other program, tells what they hold. Throws Error.
+/// Reads a superelement, writes files of the other program, and prints their contents. Throws Error.
 void export_matrices(const ExportRequest& request);
 
 }  // namespace tisserand::reducer::exchange

@@ -1,4 +1,4 @@
-// Lines of the table of rows to keys and places, and back.
+// Keys and places from the lines of the table of rows, and the reverse.
 #include "reducer/exchange/rows_table.hpp"
 
 #include <array>
@@ -19,7 +19,7 @@ constexpr std::array<const char*, 6> component_words{"x", "y", "z", "rx", "ry", 
 constexpr const char* mode_word = "mode";
 constexpr const char* heading = "row,node,component,x,y,z";
 
-/// 0 to 5, scalar_component, or nothing.
+/// Component 0 to 5 or scalar_component; empty for other words.
 std::optional<int> component_of(std::string_view cell) {
   if (same_word(cell, mode_word)) return scalar_component;
   for (int k = 0; k < std::ssize(component_words); ++k)
@@ -38,7 +38,7 @@ struct RowReader {
   long node(const std::vector<std::string_view>& cells);
 };
 
-/// Number of the node, from 1 in the order of the table; its place is entered once and must not change.
+/// Number of the node, from 1 in the order of the table. Its place is entered once and must not change.
 long RowReader::node(const std::vector<std::string_view>& cells) {
   const std::optional<long> number = parse_integer(cells[1]);
   const std::string name = number ? fmt::format("n{}", *number) : std::string(cells[1]);

@@ -1,4 +1,4 @@
-// The small table that names the rows of matrices which cannot do it themselves: Matrix Market and fmx.
+// Table of rows for matrix formats without row names: Matrix Market and fmx.
 #pragma once
 
 #include <string>
@@ -8,17 +8,17 @@
 
 namespace tisserand::reducer::exchange {
 
-/// Files of matrices that cannot name their rows, and of the table that does.
+/// Files of matrices without row names, and the table that has them.
 struct TabledFiles {
   std::string stiffness, mass, rows;
 };
 
-/// CSV: a line "row,node,component,x,y,z", then one line for each row in order. node: a name, or a number (the node is
-/// then called n<number>); component: x y z rx ry rz or 1 to 6; "mode" for an internal coordinate, whose other cells
-/// may stay empty. # begins a comment. Gives rows and places. Throws Error.
+/// Reads a CSV table: a line "row,node,component,x,y,z", then one line per row in order. node: a name, or a number (the
+/// node is then called n<number>). component: x y z rx ry rz or 1 to 6, or "mode" for an internal coordinate, whose
+/// other cells may be empty. # begins a comment. The result has rows and places. Throws Error.
 ReducedMatrices read_rows(const std::string& format, const TabledFiles& files);
 
-/// The table of a superelement, positions with 17 digits.
+/// Table of a superelement, positions with 17 digits.
 std::string rows_text(const formats::Superelement& element);
 
 }  // namespace tisserand::reducer::exchange

@@ -1,4 +1,4 @@
-// Text of foreign files, line by line and field by field, with places for messages; before any format is known.
+// Text of foreign files by lines and fields, with places for messages, independent of the format.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,14 @@
 
 namespace tisserand::reducer::exchange {
 
-/// The lines of a file. Throws Error if it cannot be read, is no regular file, or has more than 2 GiB.
+/// Lines of a file. Throws Error if it cannot be read, is no regular file, or has more than 2 GiB.
 class TextLines {
  public:
   explicit TextLines(const std::string& path);
 
-  /// The next line without its end; false at the end of the file.
+  /// Reads the next line without its end; returns false at the end of the file.
   bool next(std::string_view& line);
-  std::size_t number() const { return number_; }  ///< of the last line, from 1
+  std::size_t number() const { return number_; }  ///< number of the last line, from 1
   std::string where() const;                      ///< "path:number"
   const std::string& path() const { return path_; }
   const std::string& text() const { return text_; }
@@ -27,10 +27,10 @@ class TextLines {
   std::size_t number_ = 0;
 };
 
-/// Fields between blanks, tabs, commas and semicolons; none of them is empty.
+/// Non-empty fields between blanks, tabs, commas and semicolons.
 std::vector<std::string_view> words_of(std::string_view line);
 
-/// Fields between commas, blanks around them removed; some may be empty.
+/// Fields between commas without surrounding blanks; some may be empty.
 std::vector<std::string_view> cells_of(std::string_view line);
 
 /// A finite number, also with Fortran's exponents. `what` names it in the Error.
@@ -39,13 +39,13 @@ double number_of(std::string_view field, std::string_view what, const TextLines&
 /// A whole number. `what` names it in the Error.
 long integer_of(std::string_view field, std::string_view what, const TextLines& lines);
 
-/// Upper case, blanks at both ends removed, at most `length` characters: to recognise a file.
+/// Text in upper case without blanks at both ends, at most `length` characters, to recognise a file.
 std::string start_of(std::string_view text, std::size_t length);
 
-/// Whether a line of the text begins with `word`, upper and lower case taken as equal, blanks before it skipped.
+/// Whether a line of the text begins with `word`; case and leading blanks are ignored.
 bool has_line(std::string_view text, std::string_view word);
 
-/// For messages: printable and short.
+/// Short printable text for messages.
 std::string shown(std::string_view text);
 
 }  // namespace tisserand::reducer::exchange

@@ -1,4 +1,4 @@
-// Axes, names, checks, canonical form and rigid-motion filter of imported matrices.
+// Superelement from imported matrices: axes, names, checks, canonical form and rigid-motion filter.
 #include "reducer/exchange/to_superelement.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace tisserand::reducer::exchange {
 namespace {
 
-constexpr double rigid_residual_kept = 1e-12;  ///< round-off of matrices in double precision
+constexpr double rigid_residual_kept = 1e-12;  ///< round-off in double precision
 
 /// Rows of the matrices in the order of the superelement: boundary first.
 struct Order {
@@ -57,7 +57,7 @@ void require_places(const ReducedMatrices& matrices, const Order& order) {
 
 enum class Turned { values, bounds };
 
-/// Components of nodes with axes of their own, turned into the part frame: A <- T A Tᵀ; with |T| for bounds of entries.
+/// Turns components of nodes with axes of their own into the part frame: A <- T A Tᵀ; with |T| for bounds of entries.
 void turn_axes(const ReducedMatrices& matrices, const Order& order, Turned turned, Eigen::MatrixXd& A) {
   std::map<std::pair<long, int>, std::array<Eigen::Index, 3>> triples;  // node and 0 (translations) or 1 (rotations)
   for (Eigen::Index i = 0; i < order.boundary; ++i) {
@@ -121,7 +121,7 @@ formats::Superelement describe(const ReducedMatrices& matrices, const ImportOpti
   return element;
 }
 
-/// Errors of the entries of S as the file rounded them, in the order and axes of the superelement.
+/// Rounding errors of the entries of S in the file, in the order and axes of the superelement.
 formats::EntryErrors rounding_errors(const ReducedMatrices& matrices, const Order& order) {
   formats::EntryErrors errors = formats::entry_errors(matrices.stiffness);
   if (errors.bound.size() == 0) return errors;
@@ -162,7 +162,7 @@ void make_canonical(formats::Superelement& e, Eigen::Index nb, const std::string
   e.mass.bottomLeftCorner(m, nb) = form.M_BI.transpose();
 }
 
-/// Boundary block alone changes: in canonical form the internal coordinates are zero in rigid motions.
+/// Filters the boundary block only: in canonical form the internal coordinates are zero in rigid motions.
 void filter(formats::Superelement& e, Eigen::Index nb) {
   const Eigen::Index m = e.size() - nb;
   const Eigen::VectorXd lambda = e.stiffness.diagonal().tail(m);
@@ -191,7 +191,7 @@ Imported to_superelement(const ReducedMatrices& matrices, const ImportOptions& o
   const Eigen::Index nb = order.boundary, m = e.size() - nb;
   c.stiffness_coupling = share(e.stiffness.topRightCorner(nb, m), e.stiffness);
   c.canonical = is_canonical(e, nb);
-  // Projected before the canonical form too, which hides how far the file had rounded its entries.
+  // Also filtered before the canonical form, which hides how far the file had rounded its entries.
   c.filtered = found.rigid_residual > rigid_residual_kept;
   if (!c.canonical && c.filtered) formats::filter_rigid_motions(e);
   if (!c.canonical) make_canonical(e, nb, matrices.source, c);

@@ -1,4 +1,4 @@
-// Reduced matrices of another program become a superelement: axes, names, checks, canonical form, rigid-motion filter.
+// Superelement from reduced matrices of another program: axes, names, checks, canonical form, rigid-motion filter.
 #pragma once
 
 #include <map>
@@ -12,21 +12,21 @@
 namespace tisserand::reducer::exchange {
 
 struct ImportOptions {
-  std::string name;                        ///< of the superelement
-  Units units;                             ///< of the file
-  std::map<long, std::string> node_names;  ///< wish over NodePlace::name and n<number>
+  std::string name;                        ///< name of the superelement
+  Units units;                             ///< units of the file
+  std::map<long, std::string> node_names;  ///< override NodePlace::name and n<number>
 };
 
 struct Imported {
   formats::Superelement element;
-  formats::SuperelementReport report;  ///< of the result
-  ImportCertificate certificate;       ///< of what was found
+  formats::SuperelementReport report;  ///< report on the result
+  ImportCertificate certificate;       ///< deviations found in the input
 };
 
-/// Rows of nodes are turned into the part frame, u = A u_node; boundary rows come first, in the order of the matrices.
-/// What is in canonical form already stays as it is, bit for bit; all else is brought there by the congruence
-/// y_I = −S_II⁻¹ S_IB y_B + Q η (canonical_form()). Rigid motions are projected out of S (filter_rigid_motions()) if
-/// they strain the part by more than 1e-12, and by at most 1e-4 (check()). Throws Error for every inconsistency.
+/// Turns rows of nodes into the part frame, u = A u_node. Boundary rows come first, in the order of the matrices.
+/// Matrices in canonical form stay as they are, bit for bit. Others are brought there by the congruence y_I = −S_II⁻¹
+/// S_IB y_B + Q η (canonical_form()). Rigid motions are projected out of S (filter_rigid_motions()) if they strain the
+/// part by more than 1e-12 and at most 1e-4 (check()). Throws Error for every inconsistency.
 Imported to_superelement(const ReducedMatrices& matrices, const ImportOptions& options);
 
 }  // namespace tisserand::reducer::exchange

@@ -1,4 +1,4 @@
-// What is said of load cases, and of forces on nodes of modal bodies.
+// Notes on load cases, and on forces on nodes of modal bodies.
 #include "reducer/recover/inertia_loads.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Loads of the scene with load cases of the body, by name; none where the results do not hold the scene.
+/// Names of the scene's loads with load cases of the body; empty if the results do not hold the scene.
 std::vector<std::string> loads_of_scene(const formats::SimulatedScene& scene, const std::string& body) {
   if (scene.text.empty()) return {};
   const formats::YamlDocument document = formats::parse_yaml(scene.text, "/scene/text");

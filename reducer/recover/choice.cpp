@@ -1,4 +1,4 @@
-// From words of the command line to nodes, elements and groups.
+// Nodes, elements and groups chosen by words of the command line.
 #include <algorithm>
 #include <charconv>
 
@@ -22,7 +22,7 @@ int find_group(const Recovery& r, const std::string& name, const std::string& wh
       r.group_name.empty() ? "choose nodes with --point" : "give one of " + listed(nearest_names(name, r.group_name)));
 }
 
-/// "12", or "group/12".
+/// Element of "12" or "group/12".
 int find_element(const Recovery& r, const std::string& word, const std::string& where) {
   const std::size_t slash = word.rfind('/');
   const std::string digits = slash == std::string::npos ? word : word.substr(slash + 1);

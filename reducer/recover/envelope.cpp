@@ -1,4 +1,4 @@
-// Maxima, first come first kept.
+// Extremes over time; of equal values the first counts.
 #include "reducer/recover/envelope.hpp"
 
 namespace tisserand::reducer {
@@ -10,7 +10,7 @@ namespace {
 
 bool is_larger(float value, float than) { return value > than + equal_by_symmetry * std::abs(than); }
 
-/// The value of an item of the points, as one of an element whose node `place` it is.
+/// Copies the extreme of a stress point to an element with this point at its node `place`.
 void take(const ExtremeOverTime& points, int point, int element, int place, ExtremeOverTime& elements) {
   if (points.instant(point) >= 0) elements.take(element, {points.value(point), place}, points.instant(point));
 }

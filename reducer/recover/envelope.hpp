@@ -1,4 +1,4 @@
-// Largest values over time of everything that is recovered: how large, when, and where in the element.
+// Extremes over time of all recovered quantities: value, instant, and place in the element.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ namespace tisserand::reducer {
 
 enum class Extreme { largest, smallest };
 
-/// The largest or the smallest of one quantity over time, for each of many items. Of values that are equal but for
-/// round-off (equal_by_symmetry) the first instant counts.
+/// Largest or smallest value of one quantity over time, for each of many items. If values are equal except for
+/// round-off (equal_by_symmetry), the first instant counts.
 class ExtremeOverTime {
  public:
   ExtremeOverTime(Extreme kind, int items);
@@ -25,14 +25,14 @@ class ExtremeOverTime {
   int items() const { return count_of(height_); }
   float value(int item) const { return kind_ == Extreme::largest ? height_[item] : -height_[item]; }
   int instant(int item) const { return instant_[item]; }  ///< −1: none yet
-  int place(int item) const { return place_[item]; }      ///< Placed
+  int place(int item) const { return place_[item]; }      ///< see Placed
   std::vector<float> values() const;
-  /// The extreme of the items [first, end), of equal ones the earliest; −1: there is none.
+  /// Item of [first, end) with the extreme value, the earliest of equal ones; −1: none.
   int extreme(int first, int end) const;
 
  private:
   Extreme kind_;
-  std::vector<float> height_;  ///< values, with the opposite sign where the smallest is sought
+  std::vector<float> height_;  ///< values, with opposite sign for the smallest
   std::vector<int> instant_, place_;
 };
 
@@ -45,32 +45,32 @@ struct StressEnvelope {
   ExtremeOverTime von_mises, largest, smallest;
 };
 
-/// Grows with the mesh, not with the number of instants.
+/// Envelope of a body. Its size depends on the mesh, not on the number of instants.
 class Envelope {
  public:
   explicit Envelope(const formats::Recovery& recovery);
 
-  /// A block of a batch whose first instant is number `first` of the run.
+  /// Adds a block of a batch whose first instant has number `first` in the run.
   void add(const FieldBlock& block, const BodyMotion& motion, Eigen::Index first);
-  /// After the last block: solids take the values of their points.
+  /// Copies the values of stress points to solids, after the last block.
   void finish(const SolidPoints& points);
 
   ExtremeOverTime displacement;  ///< nodes
   StressEnvelope point;          ///< stress points of solids
-  StressEnvelope element;        ///< of solids the place is that of their node, from 1
+  StressEnvelope element;        ///< elements; the place in a solid is its node, from 1
 
  private:
   const formats::Recovery& recovery_;
 };
 
-/// "top", "end 1 (0.01, -0.02)", "node 4711": a place within an element.
+/// Text for a place within an element: "top", "end 1 (0.01, -0.02)", "node 4711".
 std::string place_text(const formats::Recovery& recovery, int element, int place, double length);
 
-/// One line per element: largest von Mises stress, largest and smallest principal stress, each with time and place.
+/// Writes one line per element: largest von Mises stress, largest and smallest principal stress, with times and places.
 void write_envelope_csv(const std::string& path, const formats::Recovery& recovery, const MotionReader& motion,
                         const Envelope& envelope);
 
-/// The same on the mesh at rest, with displacements and, of solids, stresses at the nodes.
+/// Writes the envelope on the mesh at rest, with displacements and, for solids, stresses at the nodes.
 void write_envelope_vtu(const std::string& path, const formats::Recovery& recovery, const MotionReader& motion,
                         const formats::VtuCells& cells, const Envelope& envelope);
 

@@ -1,4 +1,4 @@
-// The envelope as a table of elements, and on the mesh at rest.
+// Files of the envelope: a table of elements, and fields on the mesh at rest.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -15,9 +15,9 @@ using formats::Recovery;
 using formats::VtuArray;
 
 constexpr std::size_t flush_bytes = 1u << 20;
-constexpr double round_off = 1e-12;  // of corners of circles
+constexpr double round_off = 1e-12;  // for corners of circles
 
-/// A text as a cell of CSV.
+/// Text as a quoted cell of CSV.
 std::string quoted(const std::string& text) {
   std::string cell = "\"";
   for (const char c : printable_line(text, 200)) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -42,7 +42,7 @@ std::string header_of(const Units& units) {
   return text + '\n';
 }
 
-/// ",value,time,place", empty where the element has no stress.
+/// Cells ",value,time,place", empty if the element has no stress.
 std::string cells_of(const Recovery& r, int element, const ExtremeOverTime& over_time, const MotionReader& motion) {
   const int instant = over_time.instant(element);
   if (instant < 0) return ",,,";
@@ -58,7 +58,7 @@ std::vector<float> times_of(const ExtremeOverTime& over_time, const MotionReader
   return times;
 }
 
-/// Places as VTU files have them: faces of shells and ends of beams 1 and 2, nodes of solids from 1; 0: none.
+/// Places in the numbering of VTU files: faces of shells and ends of beams 1 and 2, nodes of solids from 1; 0: none.
 std::vector<float> places_of(const Recovery& r, const ExtremeOverTime& over_time) {
   std::vector<float> places;
   for (int e = 0; e < r.elements.count(); ++e) {
@@ -68,7 +68,7 @@ std::vector<float> places_of(const Recovery& r, const ExtremeOverTime& over_time
   return places;
 }
 
-/// The extreme over the points of each node; nodes without points: 0.
+/// Extreme over the stress points of each node; 0 for nodes without points.
 std::vector<float> on_nodes(const Recovery& r, const ExtremeOverTime& points) {
   ExtremeOverTime nodes(points.kind(), r.nodes());
   for (int p = 0; p < r.stress_points(); ++p)

@@ -1,4 +1,4 @@
-// Tables over time and their files.
+// Files of the tables over time.
 #include "reducer/recover/histories.hpp"
 
 #include <Eigen/Geometry>

@@ -17,7 +17,7 @@ using formats::RecoveryField;
 
 namespace {
 
-/// A column's name with its unit; in quotes, since labels hold commas.
+/// Name of a column with its unit, in quotes because labels contain commas.
 std::string heading(const std::string& label, const std::string& quantity, const std::string& unit) {
   std::string name = printable_line(label, 60);
   std::replace(name.begin(), name.end(), '"', '\'');
@@ -26,7 +26,7 @@ std::string heading(const std::string& label, const std::string& quantity, const
 
 std::string stress_unit(const BodyMotion& still) { return unit_label(still.scene_units, -1, 1, -2); }
 
-/// Six rows of an item at an instant.
+/// The first six rows of an item at an instant.
 Eigen::Matrix<float, 6, 1> six_of(const Eigen::MatrixXf& rows, Index instant) { return rows.col(instant).head<6>(); }
 
 bool is_node_of(const Recovery& r, int element, int node) {

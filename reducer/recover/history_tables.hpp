@@ -1,4 +1,4 @@
-// The tables of histories: of nodes, of elements, of groups.
+// Tables of histories of nodes, elements and groups.
 #pragma once
 
 #include <map>
@@ -10,19 +10,19 @@
 
 namespace tisserand::reducer {
 
-/// Something chosen, with the words by which it was.
+/// Chosen item, with the words that chose it.
 struct ChosenItem {
   std::string label;
-  int index = 0;  ///< node, element or group
+  int index = 0;  ///< of a node, element or group
 };
 
-/// Rows of items of a field at the instants of a batch, kept as blocks pass.
+/// Rows of items of a field at the instants of a batch, collected from its blocks.
 class KeptItems {
  public:
   explicit KeptItems(formats::RecoveryField field) : field_(field) {}
   void want(int item) { rows_.try_emplace(item); }
   void take(const FieldBlock& block);
-  /// width x instants
+  /// Rows of an item, width x instants.
   const Eigen::MatrixXf& of(int item) const { return rows_.at(item); }
 
  private:
@@ -30,8 +30,8 @@ class KeptItems {
   std::map<int, Eigen::MatrixXf> rows_;
 };
 
-/// Displacement x, y, z (axes of the frame asked for), position, and the largest von Mises stress (beams: |normal
-/// stress|) of the elements at the node.
+/// Table of nodes: displacement x, y, z (axes of the requested frame), position, and largest von Mises stress (beams:
+/// |normal stress|) of the elements at the node.
 class NodeTable : public HistoryTable {
  public:
   NodeTable(const formats::Recovery& recovery, const BodyMotion& still, RecoverFrame frame,
@@ -55,9 +55,9 @@ class NodeTable : public HistoryTable {
       shell_{formats::RecoveryField::shell_stress}, solid_{formats::RecoveryField::solid_stress};
 };
 
-/// The histories of single elements. Columns of a beam: forces and moments at both ends, largest and smallest normal
-/// stress. Of a shell: von Mises stress of both faces, principal stresses, membrane and bending stress. Of a solid: von
-/// Mises and principal stresses of its worst node, and the mean stress of its nodes.
+/// Table of elements. Beam: forces and moments at both ends, largest and smallest normal stress. Shell: von Mises
+/// stress of both faces, principal stresses, membrane and bending stress. Solid: von Mises and principal stresses of
+/// its worst node, and the mean stress of its nodes.
 class StressTable : public HistoryTable {
  public:
   StressTable(const formats::Recovery& recovery, const BodyMotion& still, std::vector<ChosenItem> elements);
@@ -73,13 +73,13 @@ class StressTable : public HistoryTable {
   const formats::Recovery& recovery_;
   const BodyMotion& still_;
   std::vector<ChosenItem> elements_;
-  std::map<int, std::vector<int>> points_;  ///< of each solid
+  std::map<int, std::vector<int>> points_;  ///< stress points of each solid
   KeptItems beam_{formats::RecoveryField::beam_force}, shell_{formats::RecoveryField::shell_stress},
       solid_{formats::RecoveryField::solid_stress};
 };
 
-/// The largest von Mises stress of a group's elements and the number of that element (of solids: the label of the
-/// node), the largest and the smallest principal stress.
+/// Table of groups: largest von Mises stress in the group with its element (for solids the label of the node), largest
+/// and smallest principal stress.
 class GroupTable : public HistoryTable {
  public:
   GroupTable(const formats::Recovery& recovery, const BodyMotion& still, std::vector<ChosenItem> groups);
@@ -91,7 +91,7 @@ class GroupTable : public HistoryTable {
  private:
   struct Worst {
     float von_mises = 0.0f, largest = 0.0f, smallest = 0.0f;
-    int at = -1;  ///< element, or of solids the stress point
+    int at = -1;  ///< element, or stress point of a solid
     bool is_point = false;
   };
   void raise(int group, const FieldBlock& block, Eigen::Index i);
@@ -100,7 +100,7 @@ class GroupTable : public HistoryTable {
   const BodyMotion& still_;
   std::vector<ChosenItem> groups_;
   std::vector<int> row_;                   ///< of each group of the file; −1: not chosen
-  std::vector<std::vector<Worst>> worst_;  ///< by row, then by instant of the batch
+  std::vector<std::vector<Worst>> worst_;  ///< first index: row, second: instant of the batch
 };
 
 }  // namespace tisserand::reducer

@@ -1,4 +1,4 @@
-// From the motion of the floating frame to the loads on what the basis leaves out.
+// Loads on the omitted part of the deformation, from the motion of the floating frame.
 #include "reducer/recover/inertia_loads.hpp"
 
 #include <algorithm>
@@ -13,9 +13,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double no_share = 1e-9;  ///< of loads in a mode: round-off
+constexpr double no_share = 1e-9;  ///< share of loads in a mode that is only round-off
 
-/// d²f/dt² by three instants that follow one another, not evenly perhaps; zero of fewer.
+/// d²f/dt² by three successive instants at possibly unequal distances; zero for fewer than three.
 MatrixXd second_rates(const MatrixXd& f, const std::vector<double>& time) {
   MatrixXd rates = MatrixXd::Zero(f.rows(), f.cols());
   if (f.cols() < 3) return rates;
@@ -29,7 +29,7 @@ MatrixXd second_rates(const MatrixXd& f, const std::vector<double>& time) {
   return rates;
 }
 
-/// Von Mises stresses (beams: normal) of a block; its instants are the loads.
+/// Raises `largest` to the von Mises stresses (beams: normal) of a block, whose instants are the loads.
 void raise_largest(const formats::Recovery& r, const BodyMotion& unit, const FieldBlock& block, VectorXd& largest) {
   for (Index i = 0; i < block.count; ++i)
     for (Index t = 0; t < block.values.cols(); ++t) {
@@ -44,7 +44,7 @@ void raise_largest(const formats::Recovery& r, const BodyMotion& unit, const Fie
     }
 }
 
-/// The largest stress of the mesh under each load with the factor 1.
+/// Largest stress of the mesh under each load with factor 1.
 VectorXd stress_of_loads(const formats::RecoveryReader& file, const BodyMotion& still) {
   BodyMotion unit = still;
   const Index columns = file.recovery().loads->columns();
@@ -57,7 +57,7 @@ VectorXd stress_of_loads(const formats::RecoveryReader& file, const BodyMotion& 
   return largest;
 }
 
-/// ω² below which no mode is left out of the motion: of the file, or of the modes that the body of the scene dropped.
+/// ω² of the lowest omitted mode: that of the file, or of the modes that the body of the scene dropped.
 double lowest_left_out(const formats::Recovery& recovery, const MotionReader& motion) {
   double lowest = recovery.loads->left_out;
   for (const Index k : motion.dropped())
@@ -108,7 +108,7 @@ void add_static_modes(const formats::Recovery& recovery, const std::vector<Index
 }
 
 LeftOutStress left_out_stress(const formats::RecoveryReader& file, const MotionReader& reader) {
-  constexpr Index around = 2;  // second differences at an end of the run are those of the instant beside it
+  constexpr Index around = 2;  // the second differences at both ends of a run are copies of their neighbours
   LeftOutStress stress;
   if (reader.read(0, 1).load_factor.cols() == 0) return stress;
   stress.known = true;

@@ -1,4 +1,4 @@
-// Numbers of one instant, and the largest ones.
+// Values at one instant, and their maxima.
 #include "reducer/recover/instant_values.hpp"
 
 #include <algorithm>

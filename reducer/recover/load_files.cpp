@@ -1,4 +1,4 @@
-// FORCE and MOMENT cards, *CLOAD lines.
+// Load files: FORCE and MOMENT cards, *CLOAD lines.
 #include "reducer/recover/load_files.hpp"
 
 #include <algorithm>
@@ -15,11 +15,11 @@ using Eigen::Vector3d;
 using formats::Recovery;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double negligible = 1e-14;  // of the largest force or moment: round-off
+constexpr double negligible = 1e-14;  // round-off relative to the largest force or moment
 
 std::string comment_sign(LoadFormat format) { return format == LoadFormat::nastran ? "$ " : "** "; }
 
-/// Lines of a comment.
+/// Comment lines.
 std::string comments(LoadFormat format, const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += comment_sign(format) + printable_line(line, 200) + '\n';
@@ -77,16 +77,16 @@ std::vector<std::string> head_lines(const LoadHead& head, LoadFormat format) {
   return lines;
 }
 
-/// A number in 16 characters.
+/// A number with 16 characters.
 std::string field16(double value) { return fmt::format("{:>16}", fmt::format("{:.9E}", value)); }
 
-/// FORCE or MOMENT in large fields.
+/// FORCE or MOMENT card in large fields.
 std::string nastran_card(const char* name, int set, int node, const Vector3d& v) {
   return fmt::format("{:<8}{:>16}{:>16}{:>16}{:>16}*\n{:<8}{}{}{}\n", std::string(name) + '*', set, node, 0, "1.0", "*",
                      field16(v.x()), field16(v.y()), field16(v.z()));
 }
 
-/// Calls card(name, node, vector) for all that is not round-off.
+/// Calls card(name, node, vector) for all forces and moments above round-off.
 template <class Card>
 void for_forces(const NodeForces& forces, const Card& card) {
   const double force = forces.topRows<3>().cwiseAbs().maxCoeff(), moment = forces.bottomRows<3>().cwiseAbs().maxCoeff();
@@ -97,7 +97,7 @@ void for_forces(const NodeForces& forces, const Card& card) {
   }
 }
 
-/// Three sets and their sum: 10 k + 1 boundary, + 2 frame, + 3 deformation, LOAD 10 k.
+/// Three load sets and their sum: 10 k + 1 boundary, + 2 frame, + 3 deformation, LOAD 10 k.
 std::string nastran_text(const LoadInstant& at, const LoadHead& head, int k) {
   const int set = 10 * k;
   std::string text, sum = fmt::format("LOAD    {:>8}{:>8}", set, "1.0");
@@ -118,7 +118,7 @@ std::string nastran_text(const LoadInstant& at, const LoadHead& head, int k) {
   return text + sum + '\n';
 }
 
-/// One step. Forces on the same coordinate are summed: programs differ in what they do with two lines.
+/// One step. Forces on the same coordinate are summed, because programs differ in their treatment of two lines.
 std::string calculix_text(const LoadInstant& at, const LoadHead& head) {
   NodeForces all = at.loads.frame + at.loads.deformation;
   for (Index b = 0; b < at.loads.boundary.cols(); ++b)

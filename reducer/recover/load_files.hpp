@@ -1,4 +1,4 @@
-// Load cases for the part's own mesh in another finite element program.
+// Load cases for the part's own mesh in other finite element programs.
 #pragma once
 
 #include <string>
@@ -9,21 +9,21 @@
 
 namespace tisserand::reducer {
 
-/// Number of each node in the load files: that of the mesh file; nodes without one are numbered behind the largest.
+/// Number of each node in the load files: that of the mesh file; nodes without one get numbers after the largest.
 struct NodeNumbers {
   std::vector<int> number;
   std::vector<int> unknown;  ///< nodes without a number in the mesh file
 };
 NodeNumbers node_numbers(const formats::Recovery& recovery);
 
-/// Loads of one instant and what the file says of them.
+/// Loads of one instant, and their balance for the comments of the file.
 struct LoadInstant {
   double time = 0.0;
   NodalLoads loads;
   LoadBalance balance;
 };
 
-/// What stands at the head of a file, in its comments.
+/// Data for the comments at the head of a file.
 struct LoadHead {
   const formats::Recovery& recovery;
   const BodyMotion& still;
@@ -31,23 +31,23 @@ struct LoadHead {
   const NodeNumbers& numbers;
 };
 
-/// `NAME_loads.bdf` (Nastran bulk data) or `NAME_loads.inp` (CalculiX, Abaqus), instant by instant.
+/// Load file `NAME_loads.bdf` (Nastran bulk data) or `NAME_loads.inp` (CalculiX, Abaqus), written instant by instant.
 class LoadFile {
  public:
   LoadFile(LoadFormat format, const std::string& path, const LoadHead& head, Eigen::Index instants);
   void add(const LoadInstant& instant);
-  /// Gives the file its name, which is returned.
+  /// Gives the file its final name and returns it.
   std::string publish();
 
  private:
   LoadFormat format_;
   std::string path_;
-  const LoadHead& head_;  ///< lives longer
+  const LoadHead& head_;  ///< outlives this object
   TextFile file_;
   int count_ = 0;
 };
 
-/// "loads at 0.1 s   cancel to ...": a line for the terminal.
+/// Line for the terminal: "loads at 0.1 s   cancel to ...".
 std::string balance_text(const formats::Recovery& recovery, const LoadInstant& instant, const BodyMotion& still);
 
 }  // namespace tisserand::reducer

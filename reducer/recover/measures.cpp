@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// Takes the measures of one more face or end.
+/// Extends the measures by those of another face or end.
 void extend_measures(double von_mises, const Placed& largest, const Placed& smallest, bool first, Measures& measures) {
   const auto worst = static_cast<float>(von_mises);
   if (first || worst > measures.von_mises.value) measures.von_mises = {worst, largest.place};

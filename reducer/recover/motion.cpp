@@ -1,4 +1,4 @@
-// From the rows of a results file to the coordinates of one superelement.
+// Coordinates of one superelement or modal body from the rows of a results file.
 #include "reducer/recover/motion.hpp"
 
 #include <algorithm>
@@ -17,8 +17,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using formats::ResultsLayout;
 
-constexpr double batch_doubles = 4e6;  // of a dataset of the results
-constexpr Index largest_batch = 256;   // of instants: fields of the file are read once for each batch
+constexpr double batch_doubles = 4e6;  // size of a part of a dataset of the results
+constexpr Index largest_batch = 256;   // instants; the fields of the file are read once for each batch
 
 BodyRow find_body(const formats::ResultsReader& results, const std::string& body) {
   const ResultsLayout& layout = results.layout();
@@ -46,7 +46,7 @@ BodyRow find_body(const formats::ResultsReader& results, const std::string& body
   throw Error(fmt::format("holds no superelement '{}'", shown), results.path(), remedy);
 }
 
-/// Nearest stored instants of the times asked for, without repetition.
+/// Nearest stored instants of the requested times, without repetition.
 std::vector<std::size_t> chosen_rows(const std::vector<double>& time, const RecoverRequest& request,
                                      const std::string& where) {
   if (time.empty()) throw Error("holds no instants", where, "run the scene to its end, or store more often");
@@ -84,7 +84,7 @@ std::string content_id_of(const ResultsLayout& layout, const BodyRow& found) {
   return found.row < layout.superelement_content_ids.size() ? layout.superelement_content_ids[found.row] : "";
 }
 
-/// The stored coordinates of the body, in the units of the scene: those that the file has and the body has not are 0.
+/// Stored coordinates of the body in the units of the scene. Coordinates that the body lacks but the file has are 0.
 MatrixXd coordinates(const formats::ResultsReader& results, const std::string& dataset, const BodyRow& found, Index n,
                      const std::vector<std::size_t>& rows) {
   const std::vector<int>& offset = found.is_modal ? results.layout().modal_offset : results.layout().modes_offset;
@@ -104,7 +104,7 @@ MatrixXd coordinates(const formats::ResultsReader& results, const std::string& d
   return y;
 }
 
-/// Motion of the floating frame and its origin, as far as they are stored.
+/// Adds the motion of the floating frame and its origin, if they are stored.
 void add_frame(const formats::ResultsReader& results, const BodyRow& found, const std::vector<std::size_t>& rows,
                BodyMotion& motion) {
   const ResultsLayout& layout = results.layout();
@@ -123,13 +123,13 @@ void add_frame(const formats::ResultsReader& results, const BodyRow& found, cons
   motion.rotation = rotation.middleCols(4 * row, 4).transpose();
 }
 
-/// Whether files of this version hold the strain of superelements with stiffening.
+/// Whether files of this version contain the strain of superelements with stiffening.
 bool knows_strain(const std::string& version) {
   const std::size_t dot = version.find('.');
   return dot == std::string::npos || std::atoi(version.c_str() + dot + 1) >= 10;
 }
 
-/// Number of instants that are read at once: as many as `batch_doubles` holds rows of the widest dataset.
+/// Number of instants to read at once: `batch_doubles` over the width of the widest dataset.
 Index batch_of(const ResultsLayout& layout) {
   const auto last = [](const std::vector<int>& offset) { return offset.empty() ? 0 : offset.back(); };
   const double width = std::max({last(layout.modes_offset), last(layout.modal_offset), 7 * count_of(layout.nodes), 1});
@@ -161,7 +161,7 @@ MotionReader::MotionReader(const formats::Recovery& recovery, const formats::Res
   look_at_all(request);
 }
 
-/// As the results have it: modes that the body has not are zero.
+/// Motion as the results contain it; modes that the body lacks are zero.
 BodyMotion MotionReader::stored(Index first, Index count) const {
   const auto begin = rows_.begin() + first;
   const std::vector<std::size_t> rows(begin, begin + count);

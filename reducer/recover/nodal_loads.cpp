@@ -1,4 +1,4 @@
-// Sums over the internal coordinates and the loads; the boundary follows by virtual work on its shapes.
+// Sums over the internal coordinates and the loads. Boundary forces follow by virtual work on the boundary shapes.
 #include "reducer/recover/nodal_loads.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using formats::Recovery;
 using formats::RecoveryField;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// 3 rows of forces or moments of some nodes, into the rows [from, from + 3) of all.
+/// Adds 3 rows of forces or moments of some nodes to the rows [from, from + 3) of all nodes.
 void put(const VectorXd& values, int first, Index from, NodeForces& all) {
   for (Index i = 0; i < values.size() / 3; ++i) all.col(first + i).segment<3>(from) += values.segment<3>(3 * i);
 }

@@ -1,4 +1,4 @@
-// Forces on the nodes of the unreduced part at one instant, whose static answer is what recovery gives.
+// Forces on the nodes of the unreduced part at one instant, whose static answer is the recovered displacement.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,40 +7,40 @@
 
 namespace tisserand::reducer {
 
-/// [force; moment] of nodes.
+/// [force; moment] of each node.
 using NodeForces = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// In axes of the part as its mesh file has it (also of a mirrored body), units of the recovery file. Their sum is the
-/// stiffness of the part times the recovered displacement, so force and moment cancel:
-///   boundary     S̄ e of the boundary coordinates, less the work of the others on the boundary shapes
+/// Nodal loads in axes of the part as in its mesh file (also for a mirrored body), units of the recovery file. Their
+/// sum is the stiffness of the part times the recovered displacement, so force and moment cancel:
+///   boundary     S̄ e of the boundary coordinates, minus the work of the others on the boundary shapes
 ///   frame        weight and inertia of the moving frame: the twelve loads of RecoveryLoads times their factors
 ///   deformation  S_II φ (e − share f/ω²): inertia of the deformation, and load cases, as far as internal coordinates
-///                hold them
+///                represent them
 struct NodalLoads {
   NodeForces boundary;            ///< boundary nodes
   NodeForces frame, deformation;  ///< nodes of the mesh
 };
 
-/// Computes the loads of one instant. After require_nodal_loads() of the same files.
+/// Loads of one instant. require_nodal_loads() must have accepted the files.
 NodalLoads nodal_loads(const formats::RecoveryReader& file, const BodyMotion& motion, Eigen::Index instant);
 
-/// Throws Error, with the reason: a modal body, a file before version 1.2 or of method macneal, results without the
-/// motion of the frame.
+/// Throws Error with the reason for a modal body, a file before version 1.2 or of method macneal, and results without
+/// the motion of the frame.
 void require_nodal_loads(const formats::RecoveryReader& file, const MotionReader& motion);
 
-/// Resultants about the origin of the part, and how far all of them are from canceling.
+/// Resultants about the origin of the part, and the relative error of their equilibrium.
 struct LoadBalance {
   Eigen::Matrix<double, 6, 1> boundary, frame, deformation, sum;  ///< [force; moment]
   double force_error = 0.0,
-         moment_error = 0.0;            ///< |sum| over the sum of all |forces|, and that times the size of the part
-  double differs = 0.0, largest = 0.0;  ///< of boundary forces from those of the run, and the largest of the run
-  bool compared = false;                ///< the results hold the forces at the boundary nodes
+         moment_error = 0.0;            ///< |sum| over the sum of all |forces|, of all |moments|
+  double differs = 0.0, largest = 0.0;  ///< of boundary forces from those of the run; largest of the run
+  bool compared = false;                ///< the results contain the forces at the boundary nodes
 };
 
 LoadBalance load_balance(const formats::Recovery& recovery, const NodalLoads& loads);
 
-/// Compares forces (no moments) with /superelements/boundary_force of the run. `motion`: instant number `instant` of
-/// `reader` alone. Leaves `compared` false where the results lack them.
+/// Compares forces (not moments) with /superelements/boundary_force of the run. `motion`: instant number `instant` of
+/// `reader` only. `compared` stays false if the results lack them.
 void compare_with_run(const MotionReader& reader, const BodyMotion& motion, Eigen::Index instant,
                       const NodalLoads& loads, LoadBalance& balance);
 

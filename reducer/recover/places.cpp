@@ -1,4 +1,4 @@
-// Names and neighbours.
+// Names and places of nodes and elements, and stress points around nodes.
 #include "reducer/recover/places.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// "x,y,z" as three finite numbers.
+/// Reads "x,y,z" as three finite numbers.
 bool read_position(const std::string& text, Eigen::Vector3d& position) {
   const char* at = text.c_str();
   for (int k = 0; k < 3; ++k) {

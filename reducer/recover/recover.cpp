@@ -1,4 +1,4 @@
-// The story of recovery: results -> coordinates -> fields, batch by batch -> files and the largest values.
+// Recovery: results -> coordinates -> fields, batch by batch -> files and the largest values.
 #include "reducer/recover/recover.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ using formats::VtuCells;
 
 constexpr double batch_bytes = 256e6;
 
-/// All files of one request, named after the body.
+/// Folder and name of all files of one request; the name is that of the body.
 struct Files {
   fs::path folder;
   std::string stem;
@@ -47,7 +47,7 @@ Files make_folder(const RecoverRequest& request, const std::string& body) {
   return files;
 }
 
-/// Texts of the lines that are printed.
+/// Unit labels of the printed lines.
 struct Labels {
   std::string length, time, stress;
 };
@@ -56,13 +56,13 @@ Labels labels_of(const Units& units) {
   return {unit_label(units, 1, 0, 0), unit_label(units, 0, 0, 1), unit_label(units, -1, 1, -2)};
 }
 
-/// "shell 17 of 'skin' (0.025, 0, 0)": the middle of an element of the undeformed body, part frame, units of the scene.
+/// Middle of an element of the undeformed body, part frame, units of the scene: "shell 17 of 'skin' (0.025, 0, 0)".
 std::string element_place(const Recovery& r, const BodyMotion& still, int element) {
   const Eigen::Vector3d middle = still.to_scene.length * still.mirror.cwiseProduct(element_middle(r, element));
   return element_text(r, element) + fmt::format(" ({:.4g}, {:.4g}, {:.4g})", middle.x(), middle.y(), middle.z());
 }
 
-/// "tip (0.3, 0, 0)", likewise.
+/// Likewise for a node: "tip (0.3, 0, 0)".
 std::string node_place(const Recovery& r, const BodyMotion& still, int node) {
   const Eigen::Vector3d place = still.to_scene.length * still.mirror.cwiseProduct(r.position.col(node));
   return printable_line(r.node_label[node], 60) +
@@ -77,7 +77,7 @@ std::string left_out_line(const Recovery& r, const LeftOutStress& stress, const 
       "stress left out by modes", stress.added, after, answered_loads(r), stress.remaining, after);
 }
 
-/// The largest of everything over time: "largest ...   12 Pa at 0.1 s at tip (0.3, 0, 0)".
+/// Lines with the largest values over time: "largest ...   12 Pa at 0.1 s at tip (0.3, 0, 0)".
 std::string peaks_text(const Recovery& r, const MotionReader& motion, const Envelope& envelope) {
   const Labels labels = labels_of(motion.still().scene_units);
   const int beams = r.beams(), shells = beams + r.shells(), all = r.elements.count();
@@ -116,7 +116,7 @@ std::string written_text(std::vector<std::string> paths, const RecoverRequest& r
   return text;
 }
 
-/// Whole fields on the mesh, a file for each instant.
+/// Whole fields on the mesh, one file per instant.
 struct Series {
   const Recovery& r;
   const VtuCells& cells;
@@ -125,7 +125,7 @@ struct Series {
   const Files& files;
   std::vector<std::pair<double, std::string>> written = {};
 
-  /// A batch of instants, the first of which is number `first`.
+  /// Writes a batch of instants, the first of which has number `first`.
   void add(const RecoveredFields& fields, const BodyMotion& motion, Index first) {
     const Eigen::Matrix3Xd places = motion.to_scene.length * (motion.mirror.asDiagonal() * r.position);
     for (Index t = 0; t < motion.instants(); ++t) {
@@ -139,7 +139,7 @@ struct Series {
   }
 };
 
-/// Instants of a batch: whole fields are held of a series only.
+/// Number of instants in a batch; only a series needs whole fields in memory.
 Index batch_of(const Recovery& r, const MotionReader& motion, const RecoverRequest& request) {
   if (request.envelope_only) return motion.batch();
   return std::min(motion.batch(), static_cast<Index>(std::max(batch_bytes / bytes_per_instant(r), 1.0)));
@@ -154,7 +154,7 @@ void require_few_load_cases(const MotionReader& motion) {
       "--loads", fmt::format("choose at most {} with --times 0.1,0.2 or --every", most_load_cases));
 }
 
-/// An instant without any load is one at which nothing acts, or at which the run took the body for rigid.
+/// Throws Error for an instant without any load: nothing acts on the body, or the run took it for rigid.
 void require_some_load(const LoadInstant& instant, const MotionReader& motion) {
   const NodalLoads& loads = instant.loads;
   const bool is_zero = loads.boundary.isZero(0.0) && loads.frame.isZero(0.0) && loads.deformation.isZero(0.0);
@@ -166,7 +166,7 @@ void require_some_load(const LoadInstant& instant, const MotionReader& motion) {
       "--loads", "choose other instants with --times, or run the scene with `flexibility: on`");
 }
 
-/// Load cases of all chosen instants. What is said of them, and the files.
+/// Writes load cases of all chosen instants. Returns the lines about them and adds the files to `written`.
 std::string write_loads(const formats::RecoveryReader& file, const MotionReader& motion, const RecoverRequest& request,
                         const Files& files, std::vector<std::string>& written) {
   if (request.loads.empty()) return "";

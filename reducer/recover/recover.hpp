@@ -7,7 +7,7 @@
 
 namespace tisserand::reducer {
 
-/// Writes the series, its index, the envelope and the histories of points; returns what is told. Throws Error.
+/// Writes the series, its index, the envelope and the histories; returns the printed text. Throws Error.
 std::string recover(const RecoverRequest& request);
 
 }  // namespace tisserand::reducer

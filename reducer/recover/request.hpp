@@ -1,4 +1,4 @@
-// What `reducer recover` is asked for on the command line.
+// Arguments of `reducer recover` on the command line.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace tisserand::reducer {
 
-/// Axes and origin of displacements and positions: those of the world, or of the part at rest in its own frame.
+/// Frame of displacements and positions: the world, or the part at rest in its own frame.
 enum class RecoverFrame { world, part };
 
 /// Programs for which loads are written.
@@ -16,10 +16,10 @@ struct RecoverRequest {
   std::string recovery;               ///< part.recovery.h5
   std::string results;                ///< run.results.h5
   std::string body;                   ///< empty: the only superelement of the results
-  std::string output;                 ///< folder of the files; empty: body.recovered beside the results
-  std::vector<double> times;          ///< the nearest stored instants; empty: all
-  int every = 1;                      ///< only every n-th of them
-  bool envelope_only = false;         ///< no series
+  std::string output;                 ///< folder of the files; empty: body.recovered next to the results
+  std::vector<double> times;          ///< nearest stored instants are used; empty: all
+  int every = 1;                      ///< only every n-th instant
+  bool envelope_only = false;         ///< true: no series
   std::vector<std::string> points;    ///< labels of nodes, or "x,y,z" of the part frame
   std::vector<std::string> elements;  ///< "12", or "group/12"
   std::vector<std::string> groups;    ///< names of groups

@@ -1,4 +1,4 @@
-// Products of fields with coordinates, then what engineers read from them.
+// Products of fields with coordinates, and scalar stress measures.
 #include "reducer/recover/stresses.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double block_doubles = 4e6;  // of the values of a block
 
-/// Of the image: vectors and axes of tensors follow `mirror`, so that xy turns its sign with x or y.
+/// Mirrors vectors, or axes of tensors: xy changes its sign with x or y.
 void mirror_vectors(const Vector3d& mirror, MatrixXf& vectors) {
   for (Index i = 0; i < vectors.rows(); ++i)
     if (mirror[i % 3] < 0.0) vectors.row(i) *= -1.0f;
@@ -47,7 +47,7 @@ void add_solids(RecoveredFields& out) {
           static_cast<float>(von_mises(out.solid_stress.col(t).segment<6>(6 * p).cast<double>()));
 }
 
-/// Forces of the recovery file in its units -> stresses there, then forces to those of the scene.
+/// Computes stresses from beam forces in units of the recovery file, then converts the forces to units of the scene.
 void add_beams(const formats::Recovery& recovery, const UnitConversion& to, RecoveredFields& out) {
   const double stress_factor = to.force() / (to.length * to.length);
   const Index beams = recovery.beams(), instants = out.beam_force.cols();

@@ -12,30 +12,30 @@
 
 namespace tisserand::reducer {
 
-/// At T instants, units of the scene, axes of the body's part frame (of the image, where it is mirrored). 32-bit
-/// numbers, as the fields are.
+/// Fields at T instants, units of the scene, axes of the body's part frame (of the image, if it is mirrored), 32-bit
+/// numbers as in the file.
 struct RecoveredFields {
   Eigen::MatrixXf displacement;     ///< 3 V x T, relative to the floating frame
   Eigen::MatrixXf beam_force;       ///< 12 beams x T
-  Eigen::MatrixXf beam_stress;      ///< beams x T: largest |normal stress| on the outlines at both ends
+  Eigen::MatrixXf beam_stress;      ///< beams x T: largest |normal stress| on the outlines of both ends
   Eigen::MatrixXf shell_stress;     ///< 6 shells x T: membrane and bending, [xx yy xy] each, shell axes
-  Eigen::MatrixXf shell_von_mises;  ///< 2 shells x T: on the face of the normal, on the other
+  Eigen::MatrixXf shell_von_mises;  ///< 2 shells x T: face of the normal, then the other
   Eigen::MatrixXf solid_stress;     ///< 6 stress points x T: [xx yy zz xy yz zx]
   Eigen::MatrixXf solid_von_mises;  ///< stress points x T
 };
 
-/// What engineers read from displacements, forces and stresses that are there: the largest normal stresses of beams,
-/// von Mises stresses. Forces of beams become those of the units that `to` leads to, stresses have them already.
+/// Computes the largest normal stresses of beams and von Mises stresses from the fields present. Beam forces are
+/// converted by `to`; stresses are already in these units.
 void derive_stresses(const formats::Recovery& recovery, const UnitConversion& to, RecoveredFields& fields);
 
 /// Items [first, first + count) of a field at the instants of a motion: width · count x T, axes of the image, units of
-/// the scene, forces of beams those of the recovery file.
+/// the scene. Beam forces are in units of the recovery file.
 struct FieldBlock {
   formats::RecoveryField field;
   int first = 0, count = 0;
   Eigen::MatrixXf values;
 
-  /// The values of item first + i at an instant.
+  /// Values of item first + i at an instant.
   template <int Width>
   Eigen::Matrix<float, Width, 1> item(Eigen::Index i, Eigen::Index instant) const {
     return values.col(instant).template segment<Width>(Width * i);
@@ -43,15 +43,15 @@ struct FieldBlock {
 };
 using BlockListener = std::function<void(const FieldBlock& block)>;
 
-/// Translations, forces of beams and stresses at all instants of `motion`, which are some hundred at most: each field
-/// is read once, in blocks of some ten megabytes.
+/// Calls `listener` with translations, beam forces and stresses at all instants of `motion` (some hundred at most).
+/// Each field is read once, in blocks of some ten megabytes.
 void for_field_blocks(const formats::RecoveryReader& file, const BodyMotion& motion, const BlockListener& listener);
 
-/// All of them at once. `listener` hears of the blocks.
+/// All fields in memory. `listener` receives the blocks.
 RecoveredFields recover_fields(const formats::RecoveryReader& file, const BodyMotion& motion,
                                const BlockListener& listener);
 
-/// Bytes per instant that recover_fields() returns.
+/// Size of the result of recover_fields() in bytes per instant.
 double bytes_per_instant(const formats::Recovery& recovery);
 
 /// Largest |normal stress| on the outline for [N Vy Vz Mx My Mz] about the axis (RECOVERY.md); 0 without an area.

@@ -1,4 +1,4 @@
-// Values on all cells and points, zero where a kind has none.
+// Values on all cells and points, zero for kinds without them.
 #include "reducer/recover/vtu_data.hpp"
 
 #include <utility>
@@ -11,7 +11,7 @@ using formats::VtuArray;
 
 namespace {
 
-/// Values of one kind of elements, whose cells follow one another.
+/// Values of one kind of elements, whose cells are contiguous.
 struct KindField {
   const Eigen::MatrixXf& all;  ///< rows per element x instants
   int rows = 0;
@@ -25,7 +25,7 @@ std::vector<VtuArray> vtu_cell_data(const Recovery& r, const RecoveredFields& fi
   const auto cells = static_cast<std::size_t>(r.elements.count());
   VtuArray group{"group", 1, {r.elements.group.begin(), r.elements.group.end()}};
   std::vector<VtuArray> data{{"von_mises", 1, values.von_mises}, group};
-  /// Rows [from, from + width) of each element; zero for other kinds.
+  /// Adds rows [from, from + width) of each element; other kinds get zero.
   const auto add = [&](const char* name, const KindField& field, int from, int width) {
     VtuArray array{name, width, std::vector<float>(cells * static_cast<std::size_t>(width))};
     for (Index item = 0; item < field.all.rows() / field.rows; ++item)

@@ -11,7 +11,7 @@ namespace tisserand::reducer {
 std::vector<formats::VtuArray> vtu_cell_data(const formats::Recovery& recovery, const RecoveredFields& fields,
                                              const InstantValues& values, Eigen::Index instant);
 
-/// `axes`: in which displacements are told.
+/// Arrays of points and cells. `axes`: axes of the displacements.
 std::vector<formats::VtuArray> vtu_point_data(const formats::Recovery& recovery, const RecoveredFields& fields,
                                               const InstantValues& values, const Eigen::Matrix3d& axes,
                                               Eigen::Index instant);
