@@ -1,4 +1,4 @@
-// Frequencies, condition numbers and massless directions from S̄ and M̄ alone.
+// Frequencies, condition numbers and massless directions from S̄ and M̄ only.
 #include "reducer/report/certificate.hpp"
 
 #include <algorithm>
@@ -19,10 +19,10 @@ namespace tisserand::reducer {
 namespace {
 
 constexpr double massless_limit = 1e-12;    ///< share of the largest eigenvalue of the scaled M̄
-constexpr double unresisted_limit = 1e-13;  ///< the same of S̄
+constexpr double unresisted_limit = 1e-13;  ///< likewise for S̄
 constexpr int most_frequencies = 20;
 
-/// Rotations divided by the characteristic length: entries of one unit.
+/// Scale of the rows, by which rotations are divided by the characteristic length: entries of one unit.
 Eigen::VectorXd row_scale(const formats::Superelement& element, double length) {
   return Eigen::VectorXd::NullaryExpr(element.size(), [&](Eigen::Index i) {
     return element.dof_node[i] >= 0 && element.dof_component[i] >= 3 ? 1.0 / length : 1.0;
@@ -52,26 +52,26 @@ std::vector<double> fixed_frequencies(const formats::Superelement& element) {
   return result;
 }
 
-/// Internal coordinates without any stiffness: mechanisms that a part has on purpose.
+/// Number of internal coordinates without stiffness: mechanisms that a part has on purpose.
 int mechanisms_of(const formats::Superelement& element) {
   int count = 0;
   for (const int row : internal_rows(element)) count += element.stiffness.row(row).isZero(0.0) ? 1 : 0;
   return count;
 }
 
-/// The elastic ones among the lowest, behind `rigid` without stiffness.
+/// Elastic frequencies among the lowest, after `rigid` without stiffness.
 std::vector<double> free_frequencies(const formats::Superelement& element, int massless, int rigid) {
   const int count = std::min(count_of(element) - massless, rigid + most_frequencies);
   if (count <= rigid) return {};
   const Eigen::VectorXd lambda = free_eigenvalues(element.stiffness, element.mass, count, rigid);
   std::vector<double> result;
-  constexpr double resolved = 1e13;  // eigenvalues farther above the first are round-off
+  constexpr double resolved = 1e13;  // larger multiples of the first are round-off
   for (Eigen::Index k = rigid; k < lambda.size() && lambda[k] > 0.0 && lambda[k] < resolved * lambda[rigid]; ++k)
     result.push_back(frequency(lambda[k]));
   return result;
 }
 
-/// Whether the rigid part lacks mass or inertia in some direction.
+/// Whether the rigid part has no mass or inertia in some direction.
 bool rigid_motion_without_mass(const formats::Superelement& element, const formats::SuperelementReport& report) {
   Eigen::MatrixXd R = formats::rigid_motions(element, report.rigid.center_of_mass);
   R.rightCols<3>() /= report.characteristic_length;
@@ -79,7 +79,7 @@ bool rigid_motion_without_mass(const formats::Superelement& element, const forma
   return M.eigenvalues()[0] < massless_limit * M.eigenvalues()[5];
 }
 
-/// Nothing unless internal coordinates are modes: M_II = 1 and S_BI = 0.
+/// Sets the effective masses if internal coordinates are modes: M_II = 1 and S_BI = 0.
 void find_effective_masses(const formats::Superelement& element, FileCertificate& c) {
   const std::vector<int> rows = internal_rows(element);
   const auto m = static_cast<Eigen::Index>(rows.size());

@@ -1,4 +1,4 @@
-// The certificate as JSON beside the superelement file and as text for people.
+// Certificate as JSON next to the superelement file, and as text for users.
 #include <algorithm>
 #include <cmath>
 #include <concepts>
@@ -61,8 +61,8 @@ std::vector<double> numbers_or_unknown(const json& list) {
   return values;
 }
 
-/// The list of the fields of a certificate, for writing and for reading. `later`: files of former versions lack the
-/// field. `unknown`: some of its numbers may be NaN.
+/// The fields of a certificate, listed once for writing and reading. `later`: files of older versions lack the field.
+/// `unknown`: some of its numbers may be NaN.
 template <class C, class Type>
 concept Is = std::same_as<std::remove_const_t<C>, Type>;
 
@@ -190,7 +190,7 @@ json import_json(const ImportCertificate& c) {
           {"massless_dropped", c.massless_dropped}};
 }
 
-/// What every certificate begins with.
+/// First fields of every certificate.
 json base_json(const formats::Superelement& element, const FileCertificate& file) {
   return {{"format", "tisserand-certificate"},
           {"content_id", element.content_id},
@@ -199,7 +199,7 @@ json base_json(const formats::Superelement& element, const FileCertificate& file
           {"file", file_json(file)}};
 }
 
-/// Values below 1e-12 of the largest are round-off and shown as 0.
+/// Value, or 0 if it is below 1e-12 of the largest, which is round-off.
 double clean(double value, double largest) { return std::abs(value) < 1e-12 * largest ? 0.0 : value; }
 
 std::string rigid_text(const char* source, const formats::RigidProperties& rigid, double length, const Units& units) {
@@ -214,14 +214,14 @@ std::string rigid_text(const char* source, const formats::RigidProperties& rigid
   return text;
 }
 
-/// The error by dropped modes; where it is not known within a factor of two what it is at most.
+/// Truncation error, or its bound if the error is not known within a factor of two.
 std::string estimate_text(const ModelCertificate& model, const FileCertificate& file, std::size_t k) {
   if (std::isfinite(model.truncation_estimate[k])) return fmt::format("{:.1e}", model.truncation_estimate[k]);
   const bool bounded = k < file.free_frequency.size() && model.truncation_lower[k] > 0.0;
   return bounded ? fmt::format("<{:.1e}", file.free_frequency[k] / model.truncation_lower[k] - 1.0) : "unknown";
 }
 
-/// `model`: of the full part where that is small, and what dropped modes may cause.
+/// Table of frequencies. `model`: of the full part if that is small, and the truncation error.
 std::string frequency_table(const FileCertificate& file, const std::optional<ModelCertificate>& model,
                             const Units& units) {
   const std::size_t count = std::max(file.fixed_frequency.size(), file.free_frequency.size());
@@ -230,7 +230,7 @@ std::string frequency_table(const FileCertificate& file, const std::optional<Mod
   const std::vector<double>& full = model ? model->free_frequency : none;
   const std::vector<double>& estimate = model ? model->truncation_estimate : none;
   const std::string unit = frequency_unit(units);
-  // Behind the modes with the boundary held stand values that are no modes of the part.
+  // Values after the modes with the boundary held are no modes of the part.
   const std::size_t modes = !model ? count : model->free_modes ? 0 : static_cast<std::size_t>(model->mechanisms + model->modes_kept);
   std::string text = fmt::format("frequencies [{}]\n  {:>4} {:>16} {:>16} {:>16} {:>10} {:>10}\n", unit, "mode",
                                  "boundary fixed", "free, reduced", full.empty() ? "" : "free, full",
@@ -254,8 +254,8 @@ std::string frequency_table(const FileCertificate& file, const std::optional<Mod
   return text;
 }
 
-/// Shares of mass and inertia in per cent: of the ten first modes with one per cent in some direction, of all, and
-/// left.
+/// Shares of mass and inertia in per cent: of the first ten modes with one per cent in some direction, their sum, and
+/// the rest.
 std::string effective_mass_text(const FileCertificate& c) {
   if (c.participation.empty()) return "";
   std::string text = fmt::format("effective mass of the held part [%]\n  {:>4} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
@@ -284,16 +284,16 @@ std::string effective_mass_text(const FileCertificate& c) {
   return text;
 }
 
-/// Of each mode with all full modes of its frequency (within 0.1 %), so that double modes may be turned.
+/// Assurance of each mode with all full modes of its frequency (within 0.1 %), because double modes may be turned.
 std::string assurance_text(const FileCertificate& file, const ModelCertificate& c) {
   double least = 2.0;
   std::size_t worst = 0;
-  // Above the first dropped mode nobody expects the reduced part to have the modes of the full one.
+  // Above the first dropped mode the reduced part need not have the modes of the full one.
   const double end = c.first_dropped_frequency.value_or(std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < std::min(c.assurance.size(), file.free_frequency.size()); ++k) {
     if (file.free_frequency[k] > end) break;
     if (k >= c.assurance[0].size()) break;
-    // Modes may change their order: the one that it is most like, with those of the same frequency.
+    // The order of modes may change: take the most similar one, with those of the same frequency.
     std::size_t like = 0;
     for (std::size_t i = 0; i < c.assurance.size(); ++i)
       if (c.assurance[i][k] > c.assurance[like][k]) like = i;
@@ -321,7 +321,7 @@ std::string modal_body_text(const ModalBodyCertificate& c, double length, const 
          rigid_text("lumped masses", c.rigid, length, units);
 }
 
-/// Kinds of elements, ties, and coordinates without stiffness and mass; nothing for parts of beams alone.
+/// Kinds of elements, ties, and coordinates without stiffness and mass; empty for parts of beams only.
 std::string contents_text(const ModelCertificate& c) {
   std::vector<std::string> kinds;
   for (const auto& [count, name] : {std::pair{c.beams, "beams"},
@@ -340,7 +340,7 @@ std::string contents_text(const ModelCertificate& c) {
   return text;
 }
 
-/// Which vectors the inside moves by.
+/// Internal vectors of the part and their number.
 std::string modes_text(const ModelCertificate& c, const std::string& unit) {
   const std::string first =
       c.first_dropped_frequency ? fmt::format(" at {:.8g} {}", *c.first_dropped_frequency, unit) : std::string();
@@ -357,7 +357,7 @@ std::string modes_text(const ModelCertificate& c, const std::string& unit) {
   return text + "\n";
 }
 
-/// Of the lowest frequencies, in per cent.
+/// Discretisation errors of the lowest frequencies, in per cent.
 std::string mesh_text(const MeshCertificate& c) {
   if (c.error.empty()) return "";
   std::vector<std::string> words;
@@ -365,7 +365,7 @@ std::string mesh_text(const MeshCertificate& c) {
     words.push_back(std::isfinite(error) ? fmt::format("{:+.3g} %", 100.0 * error) : "unknown");
   std::string text = fmt::format("{:<19}{} of the lowest {} frequencies (estimate; +: too high)\n",
                                  "error of the mesh", listed(words), c.boundary_held ? "fixed" : "free");
-  std::map<std::string, std::vector<std::string>> modes;  // by reason
+  std::map<std::string, std::vector<std::string>> modes;  // key: reason
   for (std::size_t k = 0; k < c.unknown.size(); ++k)
     if (!c.unknown[k].empty()) modes[c.unknown[k]].push_back(fmt::format("{}", k + 1));
   for (const auto& [reason, list] : modes)
@@ -418,7 +418,7 @@ std::optional<ModelCertificate> read_certificate(const std::string& superelement
     model.content_id = content_id;
     return model;
   } catch (const json::exception&) {
-    return std::nullopt;  // not a certificate of ours: the file alone is shown
+    return std::nullopt;  // not a certificate of this program: only the file is shown
   }
 }
 

@@ -1,4 +1,4 @@
-// Pictures of the certificate by gnuplot, and HTML around them.
+// Pictures of the certificate by gnuplot, and the HTML around them.
 #include "reducer/report/certificate_page.hpp"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ std::string safe(const std::string& text) {
   return result;
 }
 
-/// What gnuplot draws, or what is in the way.
+/// Picture by gnuplot, or the reason why there is none.
 std::string picture(int width, int height, const std::string& script) {
   try {
     const std::string text =
@@ -67,17 +67,17 @@ std::string picture(int width, int height, const std::string& script) {
   }
 }
 
-/// Named data of gnuplot, one line per row.
+/// Named data block of gnuplot, one line per row.
 std::string data_block(const std::string& name, const std::vector<std::string>& rows) {
   return fmt::format("${} << EOD\n{}\nEOD\n", name, join(rows, "\n"));
 }
 
-/// An axis of the modes 1 to `modes`, whose numbers are few enough that they do not touch.
+/// Axis of the modes 1 to `modes`, with so few numbers that they do not touch.
 std::string mode_axis(std::size_t modes) {
   return fmt::format("set xrange [0.5:{}.5]\nset xtics 1,{}\n", modes, std::max<std::size_t>(1, (modes + 5) / 6));
 }
 
-/// Frequencies of the reduced part with the interval that holds the full part's, widened by the error of the mesh.
+/// Frequencies of the reduced part with the enclosure of the full part's, widened by the discretisation error.
 std::string frequencies(const FileCertificate& file, const ModelCertificate& model, const std::string& unit) {
   double most = 0.0;
   std::vector<std::string> rows, held;
@@ -107,7 +107,7 @@ std::string frequencies(const FileCertificate& file, const ModelCertificate& mod
                      "$free using 1:2:3:4 with yerrorbars pt 7 ps 0.5 lc rgb '#0060ad' title 'free'\n");
 }
 
-/// Errors by the mesh and by dropped modes, one above the other on one scale.
+/// Discretisation and truncation errors, one above the other on one scale.
 std::string errors(const ModelCertificate& model) {
   std::vector<std::string> dropped, mesh;
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
@@ -145,7 +145,7 @@ std::string errors(const ModelCertificate& model) {
                      join(plots, ", ") + "\n");
 }
 
-/// One picture per direction, side by side: the share of each mode and their sum.
+/// One picture per direction, next to one another: the share of each mode and their sum.
 std::string effective_masses(const FileCertificate& c) {
   if (c.participation.empty()) return "";
   constexpr std::size_t most_drawn = 100;

@@ -1,4 +1,4 @@
-// `reducer show -o certificate.html`: the certificate as one page with pictures.
+// `reducer show -o certificate.html`: the certificate as a page with pictures.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace tisserand::reducer {
 
-/// Self-contained HTML: frequencies with their enclosures, errors of the mesh and of dropped modes, effective masses,
-/// modal assurance, and the text of the certificate. Pictures are drawn by gnuplot; without it the page says so.
+/// Self-contained HTML: frequencies with their enclosures, discretisation and truncation errors, effective masses,
+/// modal assurance, and the text of the certificate. gnuplot draws the pictures; if it is missing, the page says so.
 std::string certificate_page(const formats::Superelement& element, const FileCertificate& file,
                              const std::optional<ModelCertificate>& model);
 

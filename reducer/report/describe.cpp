@@ -1,4 +1,4 @@
-// Figures from every stage of a reduction.
+// Data of the certificate from every stage of a reduction.
 #include "reducer/report/describe.hpp"
 
 #include <cmath>
@@ -32,7 +32,7 @@ std::vector<double> frequencies(const Eigen::VectorXd& lambda) {
 
 void describe_truncation(const formats::Superelement& element, const InternalModes& internal, ModelCertificate& c) {
   if (!std::isfinite(internal.left_out.first_dropped) || internal.boundary_mass.size() > 0)
-    return;  // no bound of MacNeal's method
+    return;  // MacNeal's method has no bound
   try {
     const TruncationErrors errors =
         truncation_errors(element.stiffness, element.mass, internal.left_out, most_estimated);
@@ -42,12 +42,12 @@ void describe_truncation(const formats::Superelement& element, const InternalMod
     c.truncation_lower = frequencies(errors.lower);
     c.truncation_upper = frequencies(errors.upper);
   } catch (const Error&) {
-    return;  // some motion has neither stiffness nor mass: there are no free frequencies (FileCertificate)
+    return;  // without free frequencies if a motion has neither stiffness nor mass (FileCertificate)
   }
 }
 
-/// "give it a smaller `size`": what makes the mesh of a kind of element finer, in the words of part.yaml. A mesh that
-/// another program made is refined there.
+/// Remedy that refines the mesh of a kind of element, in the words of part.yaml: "give it a smaller `size`". A mesh
+/// from another program is refined there.
 std::string remedy_for(const formats::Part& part, Eigen::Index kind) {
   if (!part.mesh.file.empty() && !is_geometry(mesh_file_kind(part.mesh.file, part.mesh.where)))
     return fmt::format("refine {} in the program that made it{}",
@@ -60,7 +60,7 @@ std::string remedy_for(const formats::Part& part, Eigen::Index kind) {
 
 constexpr double usual_limit = 0.05;
 
-/// One warning for each reason for which errors are unknown that may exceed the limit.
+/// Warns once for each reason for unknown errors that may exceed the limit.
 void warn_of_unknown(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c) {
   const auto& accuracy = part.modes.accuracy;
   const double limit = accuracy ? accuracy->error : usual_limit;
@@ -79,7 +79,7 @@ void warn_of_unknown(const formats::Part& part, const MeshErrors& errors, ModelC
         100.0 * limit, explain(doubt), remedy_for(part, doubt == MeshDoubt::free_faces ? 2 : 1)));
 }
 
-/// One warning, of the worst mode among those that matter.
+/// Warns once, about the worst of the relevant modes.
 void warn_of_mesh(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c) {
   const auto& accuracy = part.modes.accuracy;
   const double limit = accuracy ? accuracy->error : usual_limit;

@@ -1,4 +1,4 @@
-// What a reduction tells of itself: the figures of the certificate, and doubts about the mesh.
+// Data of the certificate, and warnings about the mesh.
 #pragma once
 
 #include <string>
@@ -10,31 +10,31 @@
 
 namespace tisserand::reducer {
 
-/// Modes asked for and kept, defects before they were removed, what the dropped modes can change of the free
+/// Numbers of requested and kept modes, defects before they were removed, and the effect of dropped modes on the free
 /// frequencies of the superelement.
 ModelCertificate describe(const formats::Part& part, const ReducedPart& reduced, const ProjectionDefects& defects);
 
-/// Counts of nodes, elements and ties.
+/// Adds the numbers of nodes, elements and ties.
 void describe_mesh(const Mesh& mesh, const System& system, ModelCertificate& c);
 
-/// The lowest modes of the reduced part: beside those of the full model for parts that are small enough to compute them
-/// as well (up to 6000 coordinates, where that takes no longer than the rest), and the errors of the mesh with a
-/// warning where one exceeds the accuracy asked for, or 5 % if none is.
+/// Adds the lowest modes of the reduced part. Up to 6000 coordinates they are compared with those of the full model,
+/// which takes no longer than the rest. It also adds discretisation errors, with a warning if one exceeds the requested
+/// accuracy, or 5 % without such a request.
 void describe_lowest_modes(const formats::Part& part, const ReducedPart& reduced, ModelCertificate& c);
 
-/// What is doubtful about the mesh; `numbers`: of the plausibility of its numbers alone.
+/// Warnings about the mesh; `numbers`: those about implausible numbers only.
 struct Doubts {
   std::vector<std::string> all;
   std::vector<std::string> numbers;
 };
 
-/// Throws Error for nodes that nothing uses, pieces that nothing connects, elements of bad shape.
+/// Checks the elements. Throws Error for nodes that nothing uses, pieces that nothing connects, elements of bad shape.
 Doubts check_elements(const Mesh& mesh, const formats::Part& part);
 
-/// The same, and for a boundary that does not hold the part.
+/// Checks elements and boundary. Throws Error also for a boundary that does not hold the part.
 Doubts check_mesh(const Mesh& mesh, const formats::Part& part);
 
-/// Throws Error for a part without mass.
+/// Rigid properties. Throws Error for a part without mass.
 formats::RigidProperties require_mass(const System& system, const std::string& where);
 
 }  // namespace tisserand::reducer

@@ -1,4 +1,4 @@
-// Need and supply of memory.
+// Required and available memory.
 #include "reducer/report/memory.hpp"
 
 #include <sys/resource.h>
@@ -19,7 +19,7 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double gigabyte = 1e9;
 
-/// A number of bytes that stands alone in a file of the kernel; without the file or with a word in it: no limit.
+/// Number of bytes in a file of the kernel; infinite without the file or with a word in it.
 double number_in(const std::string& path) {
   std::ifstream file(path);
   double value = 0.0;
@@ -48,7 +48,7 @@ double of_limits() {
   return static_cast<double>(limit.rlim_cur) - 4096.0 * pages;
 }
 
-/// How many vectors that are no modes there may be, which are held four times while they are made.
+/// Upper limit of the number of vectors that are not modes, which are held four times while they are made.
 int ritz_vectors(const formats::ModeSelection& modes, const Partition& p) {
   constexpr int rigid = 6;
   if (modes.method != formats::ReductionMethod::craig_bampton) return modes.count + rigid;
@@ -56,15 +56,15 @@ int ritz_vectors(const formats::ModeSelection& modes, const Partition& p) {
   return modes.moments ? std::min(*modes.moments, most) : modes.accuracy ? most : 0;
 }
 
-/// Of shapes, whose forces are held four times too, when the modes are done (trapped_energy()).
+/// Number of pairs of shapes, whose forces are also held four times, after the modes (trapped_energy()).
 int pairs_of(int shapes) { return shapes * (shapes + 1) / 2; }
 
-/// ", about 12 s" for so many operations by the rate of a product of dense matrices on this machine; nothing below 2 s.
+/// Text ", about 12 s" for a number of operations, by the rate of a dense matrix product; empty below 2 s.
 std::string time_text(double operations) {
   constexpr double quick = 1e10, told = 2.0;
   if (operations < quick) return "";
   constexpr Eigen::Index n = 384;
-  constexpr double share_of_rate = 0.65;  // measured of supernodal factorisations
+  constexpr double share_of_rate = 0.65;  // as measured for supernodal factorisations
   const Eigen::MatrixXd A = Eigen::MatrixXd::Constant(n, n, 0.5);
   Eigen::MatrixXd B(n, n);
   double best = std::numeric_limits<double>::infinity();
@@ -79,7 +79,7 @@ std::string time_text(double operations) {
 
 constexpr double number = 8.0;  ///< bytes
 
-/// Vectors that the search for `modes` pairs holds: its basis, and a block of solutions with what they need.
+/// Number of vectors in the search for `modes` pairs: its basis, and a block of solutions with their working memory.
 double search_vectors(const Partition& p, int modes) {
   constexpr double blocks = 8.0 * 8.0;
   return std::min(static_cast<double>(p.n_I()), 2.0 * modes + 80.0) + blocks;
@@ -115,7 +115,7 @@ Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Pa
   if (p.n_I() == 0) return {};
   Factor factor(blocks.S_II, [&](const FactorCost& cost) {
     const SymmetricRows rows = symmetric_rows(blocks.S_II);
-    const double here = static_cast<double>(ranks_beside_leader()) / rank_count();  // of a factor that is shared
+    const double here = static_cast<double>(ranks_beside_leader()) / rank_count();  // share of a spread factor
     const double need = memory_need({here * cost.entries, cost.operations}, rows.begin[rows.size], p, part.modes.count,
                                     std::max(ritz_vectors(part.modes, p), pairs_of(part.double_curvature)));
     const double available = available_memory();

@@ -1,4 +1,4 @@
-// Memory of a reduction, told and compared with what there is before the large part of it is taken.
+// Memory of a reduction, reported and compared with the available memory before most of it is allocated.
 #pragma once
 
 #include <string>
@@ -10,24 +10,24 @@
 
 namespace tisserand::reducer {
 
-/// Bytes that factorisation and modes take beyond the matrices: the factor, one permuted copy of S_II while it is made,
-/// then boundary modes, the basis of the iteration for `modes` modes, blocks of solutions, and `ritz_vectors` four
-/// times.
+/// Bytes of factorisation and modes in addition to the matrices: the factor, and a permuted copy of S_II while it is
+/// made, later boundary modes, the basis of the iteration for `modes` modes, blocks of solutions, and `ritz_vectors`
+/// four times.
 double memory_need(const FactorCost& cost, double stored_entries, const Partition& p, int modes, int ritz_vectors);
 
-/// Bytes that a program may still take: of the machine, of its control group, of its limits.
+/// Bytes that a program may still allocate, by the machine, its control group and its limits.
 double available_memory();
 
 /// Throws Error if `need` exceeds `available` bytes.
 void require_memory(double need, double available, const Partition& p, const std::string& where);
 
-/// Throws Error if the vectors of a search for so many modes do not fit, now that the factor is there: how many a
-/// cut-off or an accuracy takes is known late.
+/// Throws Error if the vectors of a search for `modes` modes do not fit next to the factor. The number of modes for a
+/// cut-off or an accuracy is not known earlier.
 void require_memory_of_modes(int modes, const Partition& p, const std::string& where);
 
-/// Factors S_II after its memory has been found to suffice; begins the phase "factorisation (1.2 GB, about 12 s)",
-/// which tells the need, and the time where it is seconds. Half a gigabyte and more is told at once. Of a part without
-/// inside: an empty factor.
+/// Factors S_II after a check of the memory. Begins the phase "factorisation (1.2 GB, about 12 s)", whose name has the
+/// memory and, from 2 s on, the time. Half a gigabyte or more is reported at once. For a part without inside: an empty
+/// factor.
 Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Part& part, const PhaseListener& begin);
 
 }  // namespace tisserand::reducer

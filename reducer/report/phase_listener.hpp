@@ -1,4 +1,4 @@
-// What a reduction tells while it runs.
+// Progress reports of a reduction.
 #pragma once
 
 #include <functional>
@@ -7,15 +7,15 @@
 
 namespace tisserand::reducer {
 
-/// Hears when a phase begins, by its name, how much of it is done, when substitutions with the factor of the inside
-/// begin and end, and lines for the user at once: the caller measures time and shows progress.
+/// Receives the name of each phase when it begins, the share of it that is done, begin and end of substitutions with
+/// the factor of the inside, and lines for immediate output. The caller measures time and shows progress.
 struct PhaseListener {
   template <class Begin>
   PhaseListener(Begin heard) : begin(std::move(heard)) {}
   void operator()(const std::string& phase) const { begin(phase); }
 
   std::function<void(const std::string& phase)> begin;
-  std::function<void(double)> share = [](double /*done*/) {};  ///< 0 to 1, about
+  std::function<void(double)> share = [](double /*done*/) {};  ///< approximately, 0 to 1
   std::function<void(int)> solve;                              ///< Factor::tell_solutions
   std::function<void(const std::string&)> tell = [](const std::string& /*line*/) {};
 };

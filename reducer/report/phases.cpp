@@ -1,4 +1,4 @@
-// Time and memory per phase and the thread that reports long ones.
+// Time and memory per phase, and the thread that reports long phases.
 #include "reducer/report/phases.hpp"
 
 #include <sys/resource.h>
@@ -17,14 +17,14 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The most that this process has held at one time (Linux counts in 1024 bytes).
+/// Peak memory of this process (Linux counts in 1024 bytes).
 double peak_bytes() {
   rusage usage{};
   return getrusage(RUSAGE_SELF, &usage) == 0 ? 1024.0 * static_cast<double>(usage.ru_maxrss) : 0.0;
 }
 
-/// Phases by name in the order of their beginnings, times of equal ones added, peaks the last: a phase goes on when
-/// another is over.
+/// Phases by name in the order of their beginnings. Times of equal names are added and the latest peak counts, because
+/// a phase may continue after another.
 template <class Phase>
 std::vector<Phase> merged(const std::vector<Phase>& phases) {
   std::vector<Phase> list;
@@ -41,7 +41,7 @@ std::vector<Phase> merged(const std::vector<Phase>& phases) {
   return list;
 }
 
-/// "mesh 0.010 s, ..., total 0.310 s".
+/// Times as text: "mesh 0.010 s, ..., total 0.310 s".
 template <class Phase>
 std::string listed_times(const std::vector<Phase>& phases, double Phase::*seconds) {
   std::string text;
@@ -53,7 +53,7 @@ std::string listed_times(const std::vector<Phase>& phases, double Phase::*second
   return text + fmt::format("total {:.3f} s", total);
 }
 
-/// ", 40 %, about 12 s to go", nothing where too little is known.
+/// Text ", 40 %, about 12 s to go"; empty if too little is done for an estimate.
 std::string rest_text(double share, double gone) {
   constexpr double known = 0.03;
   if (!(share > known && share < 1.0)) return "";

@@ -1,4 +1,4 @@
-// Time and memory per phase of a reduction, and a sign of life on stderr when one takes longer than a second.
+// Time and memory per phase of a reduction, and progress on stderr if one takes longer than a second.
 #pragma once
 
 #include <chrono>
@@ -10,8 +10,8 @@
 
 namespace tisserand::reducer {
 
-/// A phase ends when the next begins, and goes on when one of its name begins. A watching thread reports a phase after
-/// its first second, then ever more rarely.
+/// Phases of a reduction. A phase ends when the next begins, and continues when one of its name begins. A watching
+/// thread reports a phase after its first second, then less and less often.
 class Phases {
  public:
   Phases();
@@ -20,20 +20,20 @@ class Phases {
   Phases& operator=(const Phases&) = delete;
 
   void begin(const std::string& name);
-  /// How much of the phase is done, 0 to 1: the line then says how long it will still take.
+  /// Sets the share of the phase that is done, 0 to 1, from which the progress line estimates the remaining time.
   void share(double done);
-  /// `columns` > 0: so many are solved from now on with the factor of the inside; 0: until now.
+  /// `columns` > 0: begin of the solution for so many columns with the factor of the inside; 0: its end.
   void solve(int columns);
   void end();
-  /// "mesh 0.010 s, assembly 0.021 s, ..., total 0.310 s" by the clock.
+  /// Wall-clock times: "mesh 0.010 s, assembly 0.021 s, ..., total 0.310 s".
   std::string text() const;
-  /// The same of the processor, all threads together.
+  /// Processor times, summed over all threads, in the same form.
   std::string processor_text() const;
-  /// "mesh 61 MB, assembly 102 MB, ...": the most that the process has held until the end of each phase.
+  /// Peak memory of the process up to the end of each phase: "mesh 61 MB, assembly 102 MB, ...".
   std::string memory_text() const;
-  /// How many columns were solved in all.
+  /// Total number of solved columns.
   int columns() const;
-  /// "126 columns 0.512 s" by the processor, all phases together.
+  /// Processor time of solutions in all phases: "126 columns 0.512 s".
   std::string solutions_text() const;
 
  private:
@@ -54,7 +54,7 @@ class Phases {
   double solving_since_ = 0.0;
   double solving_seconds_ = 0.0;
   bool running_ = false;   ///< the last phase has not ended
-  bool finished_ = false;  ///< the watching thread shall end
+  bool finished_ = false;  ///< the watching thread must end
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::thread watcher_;

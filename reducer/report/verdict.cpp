@@ -1,4 +1,4 @@
-// From errors of frequencies to a sentence.
+// Sentence about the errors of frequencies.
 #include "reducer/report/verdict.hpp"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ std::string unknown_text(const FrequencyError& error, const std::string& unit) {
                      std::isfinite(error.mesh) ? "by dropped modes" : "of the mesh", error.frequency, unit);
 }
 
-/// What the part asks for.
+/// Verdict by the accuracy that the part requests.
 std::string asked_text(const std::vector<FrequencyError>& errors, const formats::Accuracy& asked,
                        const std::string& unit) {
   const std::string aim = fmt::format("{} up to {:.4g} {} are asked for", percent(asked.error), asked.up_to, unit);

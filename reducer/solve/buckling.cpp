@@ -1,4 +1,4 @@
-// Load case by load case: geometric stiffness, load factors, scaled shapes.
+// Buckling for each load case: geometric stiffness, load factors, scaled shapes.
 #include "reducer/solve/buckling.hpp"
 
 #include <algorithm>
@@ -16,9 +16,9 @@ namespace {
 
 using Eigen::Index;
 
-/// Scales shapes and fixes their signs: the largest component of what is scaled to 1 becomes positive.
+/// Scales shapes and fixes their signs, so that the largest component of the scaled kind is positive.
 void scale_shapes(const System& system, Eigen::MatrixXd& q) {
-  constexpr double still = 1e-6;  // of rotations times the length of the part
+  constexpr double still = 1e-6;  // rotations times the length of the part
   constexpr double round_off = 1e-6;
   const Eigen::MatrixXd motions = node_motions(system, q);
   for (Index k = 0; k < q.cols(); ++k) {
@@ -37,7 +37,7 @@ void scale_shapes(const System& system, Eigen::MatrixXd& q) {
   }
 }
 
-/// Forces on the coordinates of the mesh, weights included.
+/// Forces on the coordinates of the mesh, with weights.
 Eigen::MatrixXd forces_on_mesh(const Mesh& mesh, const System& system, const LoadVectors& loads) {
   Eigen::MatrixXd force = loads.x;
   const auto heavy = [](const MeshLoadCase& load) { return !load.gravity.isZero(0.0); };

@@ -1,4 +1,4 @@
-// Fields of recovery, kept, and the loads between the ends of beams.
+// Recovered fields in memory, and the loads between the ends of beams.
 #include "reducer/solve/case_fields.hpp"
 
 #include "reducer/elements/element_loads.hpp"
@@ -9,7 +9,7 @@ namespace {
 using Eigen::Index;
 using formats::RecoveryField;
 
-/// Next rows of a field that is filled from the top.
+/// A field, and the number of its rows that are already filled.
 struct Growing {
   Eigen::MatrixXf* field;
   Index filled = 0;
@@ -20,7 +20,7 @@ void append(const Eigen::MatrixXd& rows, Growing& growing) {
   growing.filled += rows.rows();
 }
 
-/// Forces on the ends of an element are S d less those that the load between them puts there.
+/// Completes forces on the ends of beams: S d minus the end forces of the load between them.
 void add_loads_between(const Mesh& mesh, Eigen::MatrixXd& beam_force) {
   for (std::size_t c = 0; c < mesh.load_cases.size(); ++c) {
     const MeshLoadCase& load = mesh.load_cases[c];

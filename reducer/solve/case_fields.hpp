@@ -8,8 +8,8 @@
 
 namespace tisserand::reducer {
 
-/// Of node motions (6 nodes) x cases of Mesh::load_cases. Section forces of beams are those at the ends of the axis,
-/// with what distributed loads and gravity on the element add there.
+/// Fields for node motions (6 nodes) x cases of Mesh::load_cases. Section forces of beams are those at the ends of the
+/// axis, including distributed loads and gravity on the element.
 RecoveredFields case_fields(const Mesh& mesh, const formats::Recovery& tables, const Eigen::MatrixXd& motions,
                             const std::function<void(double)>& share);
 

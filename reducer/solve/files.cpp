@@ -20,7 +20,7 @@ using Eigen::Index;
 
 std::string case_file(const std::string& stem, const std::string& name) { return fmt::format("{}.{}.vtu", stem, name); }
 
-/// Names of nodes with their rows, each name once.
+/// Names of nodes with their numbers, each name once.
 std::vector<std::pair<std::string, int>> named_nodes(const Solution& s, const formats::Part& part,
                                                      const SolveRequest& request) {
   std::vector<std::pair<std::string, int>> nodes;
@@ -39,7 +39,7 @@ std::vector<std::pair<std::string, int>> named_nodes(const Solution& s, const fo
   return nodes;
 }
 
-/// Every node's rows [from, from + 3) of a state as an array.
+/// Array of the rows [from, from + 3) of every node for one state.
 formats::VtuArray vectors(const std::string& name, const Eigen::MatrixXd& motion, Index column, Index from,
                           double factor) {
   formats::VtuArray array{name, 3, {}};
@@ -66,7 +66,7 @@ std::string buckling_file(const std::string& stem, const std::string& name) {
   return case_file(stem + "-buckling", name);
 }
 
-/// Motions of the nodes in the shapes of a load case, and its name.
+/// Name of a load case, and motions of the nodes in its shapes.
 struct CaseShapes {
   const std::string& name;
   const CaseBuckling& buckling;

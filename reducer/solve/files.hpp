@@ -8,20 +8,20 @@
 
 namespace tisserand::reducer {
 
-/// stem.csv, stem.CASE.vtu for each load case, stem-modes.vtu if modes are asked for; for buckling stem-buckling.csv,
-/// stem-buckling.html, and stem-buckling.CASE.vtu for each load case.
+/// Paths of the files: stem.csv, stem.CASE.vtu for each load case, stem-modes.vtu if modes are requested; for buckling
+/// stem-buckling.csv, stem-buckling.html, and stem-buckling.CASE.vtu for each load case.
 std::vector<std::string> solution_files(const std::string& stem, const formats::Part& part,
                                         const SolveRequest& request);
 
-/// Lines `case,point,ux,uy,uz,rx,ry,rz` for every load case, mode (mode_1, ...) and shape of
-/// buckling (CASE-buckling_1, ...), part axes: boundary nodes, points
-/// and spiders that are nodes, and the points asked for. Throws Error for points that are none.
+/// Table with lines `case,point,ux,uy,uz,rx,ry,rz` for every load case, mode (mode_1, ...) and buckling shape
+/// (CASE-buckling_1, ...), part axes. Points: boundary nodes, points and spiders that are nodes, and requested points.
+/// Throws Error for requested points that do not exist.
 std::string solution_table(const Solution& solution, const formats::Part& part, const SolveRequest& request);
 
-/// Lines `case,mode,load_factor` of every load case; the factor of the reversed load is negative, its mode `reversed`.
+/// Table with lines `case,mode,load_factor`; the factor of the reversed load is negative, its mode `reversed`.
 std::string buckling_table(const Solution& solution);
 
-/// Page with the part moving in every shape of buckling, for any browser.
+/// HTML page on which the part moves in every buckling shape.
 std::string buckling_page(const Solution& solution, const formats::Part& part);
 
 /// Writes the files of solution_files(). Shapes of modes are scaled to a largest displacement of 1.

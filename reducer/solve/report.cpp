@@ -1,4 +1,4 @@
-// Lines of the report.
+// Lines of the report on a solution.
 #include "reducer/solve/report.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr const char* line_form = "  {:<19}{}\n";
 
-/// Units as they stand behind numbers.
+/// Unit labels for use after numbers.
 struct Labels {
   explicit Labels(const Units& units)
       : length(after_number(unit_label(units, 1, 0, 0))),
@@ -31,7 +31,7 @@ struct Labels {
   std::string length, force, moment, stress, energy;
 };
 
-/// Components that are round-off beside `size` are 0.
+/// Vector as text; components that are round-off relative to `size` are 0.
 std::string vector_text(const Vector3d& v, double size) {
   const Vector3d w = v.unaryExpr([size](double x) { return std::abs(x) <= 1e-12 * size ? 0.0 : x; });
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", w.x(), w.y(), w.z());
@@ -151,7 +151,7 @@ std::string modes_text(const Solution& s, const Units& units) {
   return text;
 }
 
-/// Where a shape of buckling moves or turns most, and along which axes.
+/// Node and axes of the largest motion or rotation in a buckling shape.
 std::string shape_text(const Solution& s, const Eigen::MatrixXd& motion, Index k) {
   const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> nodes(motion.col(k).data(), 6, s.mesh.nodes());
   constexpr double round_off = 1e-6;
@@ -165,7 +165,7 @@ std::string shape_text(const Solution& s, const Eigen::MatrixXd& motion, Index k
   return fmt::format("turns {} at {}", flat(nodes.col(turned).tail<3>()), node_text(s, turned));
 }
 
-/// How many load factors exist, by inertia.
+/// Number of existing load factors, by inertia.
 std::string count_text(const CaseBuckling& b) {
   const auto found = count_of(b.factor);
   if (found == 0) return fmt::format("no load factor up to {:.3g}: this load does not buckle the part", b.limit);

@@ -1,4 +1,4 @@
-// What `reducer solve` is asked for on the command line, beside the part.
+// Arguments of `reducer solve` on the command line, except the part.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 namespace tisserand::reducer {
 
 struct SolveRequest {
-  int modes = 0;                    ///< of the supported part, lowest first
-  std::vector<std::string> points;  ///< more nodes of the table: labels, or "x,y,z" of the part frame
-  int buckling = 0;                 ///< load factors of each load case, lowest first
+  int modes = 0;                    ///< number of modes of the supported part, lowest first
+  std::vector<std::string> points;  ///< further nodes of the table: labels, or "x,y,z" of the part frame
+  int buckling = 0;                 ///< number of load factors per load case, lowest first
 };
 
 }  // namespace tisserand::reducer

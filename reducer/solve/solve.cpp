@@ -1,4 +1,4 @@
-// The story of solving: part -> mesh -> S, M -> supports and loads -> displacements, modes -> stresses.
+// Solution: part -> mesh -> S, M -> supports and loads -> displacements, modes -> stresses.
 #include "reducer/solve/solve.hpp"
 
 #include <algorithm>

@@ -15,7 +15,7 @@
 
 namespace tisserand::reducer {
 
-/// Columns of displacements and fields: the load cases of the mesh in order.
+/// Solution of a part. Columns of displacements and fields are the load cases of the mesh in order.
 struct Solution {
   Mesh mesh;
   System system;
@@ -26,22 +26,22 @@ struct Solution {
   LoadVectors loads;
   Statics statics;
   std::optional<SupportedModes> modes;
-  std::vector<CaseBuckling> buckling;  ///< of the load cases in order; empty unless asked for
+  std::vector<CaseBuckling> buckling;  ///< one per load case; empty unless requested
   formats::Recovery tables;            ///< mesh and sections, without a superelement
-  RecoveredFields fields;              ///< of the load cases
+  RecoveredFields fields;              ///< one state per load case
 };
 
-/// Needs a SolverSession; `begin` hears the phases. Throws Error for whatever is wrong with the part, and if it has
-/// neither load cases nor modes are asked for, and for buckling without load cases or supports.
+/// Solves a part. Needs a SolverSession; `begin` receives the phases. Throws Error for any fault of the part, if
+/// neither load cases nor modes are requested, and for buckling without load cases or supports.
 Solution solve(const formats::Part& part, const SolveRequest& request, const PhaseListener& begin);
 
-/// The same from a mesh on, with its supports and load cases; `part` gives name, units and the file for messages.
+/// Solves a mesh with its supports and load cases; `part` gives name, units and the file for messages.
 Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& request, const PhaseListener& begin);
 
 /// [translation; rotation] of every node for states q of the system: (6 nodes) x columns, part axes.
 Eigen::MatrixXd node_motions(const System& system, const Eigen::MatrixXd& q);
 
-/// The first of the columns that are as long as the longest, but for `round_off` of it: symmetry makes several so.
+/// First of the columns of largest norm within `round_off` of it: by symmetry there may be several.
 Eigen::Index first_longest(const Eigen::Matrix3Xd& columns, double round_off);
 
 }  // namespace tisserand::reducer

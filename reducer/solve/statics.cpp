@@ -1,4 +1,4 @@
-// Solution and refinement.
+// Solution of the static equations, and refinement.
 #include "reducer/solve/statics.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// |A| |X| for the magnitudes of both.
+/// |A| |X| with the magnitudes of both.
 MatrixXd multiply_magnitudes(const SymmetricRows& A, const MatrixXd& X) {
   MatrixXd Y = MatrixXd::Zero(X.rows(), X.cols());
   for (Index c = 0; c < X.cols(); ++c)

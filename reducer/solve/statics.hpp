@@ -1,4 +1,4 @@
-// Linear statics of the supported part: all load cases by one factor.
+// Linear statics of the supported part: one factor for all load cases.
 #pragma once
 
 #include "reducer/loads/load_vectors.hpp"
@@ -13,8 +13,8 @@ struct Statics {
   Eigen::VectorXd energy;    ///< ½ qᵀ S q
 };
 
-/// S q = f with refinement. Without supports every load must be in equilibrium by itself, to 1e-8 of its size, and the
-/// displacement has no mean motion: Rᵀ M q = 0 (Rᵀ q = 0 without mass). Throws Error that tells by how much it is not.
+/// Solves S q = f with refinement. Without supports every load must be in equilibrium, to 1e-8 of its size, and the
+/// displacement has no mean motion: Rᵀ M q = 0 (Rᵀ q = 0 without mass). Otherwise throws Error with the imbalance.
 Statics statics(const Supported& s, const LoadVectors& loads);
 
 }  // namespace tisserand::reducer

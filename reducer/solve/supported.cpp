@@ -13,7 +13,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Six coordinates on which a free part rests.
+/// Six coordinates that hold a free part.
 std::vector<OwnedCoordinate> rest_of_free(const System& system) {
   std::vector<OwnedCoordinate> rest;
   for (const int q : six_coordinates(system)) rest.push_back({system.T.source[q], 0});

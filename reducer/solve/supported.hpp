@@ -1,4 +1,4 @@
-// The part on its supports: which coordinates are held and the factor of the stiffness of the others.
+// The part on its supports: its held coordinates, and the factor of the stiffness of the others.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace tisserand::reducer {
 
-/// A part and what holds it: what is solved for.
+/// Part with its held coordinates.
 struct HeldPart {
   const Mesh& mesh;
   const System& system;
@@ -22,14 +22,14 @@ struct HeldPart {
 struct Supported : HeldPart {
   explicit Supported(const HeldPart& part) : HeldPart(part) {}
 
-  Partition partition;  ///< boundary: held coordinates q, Partition::boundary_node: their supports; internal: free ones
-  Matrix S, M;          ///< of the free coordinates
-  Factor factor;        ///< of S
-  bool is_free = false;  ///< no supports: six coordinates are held that leave no rigid motion, and carry nothing
+  Partition partition;   ///< boundary: held coordinates q (boundary_node: their supports); internal: free ones
+  Matrix S, M;           ///< for the free coordinates
+  Factor factor;         ///< factor of S
+  bool is_free = false;  ///< no supports: six coordinates are held, which leave no rigid motion and carry no force
 };
 
-/// Throws Error if supports leave a rigid motion (named), if something inside moves without stiffness, or if the
-/// memory does not suffice for the factor and `modes` modes.
+/// Factors the stiffness of the supported part. Throws Error if supports leave a rigid motion (named), if something
+/// inside moves without stiffness, or if the memory does not suffice for the factor and `modes` modes.
 Supported support(const HeldPart& part, int modes, const PhaseListener& begin);
 
 }  // namespace tisserand::reducer

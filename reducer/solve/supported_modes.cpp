@@ -1,4 +1,4 @@
-// Eigenpairs, their basis, their effective masses.
+// Eigenpairs of the supported part, their basis and effective masses.
 #include "reducer/solve/supported_modes.hpp"
 
 #include <utility>
@@ -23,7 +23,7 @@ Spectrum lowest(const Supported& s, int count, int available, const formats::Mod
                       choose_solver(s.partition.n_I(), count, asked), Count::if_cheap);
 }
 
-/// Elastic ones of the free part; a first eigenvalue on six held coordinates lies below them and gives their scale.
+/// Elastic modes of the free part. The first eigenvalue with six held coordinates is below them and gives their scale.
 SupportedModes free_modes(const Supported& s, int count, int available, const formats::ModeSelection& asked,
                           const std::function<void(double)>& share) {
   const double scale = lowest(s, 1, available, asked, [](double /*done*/) {}).pairs.value[0];

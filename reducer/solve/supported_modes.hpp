@@ -10,18 +10,18 @@
 namespace tisserand::reducer {
 
 struct SupportedModes {
-  int rigid = 0;           ///< of the free part: six rigid motions, which `lambda` and `q` leave out
+  int rigid = 0;           ///< six for the free part: rigid motions, which `lambda` and `q` omit
   Eigen::VectorXd lambda;  ///< ω², ascending
   Eigen::MatrixXd q;       ///< coordinates x modes, qᵀ M q = 1
   /// 6 x modes: (R_kᵀ M q)², mass and moments of inertia about the centre of mass that a motion of the supports along
-  /// axis k sets into each mode; all modes together less than those of the part by what the supports carry themselves.
+  /// axis k excites in each mode. Their sum is that of the part minus what the supports carry themselves.
   Eigen::MatrixXd effective;
   std::optional<int> counted;
   SolverReport solver;
 };
 
-/// The `count` lowest; a group of equal frequencies is completed. `asked`: by which solver. `share` hears how much of
-/// the search is done. Throws Error if fewer exist.
+/// The `count` lowest modes; a group of equal frequencies is completed. `asked` chooses the solver. `share` receives
+/// the share of the search that is done. Throws Error if fewer exist.
 SupportedModes supported_modes(const Supported& s, int count, const formats::ModeSelection& asked,
                                const std::function<void(double)>& share);
 

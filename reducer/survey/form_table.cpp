@@ -1,4 +1,4 @@
-// Rows and columns of forms.
+// Rows and columns of the table of forms.
 #include "reducer/survey/form_table.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::string side_text(const FaceFacts& facts) {
   return "";
 }
 
-/// "4", "20, 5" of a torus, "30 deg" of a cone.
+/// Sizes of a form: "4", "20, 5" for a torus, "30 deg" for a cone.
 std::string radius_text(const SurfaceForm& form) {
   switch (form.kind) {
     case FormKind::cylinder:
@@ -46,12 +46,12 @@ std::string radius_text(const SurfaceForm& form) {
 bool has_axis(FormKind kind) { return kind != FormKind::sphere && kind != FormKind::curved; }
 bool has_point(FormKind kind) { return kind != FormKind::plane && kind != FormKind::curved; }
 
-/// A component of a direction that is only round-off is zero.
+/// Direction as text, with 0 for components that are only round-off.
 std::string direction_text(const Eigen::Vector3d& axis) {
   return point_text(axis.unaryExpr([](double v) { return std::abs(v) < 1e-7 ? 0.0 : v; }));
 }
 
-/// A coordinate that is only round-off beside the face is zero.
+/// Point as text, with 0 for coordinates that are only round-off relative to the face.
 std::string place_text(const SurveyedFace& face) {
   const double small = 1e-7 * (std::sqrt(face.facts.area) + face.facts.center.norm());
   return point_text(face.facts.form.point.unaryExpr([small](double v) { return std::abs(v) < small ? 0.0 : v; }));

@@ -1,4 +1,4 @@
-// The forms of faces as a table of text.
+// Forms of faces as a table of text.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace tisserand::reducer {
 
-/// "[1, 2.5, 0]": four digits, zero where only round-off is left.
+/// Point as text, "[1, 2.5, 0]": four digits, zero for round-off.
 std::string point_text(const Eigen::Vector3d& x);
 
-/// One row per face: form, side, radius, normal or axis, point of the axis (apex of a cone, centre of a sphere or
-/// torus). Empty without faces.
+/// Table with one row per face: form, side, radius, normal or axis, point of the axis (apex of a cone, centre of a
+/// sphere or torus). Empty without faces.
 std::string form_table(const std::vector<SurveyedFace>& faces, const std::string& title, const Units& units);
 
 }  // namespace tisserand::reducer

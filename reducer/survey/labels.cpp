@@ -1,4 +1,4 @@
-// A search around each place.
+// Placement of labels by a search around each place.
 #include "reducer/survey/labels.hpp"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ void LabelPlacer::write_inside(const std::string& text, const SeenPlace& seen) {
 }
 
 bool LabelPlacer::write_beside(const std::string& text, const SeenPlace& seen) {
-  constexpr double off_background = 60.0;  // pixels that a place on another surface counts farther
+  constexpr double off_background = 60.0;  // pixels added to the distance of a place on another surface
   const Vector2d size = text_size(text);
   double least = std::numeric_limits<double>::infinity();
   Vector2d best = Vector2d::Zero();

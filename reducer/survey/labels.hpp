@@ -1,4 +1,4 @@
-// Where the names of surfaces are written in a picture of them.
+// Places of the names of surfaces in a picture.
 #pragma once
 
 #include <string>
@@ -14,17 +14,17 @@ struct PictureLabel {
   std::string text;
   Eigen::Vector2d at = Eigen::Vector2d::Zero();     ///< middle of the text
   Eigen::Vector2d point = Eigen::Vector2d::Zero();  ///< on the surface
-  bool is_led = false;                              ///< a line joins both
+  bool is_led = false;                              ///< a line joins `at` and `point`
 };
 
 /// Size of a text in pixels.
 Eigen::Vector2d text_size(const std::string& text);
 
-/// Whether the text can be written on the surface.
+/// Whether the text fits on the surface.
 bool fits_inside(const SeenPlace& seen, const std::string& text);
 
-/// Labels of one picture: first those that fit on their surface, then those beside it, at the nearest place that is
-/// free, better on the background. What finds no place is left out.
+/// Places the labels of one picture: first those that fit on their surface, then the others at the nearest free place,
+/// preferably on the background. A label without a free place is omitted.
 class LabelPlacer {
  public:
   explicit LabelPlacer(const Projection& projection) : projection_(projection) {}

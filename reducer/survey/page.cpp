@@ -17,14 +17,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// At most `most` of them, evenly.
+/// At most `most` of the places, evenly distributed.
 std::vector<Vector3d> few_of(const std::vector<Vector3d>& places, std::size_t most) {
   std::vector<Vector3d> few;
   for (std::size_t k = 0; k < places.size(); k += 1 + places.size() / most) few.push_back(places[k]);
   return few;
 }
 
-/// Middles of the edges that only one cell has.
+/// Middles of the edges that belong to one cell only.
 std::vector<Vector3d> rim_of(const FacePiece& piece, const std::vector<Vector3d>& position) {
   std::map<std::pair<int, int>, int> cells;
   for (const Cell& cell : piece.cells) {
@@ -37,8 +37,8 @@ std::vector<Vector3d> rim_of(const FacePiece& piece, const std::vector<Vector3d>
   return rim;
 }
 
-/// Where a face is named: the cell farthest from its rim; on curved faces more, far from one another, since one may be
-/// behind.
+/// Places of a face's name: the cell farthest from its rim. Curved faces have more, far from one another, since one may
+/// be hidden.
 std::vector<Vector3d> places_on(const FacePiece& piece, const std::vector<Vector3d>& position) {
   constexpr std::size_t most = 400;
   std::vector<Vector3d> middles;
@@ -59,7 +59,7 @@ std::vector<Vector3d> places_on(const FacePiece& piece, const std::vector<Vector
   return places;
 }
 
-/// Nodes of the pieces only, their cells by corners.
+/// Mesh with the nodes of the pieces only, and their cells by corners.
 Mesh mesh_of_pieces(const std::vector<FacePiece>& pieces, const std::vector<Vector3d>& position) {
   Mesh mesh;
   std::vector<int> row(position.size(), -1);

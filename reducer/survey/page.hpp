@@ -1,4 +1,4 @@
-// The faces of a part as a page that any browser opens, in which it turns.
+// Faces of a part on an HTML page that turns the part.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace tisserand::reducer {
 
-/// The page of `reducer view`, where each face is a body with its form and colour, named where it is seen.
+/// Page of `reducer view` with each face as a body with its form, colour and name.
 std::string faces_page(const Survey& survey, const std::vector<FacePiece>& pieces, const std::string& title,
                        const std::string& source);
 

@@ -38,8 +38,8 @@ struct Panel {
 
 std::string label_of(const FacePiece& piece) { return printable_line(piece.label, longest_label); }
 
-/// On the face where it fits, in each panel; else beside it where it is seen best. Returns the labels of faces that are
-/// not seen, or too crowded to be named.
+/// Places labels in each panel on the face if they fit; the others next to it in the panel that shows it best. Returns
+/// the labels of faces that are hidden, or too crowded for a name.
 std::vector<std::string> place_labels(const std::vector<FacePiece>& pieces, std::array<Panel, 2>& panels) {
   std::array<LabelPlacer, 2> placers{LabelPlacer(panels[0].projection), LabelPlacer(panels[1].projection)};
   std::vector<std::size_t> left;
@@ -72,7 +72,7 @@ Panel panel_from(const Vector3d& eye, const std::vector<ColouredSurface>& surfac
   return panel;
 }
 
-/// Lines of gnuplot for the axes in the lower left corner of a panel.
+/// Gnuplot lines for the axes in the lower left corner of a panel.
 std::string axes_script(const Panel& panel, double left) {
   constexpr double length = 42.0;
   constexpr std::array names{"x", "y", "z"};
@@ -109,7 +109,7 @@ std::string labels_script(const Panel& panel, double left) {
   return script;
 }
 
-/// Polygons of a panel as data of gnuplot: corners and colour, in the order in which they are painted.
+/// Polygons of a panel as gnuplot data: corners and colour, in the order of painting.
 std::string polygons_data(const Panel& panel, double left) {
   std::string data;
   for (const PaintedPolygon& polygon : panel.projection.polygons()) {
@@ -150,7 +150,7 @@ std::string faces_script(const std::array<Panel, 2>& panels, const std::array<st
          "output\n";
 }
 
-/// Nodes of the pieces: other nodes of the file are not looked at.
+/// Positions of the nodes of the pieces; other nodes of the file are ignored.
 std::vector<Vector3d> positions_of(const std::vector<FacePiece>& pieces, const std::vector<Vector3d>& position) {
   std::set<int> nodes;
   for (const FacePiece& piece : pieces)

@@ -1,4 +1,4 @@
-// `reducer groups -o`: faces in colours with their numbers, as a picture or as a page.
+// `reducer groups -o`: coloured faces with their numbers, as a picture or as a page.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace tisserand::reducer {
 
-/// Throws Error if the name ends neither in .html nor in .png or .svg.
+/// Throws Error if the name ends in none of .html, .png and .svg.
 void check_faces_output(const std::string& output);
 
-/// Writes the picture: .png and .svg show the part from two opposite sides and tell which faces are seen from neither;
-/// .html is a page in which it turns. Of a deck the sets, the rest in grey. `source` is the file that was surveyed, for
-/// titles and messages. Throws Error if there are no faces, or nothing draws.
+/// Writes the picture. .png and .svg show the part from two opposite sides and name the faces that neither shows; .html
+/// is a page that turns the part. A deck is shown by its sets, with the rest in grey. `source` is the surveyed file,
+/// for titles and messages. Throws Error if there are no faces, or no drawing program.
 void draw_faces(const Survey& survey, const std::string& source, const std::string& output);
 
 }  // namespace tisserand::reducer

@@ -1,4 +1,4 @@
-// Colours that neighbours in the list do not share.
+// Colours that differ between neighbours in the list.
 #include "reducer/survey/pieces.hpp"
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Light colours on which dark numbers are read; hues in steps of the golden angle, so that any few in a row are far
-/// apart.
+/// Light colours, on which dark numbers are legible. Hues advance by the golden angle, so that a few successive ones
+/// differ much.
 std::array<double, 3> colour_of(std::size_t index) {
   constexpr double golden_ratio = 0.618033988749895;
-  constexpr std::array<double, 3> weight{0.30, 0.59, 0.11};  // of red, green, blue in brightness
+  constexpr std::array<double, 3> weight{0.30, 0.59, 0.11};  // of red, green, blue in the brightness
   const double hue = std::fmod(0.58 + golden_ratio * static_cast<double>(index), 1.0);
   std::array<double, 3> colour{};
   double brightness = 0.0;
@@ -30,14 +30,14 @@ std::array<double, 3> colour_of(std::size_t index) {
   return colour;
 }
 
-/// What one sees of a deck.
+/// Visible cells of a deck.
 std::vector<Cell> deck_skin(const Mesh& deck) {
   std::vector<Cell> skin = outer_faces(deck, [](int) { return true; });
   for (const ShellElement& shell : deck.shells) skin.push_back(shell_cell(shell));
   return skin;
 }
 
-/// All but its cells.
+/// Piece of a face, without its cells.
 FacePiece piece_of(const SurveyedFace& face, const Units& units, std::size_t index) {
   FacePiece piece;
   piece.name = face.name;

@@ -1,4 +1,4 @@
-// Faces as they are drawn: each in a colour of its own.
+// Faces as they are drawn, each in its own colour.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@ namespace tisserand::reducer {
 
 struct FacePiece {
   std::string name;
-  std::string label;  ///< empty: the rest of a deck, which is no set
+  std::string label;  ///< empty: cells of a deck that are in no set
   std::string form;   ///< in words
   bool is_flat = false;
   std::array<double, 3> colour{0.82, 0.82, 0.82};
   std::vector<Cell> cells;
 };
 
-/// The faces with numbers, or of a deck its sets and then the rest. A cell of several sets is of the first.
+/// Faces with numbers, or the sets of a deck and then the rest. A cell in several sets belongs to the first.
 std::vector<FacePiece> face_pieces(const Survey& survey);
 
 }  // namespace tisserand::reducer

@@ -1,4 +1,4 @@
-// Triangles sorted by depth, and squares of the picture in which to look for what hides a place.
+// Triangles sorted by depth, and squares of the picture that find the triangles in front of a place.
 #include "reducer/survey/projection.hpp"
 
 #include <algorithm>
@@ -17,22 +17,22 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Positions = std::vector<Vector3d>;
 
-constexpr double crease = 0.77;         // cosine of 40 degrees: beyond, facets keep their own normals
+constexpr double crease = 0.77;         // cosine of 40 degrees: at sharper edges facets keep their own normals
 constexpr double longest_side = 24.0;   // pixels: larger triangles are painted in parts
 constexpr double square = 16.0;         // pixels
-constexpr double same_depth = 1.5;      // pixels within which one place does not hide another
-constexpr double edge_in_front = 20.0;  // pixels by which an edge lies before the middles of triangles beside it
+constexpr double same_depth = 1.5;      // pixels within which a place does not hide another
+constexpr double edge_in_front = 20.0;  // pixels by which an edge is in front of the middles of adjacent triangles
 constexpr double half_width_of_edge = 0.7, overlap_of_facets = 0.6;  // pixels
 constexpr double longest_miter = 2.0;                                // pixels
 constexpr std::array<double, 3> edge_colour{0.2, 0.2, 0.2};
-constexpr std::size_t most_middles = 400;  // of one surface
+constexpr std::size_t most_middles = 400;  // of cells of one surface
 
 Vector3d facet_normal(const Cell& cell, const Positions& x) {
   const auto at = [&](int k) { return x[cell.nodes[k]]; };
   return form_of(cell.shape).corners == 3 ? (at(1) - at(0)).cross(at(2) - at(0)) : (at(2) - at(0)).cross(at(3) - at(1));
 }
 
-/// Mean of the facets around each corner, weighted with their areas.
+/// Mean normal of the facets around each corner, weighted by area.
 std::unordered_map<int, Vector3d> node_normals(const ColouredSurface& surface, const Positions& x) {
   std::unordered_map<int, Vector3d> sums;
   for (const Cell& cell : surface.cells)
@@ -41,14 +41,14 @@ std::unordered_map<int, Vector3d> node_normals(const ColouredSurface& surface, c
   return sums;
 }
 
-/// A lamp above the left shoulder, and some light from everywhere; both sides of a surface are lit alike.
+/// Brightness from a lamp at the upper left and from diffuse light; both sides of a surface are lit alike.
 double light_of(const Vector3d& normal) {
   static const Vector3d lamp = Vector3d(-0.35, 0.55, 0.75).normalized();
   const Vector3d n = (normal.z() < 0.0 ? -1.0 : 1.0) * normal.normalized();
   return 0.74 + 0.30 * std::max(0.0, n.dot(lamp));
 }
 
-/// Depth of a triangle at a point; -infinity beside it.
+/// Depth of a triangle at a point; -infinity outside of it.
 double depth_at(const std::array<Vector3d, 3>& x, const Vector2d& p) {
   const Vector2d a = x[0].head<2>(), b = x[1].head<2>(), c = x[2].head<2>();
   const auto twice = [](const Vector2d& u, const Vector2d& v) { return u.x() * v.y() - u.y() * v.x(); };
@@ -66,12 +66,12 @@ double to_segment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
   return (p - a - share * along).norm();
 }
 
-/// What is painted, with its depth.
+/// Polygon with its depth.
 using Painted = std::pair<double, PaintedPolygon>;
 
-/// The triangle with its sides moved outwards, so that no seam is seen between neighbours.
+/// Triangle with its sides moved outwards, so that no seam is visible between neighbours.
 std::vector<Vector2d> grown(const std::array<Vector3d, 3>& x) {
-  std::array<Vector2d, 3> out;  // of side k, from corner k to the next
+  std::array<Vector2d, 3> out;  // side k, from corner k to the next
   const Vector2d center = (x[0] + x[1] + x[2]).head<2>() / 3.0;
   for (int k = 0; k < 3; ++k) {
     const Vector2d along = (x[(k + 1) % 3] - x[k]).head<2>();
@@ -87,7 +87,7 @@ std::vector<Vector2d> grown(const std::array<Vector3d, 3>& x) {
   return corners;
 }
 
-/// A triangle in parts that are small.
+/// Paints a triangle in small parts.
 void paint(const std::array<Vector3d, 3>& x, const std::array<double, 3>& colour, std::vector<Painted>& painted) {
   int longest = 0;
   double length = 0.0;
@@ -102,7 +102,7 @@ void paint(const std::array<Vector3d, 3>& x, const std::array<double, 3>& colour
   painted.emplace_back((x[0].z() + x[1].z() + x[2].z()) / 3.0, PaintedPolygon{grown(x), colour});
 }
 
-/// The parts of an edge whose middles are seen.
+/// Paints the parts of an edge whose middles are visible.
 void paint_edge(const Vector3d& a, const Vector3d& b, const auto& is_hidden, std::vector<Painted>& painted) {
   const int parts = std::max(1, static_cast<int>(std::ceil((b - a).norm() / (0.25 * longest_side))));
   for (int k = 0; k < parts; ++k) {

@@ -1,4 +1,4 @@
-// A view of coloured surfaces as polygons from back to front, and which surface is seen where.
+// A view of coloured surfaces as polygons from back to front, and the visible surface at each place.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@ struct ColouredSurface {
   std::array<double, 3> colour{1, 1, 1};  ///< red, green, blue, 0 to 1
 };
 
-/// A parallel projection: rows right, up, and towards the eye.
+/// Parallel projection; rows: right, up, and towards the eye.
 struct PictureView {
   Eigen::Matrix3d R_VW = Eigen::Matrix3d::Identity();
   Eigen::Vector2d low = Eigen::Vector2d::Zero();  ///< right and up at the lower left corner of the picture
-  double pixel = 1.0;                             ///< length of a pixel
+  double pixel = 1.0;                             ///< length of one pixel
 };
 
-/// Looks from `eye` (any length) with z upwards, all positions inside with a margin of 6 %.
+/// View from `eye` (any length) with z upwards. All positions are inside with a margin of 6 %.
 PictureView view_from(const Eigen::Vector3d& eye, const std::vector<Eigen::Vector3d>& position, int width, int height);
 
 struct PaintedPolygon {
@@ -30,10 +30,10 @@ struct PaintedPolygon {
   std::array<double, 3> colour{0, 0, 0};
 };
 
-/// A place of a surface that is seen.
+/// Visible place of a surface.
 struct SeenPlace {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< pixels to the right and down
-  double radius = 0.0;                              ///< pixels to the nearest that is not the surface; 0: not seen
+  double radius = 0.0;                              ///< pixels to the nearest place off the surface; 0: not visible
 };
 
 class Projection {
@@ -43,13 +43,13 @@ class Projection {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// From back to front by their middles; small, so that this is the order in which they hide one another. Facets are
-  /// lit by mean normals, edges where surfaces end are dark.
+  /// Polygons from back to front by their middles. They are small, so this is the order in which they hide one another.
+  /// Facets are lit by mean normals; edges of surfaces are dark.
   std::vector<PaintedPolygon> polygons() const;
-  /// A place on each surface for its label: the middle of a cell that nothing hides, as far as possible from the edges
-  /// of the surface and from its hidden places.
+  /// Place on each surface for its label: the middle of a visible cell, as far as possible from the edges and from
+  /// hidden places of the surface.
   std::vector<SeenPlace> seen_places() const;
-  /// Whether a surface is seen there.
+  /// Whether a surface is visible at this place.
   bool covers(const Eigen::Vector2d& at) const;
 
  private:
@@ -65,7 +65,7 @@ class Projection {
 
   void add(const ColouredSurface& surface, int number, const std::vector<Eigen::Vector3d>& position,
            const PictureView& view);
-  /// Triangles that may lie over a point.
+  /// Triangles that may cover a point.
   const std::vector<int>& near(const Eigen::Vector2d& at) const;
   bool is_hidden(const Eigen::Vector3d& place) const;
 
@@ -73,7 +73,7 @@ class Projection {
   std::vector<std::array<double, 3>> colour_;
   std::vector<Triangle> triangles_;
   std::vector<Segment> rims_;
-  std::vector<std::vector<Eigen::Vector3d>> middles_;  ///< of cells of each surface
+  std::vector<std::vector<Eigen::Vector3d>> middles_;  ///< middles of the cells of each surface
   std::vector<std::vector<int>> buckets_;              ///< squares of the picture
 };
 

@@ -26,13 +26,13 @@ struct Row {
   Eigen::Vector3d high = -low;
 };
 
-/// What the kernel of the geometry says of an entity, or null.
+/// Data of the geometry kernel for an entity, or null.
 const EntityGeometry* geometry_at(const MeshBuilder& builder, int entity) {
   const auto e = static_cast<std::size_t>(entity);
   return e < builder.cells.geometry.size() ? &builder.cells.geometry[e] : nullptr;
 }
 
-/// Size and middle of all entities, if the kernel tells those of each; else the size is 0.
+/// Size and middle of all entities, if the kernel has those of each; otherwise size 0.
 EntityGeometry exact_size(const MeshBuilder& builder, const std::vector<int>& entities) {
   EntityGeometry sum;
   for (const int e : entities) {
@@ -45,7 +45,7 @@ EntityGeometry exact_size(const MeshBuilder& builder, const std::vector<int>& en
   return sum;
 }
 
-/// Size, centre and box from the nodes' shares.
+/// Table row with size, centre and box from the nodes' shares.
 Row row_of(const MeshBuilder& builder, const std::string& name, const std::string& kind, const Selection& selection) {
   Row row;
   row.name = name;
@@ -118,7 +118,7 @@ void append_cells(FaceCells& to, const FaceCells& from) {
   to.sign.insert(to.sign.end(), from.sign.begin(), from.sign.end());
 }
 
-/// Cells of the faces that the selection holds.
+/// Cells of the faces in the selection.
 FaceCells cells_of(const MeshBuilder& builder, const std::vector<int>& signs, const Selection& selection) {
   FaceCells face;
   for (const int e : selection.entities) {
@@ -134,7 +134,7 @@ FaceCells cells_of(const MeshBuilder& builder, const std::vector<int>& signs, co
   return face;
 }
 
-/// Points of all faces of the selection, if each has some, and their size and middle.
+/// Points of all faces in the selection, if each has some, and their size and middle.
 EntityGeometry exact_face(const MeshBuilder& builder, const Selection& selection) {
   if (!selection.elements.shells.empty() || !selection.nodes.empty()) return {};
   EntityGeometry exact = exact_size(builder, selection.entities);
@@ -183,7 +183,7 @@ std::string unit_of_lengths(const formats::Part& part) {
   if (part.units.named()) return part.units.length.label;
   if (part.mesh.file.empty()) return "units of the part";
   const MeshFileKind kind = mesh_file_kind(part.mesh.file, part.mesh.where);
-  // what OpenCASCADE converts them to
+  // OpenCASCADE converts to this unit
   if (kind == MeshFileKind::step || kind == MeshFileKind::iges) return "mm";
   return "units of the file, which does not name them";
 }
@@ -209,7 +209,7 @@ formats::Part finely_meshed(const formats::Part& part) {
 }
 
 Survey survey(const formats::Part& part) {
-  // Faces even if the part has shells nowhere yet: this is where users look for their numbers.
+  // Faces are meshed even if the part has no shells yet, because users look up their numbers here.
   formats::Part surveyed = part;
   if (surveyed.shells.empty() && surveyed.solids.empty()) surveyed.shells.emplace_back();
   MeshBuilder builder(surveyed);

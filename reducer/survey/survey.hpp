@@ -1,5 +1,4 @@
-// What a part or mesh file consists of: the names and numbers by which part.yaml can refer to it, and the forms of its
-// faces.
+// Contents of a part or mesh file: names and numbers by which part.yaml can refer to them, and the forms of its faces.
 #pragma once
 
 #include <string>
@@ -11,9 +10,9 @@
 
 namespace tisserand::reducer {
 
-/// A face of a geometry, mesh or patch, or a group or set that has faces.
+/// Face of a geometry, mesh or patch, or a group or set that has faces.
 struct SurveyedFace {
-  std::string name;   ///< "face 12", "face 12 ('top')", or that of the group, set or patch
+  std::string name;   ///< "face 12", "face 12 ('top')", or the name of the group, set or patch
   std::string label;  ///< "12", or the name
   FaceCells cells;
   FaceFacts facts;
@@ -22,23 +21,23 @@ struct SurveyedFace {
 struct Survey {
   std::string text;  ///< tables of entities, groups and sets with sizes and boxes, and of the forms of faces
   Units units;
-  std::vector<Eigen::Vector3d> position;  ///< of the nodes of all cells
-  std::vector<SurveyedFace> faces;        ///< that have numbers or are patches
-  std::vector<SurveyedFace> groups;       ///< of faces
+  std::vector<Eigen::Vector3d> position;  ///< positions of the nodes of all cells
+  std::vector<SurveyedFace> faces;        ///< faces that have numbers or are patches
+  std::vector<SurveyedFace> groups;       ///< groups of faces
   Mesh deck;                              ///< elements of a deck, whose nodes are rows of `position`
 };
 
-/// Geometry is meshed coarsely, unless the part says how; areas and middles of its faces are those of OpenCASCADE where
-/// it made them, all others those of the mesh.
+/// Surveys a part. Geometry is meshed coarsely unless the part says how. Areas and middles of faces are OpenCASCADE's
+/// if it made the geometry, otherwise those of the mesh.
 Survey survey(const formats::Part& part);
 
-/// A part that consists of a mesh or geometry file alone, in its own units.
+/// Part that consists of a mesh or geometry file only, in its own units.
 formats::Part part_of_file(const std::string& file);
 
-/// The part with a mesh of its geometry that follows curved faces, unless it says how to mesh it.
+/// Part with a mesh of its geometry that follows curved faces, unless it says how to mesh it.
 formats::Part finely_meshed(const formats::Part& part);
 
-/// "cylinder, concave, radius 4 mm": the form of a face in words.
+/// Form of a face in words: "cylinder, concave, radius 4 mm".
 std::string form_text(const FaceFacts& facts, const Units& units);
 
 }  // namespace tisserand::reducer

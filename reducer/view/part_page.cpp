@@ -1,4 +1,4 @@
-// From groups of elements and shapes of coordinates to bodies and modes of a page.
+// Bodies and modes of a page from groups of elements and shapes of coordinates.
 #include "reducer/view/part_page.hpp"
 
 #include <algorithm>
@@ -31,19 +31,19 @@ using formats::PageRows;
 using formats::Recovery;
 
 constexpr double relative_error = 1e-3;        // of the largest displacement of a mode
-constexpr std::size_t most_spider_legs = 500;  // drawn of one spider
+constexpr std::size_t most_spider_legs = 500;  // drawn legs of one spider
 
-/// One body of the page.
+/// A body of the page.
 struct Piece {
-  std::string name, kind, colour;  ///< colour empty: one of the page's own
+  std::string name, kind, colour;  ///< colour empty: a colour of the page
   formats::Surface surface;
   std::vector<formats::SkinCarrier> carriers;
   int all_vertices = 0;
   MatrixXd shapes;              ///< 3 V x n per unit of each coordinate; empty without modes
-  std::vector<int> elements{};  ///< of each triangle; empty: not known
+  std::vector<int> elements{};  ///< element of each triangle; empty: unknown
 };
 
-/// A vertex of the skin in a piece, once.
+/// Collects vertices of the skin in pieces, each once.
 class Pieces {
  public:
   Pieces(const formats::Skin& skin, std::size_t count) : skin_(skin), vertex_(count), pieces_(count) {}
@@ -70,7 +70,7 @@ const char* kind_of(formats::ElementShape shape) {
                                                                                                    : "solids";
 }
 
-/// The groups in order, behind them the faulty elements.
+/// Groups in order, followed by the faulty elements.
 std::vector<Piece> groups_of(const ViewedPart& part) {
   const Recovery& r = part.tables;
   const formats::Skin skin = formats::skin_of(r);
@@ -135,7 +135,7 @@ void thin(int most, Piece& piece) {
   piece.carriers = std::move(carriers);
 }
 
-/// u + θ x arm of the carriers, 3 V x shapes.
+/// Motions u + θ x arm of the carriers, 3 V x shapes.
 MatrixXd motions_at(const std::vector<ViewedShape>& shapes, const std::vector<formats::SkinCarrier>& carriers) {
   MatrixXd motions(3 * static_cast<Index>(carriers.size()), static_cast<Index>(shapes.size()));
   for (std::size_t k = 0; k < shapes.size(); ++k)
@@ -173,7 +173,7 @@ Eigen::VectorXd largest_displacements(const std::vector<Piece>& pieces, Index co
 
 Json list_of(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// "base x", "base rx", "internal 3".
+/// Name of a mode: "base x", "base rx", "internal 3".
 std::string mode_name(const Recovery& r, int coordinate) {
   constexpr std::array<const char*, 6> components{"x", "y", "z", "rx", "ry", "rz"};
   const int node = r.dof_node[coordinate], component = r.dof_component[coordinate];
@@ -181,7 +181,7 @@ std::string mode_name(const Recovery& r, int coordinate) {
                   : fmt::format("{} {}", r.boundary_name[node], components[component]);
 }
 
-/// The body, its shape, and its part in each mode: coordinate k times 1 / largest[k].
+/// Adds the body, its shape, and its motion in each mode: coordinate k times 1 / largest[k].
 void add_piece(const Piece& piece, const Eigen::VectorXd& largest, PageBlocks& blocks, Json& json) {
   formats::Deformation deformation;
   if (piece.shapes.size() > 0) {
@@ -231,7 +231,7 @@ void add_modes(const ViewedPart& part, Json& json) {
   }
 }
 
-/// Boundary nodes and faces, on the first body.
+/// Adds boundary nodes and faces to the first body.
 void add_nodes(const ViewedPart& part, PageBlocks& blocks, Json& json) {
   if (json["bodies"].empty()) return;
   const auto add = [&](const std::string& name, const Vector3d& place) {
@@ -247,7 +247,7 @@ void add_nodes(const ViewedPart& part, PageBlocks& blocks, Json& json) {
   blocks.next();
 }
 
-/// Numbers of the mesh; of groups with looks, what they are.
+/// Lines about the mesh; for groups with looks, about their kinds.
 Json report_lines(const ViewedPart& part) {
   const Recovery& r = part.tables;
   Json lines = Json::array({Json::array({"nodes", std::to_string(r.nodes())}),
@@ -313,7 +313,7 @@ std::vector<double> frequencies_beside(const formats::RecoveryReader& recovery) 
   for (std::size_t k = 0; k < frequency.size(); ++k)
     if (element.dof_node[k] < 0) {
       const auto i = static_cast<Index>(k);
-      const double ratio = element.stiffness(i, i) / element.mass(i, i);  // the canonical form has mass 1
+      const double ratio = element.stiffness(i, i) / element.mass(i, i);  // 1 in canonical form
       frequency[k] = ratio > 0.0 ? std::sqrt(ratio) / (2.0 * std::numbers::pi) : 0.0;
     }
   return frequency;

@@ -1,5 +1,4 @@
-// `reducer view`: a part as a page that any browser opens, before it is reduced, or with the modes of its recovery
-// file.
+// `reducer view`: a part as an HTML page, before its reduction, or with the modes of its recovery file.
 #pragma once
 
 #include <string>
@@ -11,7 +10,7 @@
 
 namespace tisserand::reducer {
 
-/// How a group is called and painted.
+/// Kind and colour of a group.
 struct GroupLook {
   std::string kind;
   std::string colour;  ///< "#rrggbb"
@@ -25,27 +24,27 @@ struct ViewedShape {
 
 struct ViewedPart {
   std::string title;
-  std::string file;          ///< as the page names it
+  std::string file;          ///< its name on the page
   Units units;               ///< of the part
   formats::Recovery tables;  ///< mesh_tables(), or those of a recovery file
-  std::vector<int> faulty;   ///< elements that are shown in red
+  std::vector<int> faulty;   ///< elements shown in red
   std::vector<Spider> spiders;
-  std::vector<GroupLook> looks;  ///< of the groups in order; empty: by their elements, in colours of the page
-  std::vector<FacePlace> faces;  ///< of the geometry: named beside the boundary nodes
+  std::vector<GroupLook> looks;  ///< of the groups in order; empty: from their elements, in colours of the page
+  std::vector<FacePlace> faces;  ///< faces of the geometry: named in addition to the boundary nodes
   std::vector<std::string> notes;
-  const formats::RecoveryReader* recovery = nullptr;  ///< its modes move; null: none
-  std::vector<double> frequency;                      ///< per coordinate, 1/time; 0: of a boundary coordinate
-  std::vector<ViewedShape> shapes;                    ///< modes of the page, in place of those of a recovery file
-  int vertices = 20'000;                              ///< the most of one group
+  const formats::RecoveryReader* recovery = nullptr;  ///< source of the moving modes; null: none
+  std::vector<double> frequency;                      ///< per coordinate, 1/time; 0 for boundary coordinates
+  std::vector<ViewedShape> shapes;                    ///< modes of the page that replace those of a recovery file
+  int vertices = 20'000;                              ///< upper limit per group
 };
 
-/// Groups as bodies of one colour each, faulty elements in red, spiders as lines, boundary nodes by name. Each
-/// coordinate of a recovery file is a mode: one node moved along one component, or an internal mode with its frequency;
-/// or each of the shapes is one, by its name.
+/// Page with groups as bodies of one colour each, faulty elements in red, spiders as lines, and names of boundary
+/// nodes. Each coordinate of a recovery file is a mode: one node moved along one component, or an internal mode with
+/// its frequency. Otherwise each of the shapes is a mode, with its name.
 std::string part_page(const ViewedPart& part);
 
-/// Frequencies of the coordinates of a recovery file [1/time], by the superelement or modal body that lies beside it;
-/// none where that is missing or another one.
+/// Frequencies of the coordinates of a recovery file [1/time], from the superelement or modal body next to it. Empty if
+/// that is missing or another one.
 std::vector<double> frequencies_beside(const formats::RecoveryReader& recovery);
 
 }  // namespace tisserand::reducer
