@@ -1,4 +1,4 @@
-// What a deck of another program gives: the mesh and the names by which part.yaml can refer to its nodes and elements.
+// Contents of a deck of another program: the mesh, and the names of its nodes and elements for part.yaml.
 #pragma once
 
 #include <map>
@@ -9,22 +9,22 @@
 
 namespace tisserand::reducer {
 
-/// What to do with cards that the reader does not understand: an error with their names and counts, or a warning.
+/// Treatment of cards that the reader does not support: an error with their names and counts, or a warning.
 enum class UnknownCards { refuse, ignore };
 
 struct DeckOptions {
   UnknownCards unknown = UnknownCards::refuse;
-  bool boundary = true;  ///< false: the part names its boundary, and ASET and its like are not read
+  bool boundary = true;  ///< false: the part names its boundary, and ASET and similar cards are not read
 };
 
-/// The elements of a named set: rows of Mesh::beams, ::shells, ::solids and ::springs.
+/// Elements of a named set: rows of Mesh::beams, ::shells, ::solids and ::springs.
 struct ElementSet {
   std::vector<int> beams, shells, solids, springs;
 };
 
 struct Deck {
-  Mesh mesh;  ///< with all nodes, also those that nothing of the deck uses; boundary: ASET, BSET or nothing
-  std::map<long, int> node_of_id;                     ///< grid or node number -> column of Mesh::position
+  Mesh mesh;                       ///< with all nodes, also unused ones; boundary: ASET, BSET or empty
+  std::map<long, int> node_of_id;  ///< key: grid or node number, value: column of Mesh::position
   std::map<std::string, std::vector<int>> node_sets;  ///< names in lower case
   std::map<std::string, ElementSet> element_sets;
 };

@@ -1,4 +1,4 @@
-// The faults of a deck on their way to one Error.
+// Collection of the faults of a deck for one Error.
 #include "reducer/decks/faults.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// The faults of a deck on their way to one Error.
+// Collection of the faults of a deck for one Error.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace tisserand::reducer {
 /// Collects errors; beyond 50 they are only counted.
 class DeckFaults {
  public:
-  /// `more` says, with a number, how many were only counted.
+  /// `more` is the text, with a number, for those that were only counted.
   explicit DeckFaults(std::string more = "and {} more errors of this deck") : more_text_(std::move(more)) {}
   void add(std::string what, std::string where, std::string remedy);
   bool empty() const { return errors_.empty(); }

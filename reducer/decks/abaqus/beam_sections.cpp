@@ -1,4 +1,4 @@
-// *BEAM SECTION and *BEAM GENERAL SECTION: shapes and constants of beams, with what follows them.
+// *BEAM SECTION and *BEAM GENERAL SECTION: shapes and constants of beams, and the keywords after them.
 #include <array>
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ std::vector<double> sizes_of(Model& model, const Block& block, std::size_t count
   return sizes;
 }
 
-/// One value: the radius of Abaqus. Two: the diameters along n1 and n2 of CalculiX.
+/// Circle. One value: the radius of Abaqus. Two: the diameters along n1 and n2 of CalculiX.
 Section circle(Model& model, const Block& block) {
   const std::vector<double> sizes = sizes_of(model, block, 1);
   if (sizes.size() == 1) return formats::circle_section(sizes[0]);
@@ -56,7 +56,7 @@ Section pipe(Model& model, const Block& block) {
   return formats::hollow_circle_section(sizes[0], sizes[1]);
 }
 
-/// Throws Error for sizes that make no such shape.
+/// Throws Error for sizes that do not make such a shape.
 void check_profile(Model& model, const Block& block, const char* shape, const std::vector<double>& sizes) {
   if (const std::optional<std::string> what = formats::profile_fault(shape, sizes))
     throw model.error(fmt::format("{}: {}", block.title, *what), block.data[0], "correct the sizes of the section");
@@ -72,7 +72,7 @@ Section box(Model& model, const Block& block) {
   return formats::profile_section("box", sizes);
 }
 
-/// l, h, b1, b2, t1, t2, t3: the node is at height l above the bottom of the lower flange; n2 points up.
+/// I section of l, h, b1, b2, t1, t2, t3: the node is at height l above the bottom of the lower flange; n2 points up.
 Section i_section(Model& model, const Block& block) {
   if (block.data.empty() || split(block.data[0].text).size() < 7)
     throw Error("SECTION=I needs seven sizes", model.where(block), "give l, h, b1, b2, t1, t2, t3");
@@ -89,7 +89,7 @@ Section i_section(Model& model, const Block& block) {
   return section;
 }
 
-/// A, I11, I12, I22, J; the warping constants after them are not used. k = 1 as Abaqus has it for these sections.
+/// Section of A, I11, I12, I22, J; the warping constants after them are ignored. k = 1 as in Abaqus.
 Section general(Model& model, const Block& block) {
   if (block.keyword != "BEAMGENERALSECTION")
     throw Error("*BEAM SECTION, SECTION=GENERAL is not understood", model.where(block),
@@ -138,7 +138,7 @@ formats::Material general_material(Model& model, const Block& block) {
   if (!(*E > 0.0 && *G > 0.0)) throw model.error(fmt::format("E = {}, G = {}", *E, *G), block.data[2], "give E, G > 0");
   formats::Material material;
   material.youngs_modulus = *E;
-  material.poisson_ratio = 0.5 * *E / *G - 1.0;  // so that E / (2 (1 + ν)) is G
+  material.poisson_ratio = 0.5 * *E / *G - 1.0;  // makes E / (2 (1 + ν)) equal to G
   const std::string* density = block.find("DENSITY");
   const std::optional<double> value = density == nullptr ? 0.0 : to_number(*density);
   if (!value || *value < 0.0)
@@ -147,7 +147,7 @@ formats::Material general_material(Model& model, const Block& block) {
   return material;
 }
 
-/// *CENTROID, *SHEAR CENTER and *TRANSVERSE SHEAR STIFFNESS (K23, K13) after the section.
+/// Reads *CENTROID, *SHEAR CENTER and *TRANSVERSE SHEAR STIFFNESS (K23, K13) after the section.
 void read_following(Model& model, const Block& block, double shear_modulus, Section& section) {
   std::array<double, 3> v{};
   if (block.data.empty() || !read_numbers(model, block, block.data[0], v)) return;
@@ -170,7 +170,7 @@ bool belongs_to_section(const Block& block) {
   return block.keyword == "CENTROID" || block.keyword == "SHEARCENTER" || block.keyword == "TRANSVERSESHEARSTIFFNESS";
 }
 
-/// Without *SHEAR CENTER a section by constants has it in the node, as in Abaqus; shapes know theirs.
+/// Reads them. A section by constants without *SHEAR CENTER has it in the node, as in Abaqus; shapes compute it.
 void read_all_following(Model& model, const std::vector<const Block*>& blocks, std::size_t index,
                         BeamElementData& beam) {
   const std::string* shape = blocks[index]->find("SECTION");

@@ -1,4 +1,4 @@
-// *RETAINED NODAL DOFS, *BOUNDARY and what else steps contain.
+// *RETAINED NODAL DOFS, *BOUNDARY and other contents of steps.
 #include "reducer/decks/abaqus/boundary.hpp"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ std::vector<Components> used_components(const Mesh& mesh) {
   return used;
 }
 
-/// ENCASTRE and its kin; nothing for other words.
+/// Components of ENCASTRE and similar words; empty for other words.
 std::optional<Components> named_support(std::string_view word) {
   struct Named {
     std::string_view name;
@@ -62,7 +62,7 @@ std::optional<Components> named_support(std::string_view word) {
   return std::nullopt;
 }
 
-/// Degrees of freedom above 6 are no displacements: nothing is held.
+/// Held components of a line. Degrees of freedom above 6 are no displacements, so they hold nothing.
 std::optional<Components> held_components(Model& model, const Line& line) {
   const std::vector<std::string_view> fields = split(line.text);
   if (fields.size() > 1)
@@ -104,7 +104,7 @@ bool is_name(const std::string& text) {
   });
 }
 
-/// Retained components of each node, and the set of one node by which it may be called.
+/// Retained components of a node, and the set of this node alone that may name it.
 struct Retained {
   Components components = 0;
   std::string name;

@@ -1,4 +1,4 @@
-// Tables of element types, node orders and faces (data).
+// Tables of element types, node orders and faces.
 #include "reducer/decks/abaqus/element_types.hpp"
 
 #include <algorithm>

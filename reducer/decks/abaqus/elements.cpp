@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostNodes = 50'000'000;
 constexpr std::size_t kMostElements = 50'000'000;
 
-/// *SYSTEM: x = R x_local + t; without data lines the axes of the part again.
+/// Placement of *SYSTEM: x = R x_local + t; without data lines the axes of the part.
 Placement read_system(Model& model, const Block& block) {
   Placement system;
   std::array<double, 9> p{};
@@ -43,7 +43,7 @@ Eigen::Vector3d from_cylindrical(const Eigen::Vector3d& p) {
   return {p.x() * std::cos(angle), p.x() * std::sin(angle), p.z()};
 }
 
-/// One line of *NODE: id and coordinates; direction cosines after them are not used.
+/// Reads a line of *NODE: id and coordinates; direction cosines after them are ignored.
 bool read_node_line(Model& model, const Line& line, long& id, Eigen::Vector3d& position) {
   Fields fields(line.text);
   std::string_view field;
@@ -95,7 +95,7 @@ void read_node_block(Model& model, int scope_index, const Block& block, const Pl
   }
 }
 
-/// Collects the fields of *ELEMENT lines into elements; a line that is not full goes on in the next one.
+/// Elements from the fields of *ELEMENT lines; an incomplete line continues in the next one.
 class ElementBlock {
  public:
   ElementBlock(Model& model, int scope_index, const Block& block, const ElementType& type)

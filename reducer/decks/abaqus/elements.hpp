@@ -7,7 +7,7 @@ namespace tisserand::reducer::abaqus {
 
 void read_nodes(Model& model, int scope);
 
-/// Needs the nodes of all scopes.
+/// Reads the elements of a scope. Needs the nodes of all scopes.
 void read_elements(Model& model, int scope);
 
 }  // namespace tisserand::reducer::abaqus

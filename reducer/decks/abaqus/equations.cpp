@@ -1,4 +1,4 @@
-// *EQUATION: sums of components of nodes that vanish.
+// *EQUATION: sums of components of nodes that are zero.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,14 +10,14 @@
 namespace tisserand::reducer::abaqus {
 namespace {
 
-/// As written: node or set, degree of freedom, coefficient.
+/// Term as written: node or set, degree of freedom, coefficient.
 struct Term {
   std::vector<int> nodes;
   int component = 0;
   double coefficient = 0.0;
 };
 
-/// u in the direction of a component of the node, *TRANSFORM included: one to three terms in part axes.
+/// Adds u in the direction of a component of the node, with *TRANSFORM: one to three terms in part axes.
 void add_term(const Model& model, int node, const Term& term, TieEquation& equation) {
   const auto axes = model.node_axes.find(node);
   if (axes == model.node_axes.end()) {
@@ -34,10 +34,10 @@ void add_term(const Model& model, int node, const Term& term, TieEquation& equat
     if (std::abs(equation.terms.back().coefficient) > std::abs(equation.terms[largest].coefficient))
       largest = equation.terms.size() - 1;
   }
-  std::swap(equation.terms[start], equation.terms[largest]);  // the largest is the one to eliminate
+  std::swap(equation.terms[start], equation.terms[largest]);  // the largest term is the one to eliminate
 }
 
-/// Reads the numbers of one block in a row, across its lines.
+/// Reads the numbers of one block in sequence, across its lines.
 class EquationReader {
  public:
   EquationReader(Model& model, int scope, const Block& block) : model_(model), scope_(scope), block_(block) {}

@@ -1,4 +1,4 @@
-// The table of keywords (data).
+// Table of keywords.
 #include "reducer/decks/abaqus/keywords.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What read_abaqus() does with each keyword of a deck.
+// Treatment of each keyword of a deck by read_abaqus().
 #pragma once
 
 #include <optional>
@@ -7,13 +7,13 @@
 namespace tisserand::reducer::abaqus {
 
 enum class KeywordRole {
-  defines,  ///< read on its own
-  follows,  ///< read with the keyword before it, such as *KINEMATIC after *COUPLING
-  silent,   ///< titles and wishes for output
+  defines,  ///< read as a block
+  follows,  ///< read with the preceding keyword, such as *KINEMATIC after *COUPLING
+  silent,   ///< titles and output requests
   skipped   ///< without effect on stiffness and mass; listed in a warning
 };
 
-/// Nothing for keywords that are not understood. `keyword` in upper case without blanks.
+/// Role of a keyword in upper case without blanks; empty if it is not supported.
 std::optional<KeywordRole> keyword_role(std::string_view keyword);
 
 }  // namespace tisserand::reducer::abaqus

@@ -25,7 +25,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' |
 char to_upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 char to_lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// For messages: printable, one blank between words, not endless.
+/// Short printable text for messages, with single blanks between words.
 std::string shown(std::string_view text) {
   std::string result;
   for (const char c : text.substr(0, 60)) {
@@ -70,7 +70,7 @@ Block make_block(std::string_view line) {
   return block;
 }
 
-/// Turns files into blocks; keeps the chain of open files to see circles.
+/// Converts files to blocks. The chain of open files detects circles.
 class Reader {
  public:
   explicit Reader(Input& input) : input_(input) {}
@@ -78,7 +78,7 @@ class Reader {
   void read_file(const fs::path& path) { read_lines(path, load(path, "")); }
 
  private:
-  /// Row of the file in Input::texts. Throws Error: nothing sensible follows a missing file.
+  /// Index of the file in Input::texts. Throws Error, because nothing useful follows a missing file.
   std::uint32_t load(const fs::path& path, const std::string& named_at) {
     const std::string where = named_at.empty() ? path.string() : named_at;
     if (input_.paths.size() >= kMostFiles)
@@ -105,7 +105,7 @@ class Reader {
     open_.push_back(path.lexically_normal());
     std::string_view rest = *input_.texts[file];
     std::uint32_t number = 0;
-    std::string continued;  // a keyword line that ends in a comma
+    std::string continued;  // a keyword line that ends with a comma
     std::uint32_t continued_from = 0;
     while (!rest.empty()) {
       const std::size_t end = rest.find('\n');
@@ -130,7 +130,7 @@ class Reader {
     open_.pop_back();
   }
 
-  /// A blank data line of a beam section means "as usual"; everywhere else it means nothing.
+  /// Whether blank data lines are kept: in a beam section one means "default values", elsewhere it has no meaning.
   bool keeps_blank_lines() const { return !input_.blocks.empty() && input_.blocks.back().keyword.starts_with("BEAM"); }
 
   void keyword_line(const std::string& line, const fs::path& path, std::uint32_t file, std::uint32_t number) {

@@ -1,4 +1,4 @@
-// First step of read_abaqus(): from the text of a deck and of the files it includes to blocks of one keyword each.
+// First step of read_abaqus(): blocks of one keyword each from the text of a deck and its included files.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@ namespace tisserand::reducer::abaqus {
 /// One data line; the text lives in Input::texts.
 struct Line {
   std::string_view text;
-  std::uint32_t file = 0;  ///< row of Input::paths
+  std::uint32_t file = 0;  ///< index in Input::paths
   std::uint32_t number = 0;
 };
 
 /// REF NODE=7 is {"REFNODE", "7"}.
 struct Parameter {
   std::string name;   ///< upper case without blanks
-  std::string value;  ///< as written, without quotes and without blanks around it
+  std::string value;  ///< as written, without quotes and surrounding blanks
 };
 
 /// A keyword line with its parameters, and the data lines up to the next keyword.
@@ -34,9 +34,9 @@ struct Block {
 
   /// Value of a parameter ("" if it stands alone), nullptr if absent.
   const std::string* find(std::string_view name) const;
-  /// The value in lower case, "" if absent: for names of sets, materials, parts.
+  /// Value in lower case, "" if absent: for names of sets, materials, parts.
   std::string name_of(std::string_view parameter) const;
-  /// The value in upper case without blanks: for one of the words that a parameter may have.
+  /// Value in upper case without blanks, for parameters with a fixed set of words.
   std::string word_of(std::string_view parameter, std::string_view if_absent) const;
 };
 
@@ -50,15 +50,15 @@ struct Input {
 };
 
 /// Reads the deck with *INCLUDE and INPUT= parameters (paths relative to the file that names them). ** comments and
-/// blank lines are dropped, keyword lines that end in a comma continued.
-/// Throws Error for files that cannot be read and for texts that are no deck.
+/// blank lines are dropped. Keyword lines that end with a comma continue in the next line. Throws Error for files that
+/// cannot be read and for texts that are no deck.
 Input read_input(const std::string& path);
 
-/// The fields of a data line between commas, blanks around them removed; no field after a last comma.
+/// Fields of a data line between commas, without surrounding blanks; there is no field after a last comma.
 class Fields {
  public:
   explicit Fields(std::string_view line) : rest_(line) {}
-  /// False at the end of the line.
+  /// Reads the next field; returns false at the end of the line.
   bool next(std::string_view& field);
 
  private:
@@ -67,7 +67,7 @@ class Fields {
 
 std::vector<std::string_view> split(std::string_view line);
 
-/// Decimal numbers, also with Fortran's exponents ("1.5D+3"); nothing for text, infinities and NaN.
+/// Decimal numbers, also with Fortran's exponents ("1.5D+3"); empty for text, infinities and NaN.
 std::optional<double> to_number(std::string_view field);
 std::optional<long> to_integer(std::string_view field);
 

@@ -1,4 +1,4 @@
-// Elastic constants in the forms of *ELASTIC.
+// Elastic constants from the forms of *ELASTIC.
 #include "reducer/decks/abaqus/materials.hpp"
 
 #include <fmt/format.h>
@@ -10,8 +10,8 @@
 namespace tisserand::reducer::abaqus {
 namespace {
 
-/// All numbers of the data lines in one row; nothing, with a fault, unless there are as many as `wanted`. One more
-/// would be a temperature or a second row of a table.
+/// All numbers of the data lines. Empty, with a fault, unless there are exactly `wanted` numbers: a further one would
+/// be a temperature or a second row of a table.
 std::optional<std::vector<double>> constants_of(Model& model, const Block& block, std::size_t wanted) {
   std::vector<double> values;
   for (const Line& line : block.data)
@@ -42,7 +42,7 @@ void read_isotropic(Model& model, const Block& block, AbaqusMaterial& material) 
   material.nu = (*c)[1];
 }
 
-/// E1 E2 nu12 G12 G13 G23.
+/// Reads E1 E2 nu12 G12 G13 G23.
 void read_lamina(Model& model, const Block& block, AbaqusMaterial& material) {
   const auto c = constants_of(model, block, 6);
   if (!c) return;
@@ -53,7 +53,7 @@ void read_lamina(Model& model, const Block& block, AbaqusMaterial& material) {
   material.kind = AbaqusMaterial::Kind::lamina;
 }
 
-/// E1 E2 E3 nu12 nu13 nu23 G12 G13 G23.
+/// Reads E1 E2 E3 nu12 nu13 nu23 G12 G13 G23.
 void read_engineering(Model& model, const Block& block, AbaqusMaterial& material) {
   const auto c = constants_of(model, block, 9);
   if (!c) return;
@@ -65,7 +65,7 @@ void read_engineering(Model& model, const Block& block, AbaqusMaterial& material
   material.kind = AbaqusMaterial::Kind::orthotropic;
 }
 
-/// D1111 D1122 D2222 D1133 D2233 D3333 D1212 D1313 D2323.
+/// Reads D1111 D1122 D2222 D1133 D2233 D3333 D1212 D1313 D2323.
 void read_orthotropic(Model& model, const Block& block, AbaqusMaterial& material) {
   const auto c = constants_of(model, block, 9);
   if (!c) return;

@@ -1,4 +1,4 @@
-// One function for each kind of element.
+// Elements of the mesh, one function for each kind.
 #include "reducer/decks/abaqus/mesh.hpp"
 
 #include <algorithm>
@@ -16,20 +16,20 @@
 namespace tisserand::reducer::abaqus {
 namespace {
 
-/// A number for messages; ids beyond int lose nothing but their place in messages.
+/// Number for messages, 0 for ids beyond int.
 int short_id(long id) { return id <= std::numeric_limits<int>::max() ? static_cast<int>(id) : 0; }
 
 const Eigen::Vector3d& position(const Model& model, int node) { return model.positions[node]; }
 
-/// Without *ORIENTATION the material x axis is the projection of the global x axis, of z if x is within 0.1° of the
-/// normal (Abaqus, "Conventions").
+/// Material x axis without *ORIENTATION: projection of the global x axis, or of z if x is within 0.1° of the normal
+/// (Abaqus, "Conventions").
 Eigen::Vector3d default_direction(const Model& model, const ShellElement& shell) {
   const Eigen::Vector3d normal = normal_of(model.deck.mesh, shell);
   const double cosine = std::abs(normal.x()) / std::max(normal.norm(), std::numeric_limits<double>::min());
   return cosine > std::cos(0.1 * M_PI / 180.0) ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
 }
 
-/// Four nodes of which two neighbours are the same one are a triangle.
+/// Nodes of a shell; four nodes with two equal neighbours are a triangle.
 std::array<int, 4> shell_nodes(const int* nodes, int count) {
   std::array<int, 4> result{nodes[0], nodes[1], nodes[2], count == 4 ? nodes[3] : -1};
   if (count == 3) return result;
@@ -48,7 +48,7 @@ int add_shell(Model& model, const RawElement& element, const SectionUse& use) {
   return add_row(model.deck.mesh.shells, shell);
 }
 
-/// One section may serve B31 and B33.
+/// Row of the beam property; one section may be used by B31 and B33.
 int beam_property(Model& model, const RawElement& element, SectionUse& use) {
   if (element.type->kind == ElementKind::truss || element.type->theory == formats::BeamTheory::timoshenko)
     return use.property;
@@ -140,7 +140,7 @@ void add_point(Model& model, const RawElement& element, const SectionUse& use) {
   model.deck.mesh.masses.push_back(mass);
 }
 
-/// Row in the vector of its kind, -1 for masses and for faulty elements.
+/// Adds the element and returns its row in the vector of its kind, -1 for masses and faulty elements.
 int add_element(Model& model, const RawElement& element, SectionUse& use) {
   switch (element.type->kind) {
     case ElementKind::shell:
@@ -172,7 +172,7 @@ void count_elements(const Model& model, std::array<std::size_t, 3>& count) {
   }
 }
 
-/// Ids of the assembly, and those of instances that only one instance has.
+/// Sets ids of the assembly, and those of instances that only one instance has.
 void fill_ids(Model& model) {
   std::map<long, int>& ids = model.deck.node_of_id;
   std::vector<std::pair<long, int>> sorted;
@@ -206,7 +206,7 @@ void add_missing_section(Model& model, const std::string& set, int count, const 
               "name the set in *SHELL SECTION, *SOLID SECTION, *BEAM SECTION, *MASS, *ROTARY INERTIA or *SPRING");
 }
 
-/// One fault per set; an element of several counts with the first by name.
+/// Adds one fault per set; an element in several sets counts with the first by name.
 void find_missing_sections(Model& model) {
   std::vector<bool> told(model.elements.size(), false);
   const auto tell = [&](const std::string& set, const auto& rows) {

@@ -5,10 +5,10 @@
 
 namespace tisserand::reducer::abaqus {
 
-/// Nodes with labels, Deck::node_of_id.
+/// Sets nodes with labels, and Deck::node_of_id.
 void fill_nodes(Model& model);
 
-/// All elements, with faults for those without a section.
+/// Adds all elements, with faults for those without a section.
 void fill_elements(Model& model);
 
 }  // namespace tisserand::reducer::abaqus

@@ -1,4 +1,4 @@
-// *SHELL SECTION, COMPOSITE: layers with angles or with orientations of their own.
+// *SHELL SECTION, COMPOSITE: layers with angles or their own orientations.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@ namespace tisserand::reducer::abaqus {
 namespace {
 
 /// +1 if the normals of all shells of the set are on the side of `axis`, -1 if all are on the other side. Throws Error
-/// if there are both, since the sense of angles follows the normal.
+/// for both, since the sense of angles follows the normal.
 double side_of_normals(Model& model, int scope, const Block& block, const Eigen::Vector3d& axis) {
   const std::string where = model.where(block);
   const auto elements = find_elements(model, scope, block.name_of("ELSET"), where);
@@ -32,7 +32,7 @@ double side_of_normals(Model& model, int scope, const Block& block, const Eigen:
   return side == 0.0 ? 1.0 : side;
 }
 
-/// Reads the layers one by one; the orientation of the section, else that of the first layer, is where angles begin.
+/// Reads the layers one by one. Angles count from the orientation of the section, or else of the first layer.
 class Composite {
  public:
   Composite(Model& model, int scope, const Block& block) : model_(model), scope_(scope), block_(block) {}
@@ -61,7 +61,7 @@ class Composite {
     if (base_) side_ = side_of_normals(model_, scope_, block_, base_->normal);
   }
 
-  /// Right-handed about the normal of the shell.
+  /// Angle of an orientation, right-handed about the normal of the shell.
   std::optional<double> angle_of(std::string_view name, const Line& line) {
     if (!base_) {
       set_base(name, line);
@@ -75,7 +75,7 @@ class Composite {
     return side_ * std::atan2(base_->x.cross(own->x).dot(base_->normal), base_->x.dot(own->x));
   }
 
-  /// thickness, points, material, angle in degrees or orientation; the number of points does not matter.
+  /// Layer: thickness, points, material, angle in degrees or orientation; the number of points is ignored.
   std::optional<Ply> read_ply(const Line& line) {
     const std::vector<std::string_view> fields = split(line.text);
     const std::string where = model_.where(line);

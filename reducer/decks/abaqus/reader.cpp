@@ -1,4 +1,4 @@
-// read_abaqus(): from the path of a deck to its mesh and names, step by step.
+// read_abaqus(): the mesh and names of a deck, step by step.
 #include <fmt/format.h>
 
 #include "common/text.hpp"
@@ -45,7 +45,7 @@ void tell_massless_materials(Model& model) {
           fmt::format("{}: material '{}' has no *DENSITY: its elements have no mass", material.where, name));
 }
 
-/// Instances before the assembly, which refers to them.
+/// Calls step for all scopes: instances first, because the assembly refers to them.
 template <class Step>
 void for_each_scope(Model& model, const Step& step) {
   for (int scope = 1; scope < std::ssize(model.scopes); ++scope) step(model, scope);

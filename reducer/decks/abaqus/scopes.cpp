@@ -17,7 +17,7 @@ struct Part {
   bool is_used = false;
 };
 
-/// Translation first, then the turn about the line from a to b: x = a + Q (x_part + t − a).
+/// Placement: translation first, then rotation about the line from a to b: x = a + Q (x_part + t − a).
 Placement read_placement(Model& model, const Block& block) {
   Placement placement;
   if (!block.data.empty()) {
@@ -45,7 +45,7 @@ void count_keyword(Model& model, const Block& block) {
   if (role == KeywordRole::skipped) ++model.skipped[block.title];
 }
 
-/// Goes through the blocks once; `inside_` is the list that takes the present ones.
+/// Sorts the blocks in one pass; `inside_` is the list that receives the present ones.
 class Sorter {
  public:
   explicit Sorter(Model& model) : model_(model) { model_.scopes.emplace_back(); }

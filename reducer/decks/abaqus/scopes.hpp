@@ -1,11 +1,11 @@
-// Second step of read_abaqus(): blocks sorted into the assembly, instances of parts and steps; keywords counted.
+// Second step of read_abaqus(): blocks sorted into the assembly, instances of parts and steps, with counts of keywords.
 #pragma once
 
 #include "reducer/decks/abaqus/model.hpp"
 
 namespace tisserand::reducer::abaqus {
 
-/// Fills Model::scopes, ::steps, ::unknown and ::skipped.
+/// Sets Model::scopes, ::steps, ::unknown and ::skipped.
 void sort_into_scopes(Model& model);
 
 }  // namespace tisserand::reducer::abaqus

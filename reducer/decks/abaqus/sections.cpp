@@ -1,4 +1,4 @@
-// Shells, solids, trusses, point masses, rotary inertia and springs.
+// Sections of shells, solids and trusses; point masses, rotary inertia and springs.
 #include "reducer/decks/abaqus/sections.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ Error not_positive(const std::string& what, double value, const std::string& whe
   return Error(fmt::format("{} = {:.6g}", what, value), where, "give a value > 0");
 }
 
-/// Parameters that change what a section is and are not understood.
+/// Adds faults for parameters that change the meaning of a section and are not supported.
 bool refuse_parameters(Model& model, const Block& block, std::initializer_list<const char*> names) {
   bool found = false;
   for (const char* name : names)
@@ -31,9 +31,9 @@ bool refuse_parameters(Model& model, const Block& block, std::initializer_list<c
   return found;
 }
 
-/// Distance of the middle surface from the nodes along the normal: OFFSET is the fraction of the thickness from the
-/// middle surface to the reference surface, which holds the nodes; SPOS = +1/2, SNEG = −1/2 (CalculiX manual, *SHELL
-/// SECTION: with OFFSET=0.5 the reference surface is the top surface of the shell).
+/// Distance of the middle surface from the nodes along the normal. OFFSET is the fraction of the thickness from the
+/// middle surface to the reference surface with the nodes; SPOS = +1/2, SNEG = −1/2 (CalculiX manual, *SHELL SECTION:
+/// with OFFSET=0.5 the reference surface is the top surface of the shell).
 std::optional<double> shell_offset(Model& model, const Block& block, double thickness) {
   const std::string* text = block.find("OFFSET");
   if (text == nullptr) return 0.0;
@@ -46,7 +46,7 @@ std::optional<double> shell_offset(Model& model, const Block& block, double thic
                       "write SPOS, SNEG or a number");
 }
 
-/// x axis of the material on the shell: the axis of *ORIENTATION that follows, cyclically, the one near the normal.
+/// Reads the material x axis of the shell: the axis of *ORIENTATION that cyclically follows the one near the normal.
 bool read_shell_direction(Model& model, int scope, const Block& block, SectionUse& use) {
   const std::string* name = block.find("ORIENTATION");
   if (name == nullptr) return true;
@@ -78,7 +78,7 @@ std::optional<ShellSection> read_sheet(Model& model, const Block& block, bool& h
   return laminate({ply}, -0.5 * *thickness);
 }
 
-/// K11, K22, K12 of *TRANSVERSE SHEAR STIFFNESS after the section.
+/// Reads K11, K22, K12 of *TRANSVERSE SHEAR STIFFNESS after the section.
 void read_shear(Model& model, const Block& block, ShellSection& section) {
   std::array<double, 3> k{};
   if (block.data.empty() || !read_numbers(model, block, block.data[0], k)) return;
@@ -111,7 +111,7 @@ void read_shell_section(Model& model, int scope, std::size_t index) {
   give_section(model, scope, block, use);
 }
 
-/// Kinds of elements in the set of a section.
+/// Whether the set of a section has elements of this kind.
 bool holds(const Model& model, const std::vector<int>& elements, ElementKind kind) {
   return std::any_of(elements.begin(), elements.end(), [&](int row) { return model.elements[row].type->kind == kind; });
 }
@@ -180,8 +180,8 @@ void read_mass(Model& model, int scope, const Block& block) {
   give_section(model, scope, block, use);
 }
 
-/// I11, I22, I33, I12, I13, I23; products are taken for entries of the tensor, I12 = −∫ x1 x2 dm. No public source says
-/// so: Abaqus' pages name them "products of inertia" only.
+/// Reads I11, I22, I33, I12, I13, I23. Products are entries of the tensor, I12 = −∫ x1 x2 dm. This is an assumption:
+/// Abaqus' pages only name them "products of inertia".
 void read_rotary_inertia(Model& model, int scope, const Block& block) {
   std::array<double, 6> v{};
   if (block.data.empty() || !read_numbers(model, block, block.data[0], v)) return;
@@ -206,8 +206,8 @@ void read_rotary_inertia(Model& model, int scope, const Block& block) {
   give_section(model, scope, block, use);
 }
 
-/// SPRINGA: a line without meaning, then the stiffness. SPRING2: the two components, then the stiffness. Blank lines do
-/// not count, so that the first line of SPRINGA may be absent.
+/// Reads SPRINGA: a line without meaning, then the stiffness. SPRING2: the two components, then the stiffness. Blank
+/// lines do not count, so the first line of SPRINGA may be absent.
 void read_spring(Model& model, int scope, const Block& block) {
   if (refuse_parameters(model, block, {"NONLINEAR", "COMPLEXSTIFFNESS", "DEPENDENCIES", "RTOL"})) return;
   const std::string where = model.where(block);

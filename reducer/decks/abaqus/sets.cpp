@@ -1,4 +1,4 @@
-// What numbers and names refer to; *NSET and *ELSET.
+// Resolution of numbers and names; *NSET and *ELSET.
 #include "reducer/decks/abaqus/sets.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ const Scope* find_scope(const Model& model, std::string_view name) {
   return nullptr;
 }
 
-/// The scope that "instance.rest" names, and the rest; else the scope itself and the whole text.
+/// Scope that "instance.rest" names, and the rest; otherwise the scope itself and the whole text.
 struct Place {
   const Scope* scope;
   std::string_view rest;
@@ -36,7 +36,7 @@ std::optional<int> find_in(const std::unordered_map<long, int>& ids, std::string
   return found == ids.end() ? std::nullopt : std::optional<int>(found->second);
 }
 
-/// Which ids and sets of a scope are meant: those of nodes or those of elements.
+/// Whether ids and sets of a scope are those of nodes or of elements.
 struct SetKind {
   const char* word;
   std::unordered_map<long, int> Scope::*ids;
@@ -60,7 +60,7 @@ std::optional<std::vector<int>> find_members(Model& model, int scope, std::strin
       fmt::format("define it before, with *{}", kind.ids == &Scope::nodes ? "NODE or *NSET" : "ELEMENT or *ELSET"));
 }
 
-/// first, last, step: the ids between them that exist. Looks at ids or at the steps, whichever are fewer.
+/// Adds the existing ids of first, last, step. It visits ids or steps, whichever are fewer.
 void add_range(Model& model, const Scope& scope, const SetKind& kind, const Line& line, std::vector<int>& members) {
   const std::vector<std::string_view> fields = split(line.text);
   const std::optional<long> first = fields.empty() ? std::nullopt : to_integer(fields[0]);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kFreeFaces = -1;
 
-/// Columns of the mesh of the nodes of one face; a shell is its own face.
+/// Nodes of one face as columns of the mesh; a shell is its own face.
 std::vector<int> nodes_of_face(const Model& model, const RawElement& element, int face) {
   const int* nodes = model.nodes_of(element);
   if (element.type->kind != ElementKind::solid) return {nodes, nodes + element.count};
@@ -25,14 +25,14 @@ std::vector<int> nodes_of_face(const Model& model, const RawElement& element, in
 
 std::size_t corners_of(const std::vector<int>& face) { return face.size() >= 6 ? face.size() / 2 : face.size(); }
 
-/// Area spanned by the corners: half of the cross product of the diagonals, for three corners of two sides.
+/// Area of the corners: half of the cross product of the diagonals, or of two sides for three corners.
 double area_of(const Model& model, const std::vector<int>& face) {
   const auto x = [&](std::size_t i) { return model.positions[face[i]]; };
   if (corners_of(face) == 3) return 0.5 * (x(1) - x(0)).cross(x(2) - x(0)).norm();
   return 0.5 * (x(2) - x(0)).cross(x(3) - x(1)).norm();
 }
 
-/// Faces of these elements that only one of them has.
+/// Faces that only one of these elements has.
 std::vector<SurfaceFace> free_faces(const Model& model, const std::vector<int>& elements) {
   std::map<std::vector<int>, std::vector<SurfaceFace>> users;
   for (const int row : elements) {
@@ -51,7 +51,7 @@ std::vector<SurfaceFace> free_faces(const Model& model, const std::vector<int>& 
   return result;
 }
 
-/// S1 ... S6 -> 0 ... 5, SPOS and SNEG -> 0, nothing given -> kFreeFaces.
+/// Face number: S1 ... S6 -> 0 ... 5, SPOS and SNEG -> 0, empty -> kFreeFaces.
 std::optional<int> face_number(std::string_view label) {
   const std::string name = upper_without_blanks(label);
   if (name.empty()) return kFreeFaces;
@@ -81,7 +81,7 @@ bool add_faces(Model& model, const std::vector<int>& elements, int face, const L
   return true;
 }
 
-/// Right-handed axes: x from `origin` to a, b in the x-y plane. Nothing if the points do not span a plane.
+/// Right-handed axes: x from `origin` to a, b in the x-y plane. Empty if the points do not span a plane.
 std::optional<Eigen::Matrix3d> axes_from_points(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d z = a.cross(b);
   if (!(z.norm() > 1e-9 * a.norm() * b.norm())) return std::nullopt;
@@ -101,7 +101,7 @@ std::optional<Eigen::Matrix3d> read_axes(Model& model, const Block& block) {
   return axes;
 }
 
-/// The second data line: axis and angle [degrees] of an additional rotation.
+/// Reads the second data line: axis and angle [degrees] of an additional rotation.
 bool read_second_line(Model& model, const Block& block, Orientation& orientation) {
   std::array<double, 2> values{1.0, 0.0};
   if (!read_numbers(model, block, block.data[1], values)) return false;
@@ -117,7 +117,7 @@ bool read_second_line(Model& model, const Block& block, Orientation& orientation
   return true;
 }
 
-/// Columns: away from the axis through the two points of the block, around it, along it.
+/// Sets axes with the columns: away from the axis through the two points of the block, around it, along it.
 void set_cylindrical_axes(Model& model, int scope, const std::vector<int>& nodes, const Block& block) {
   std::array<double, 6> p{};
   if (!block.data.empty() && !read_numbers(model, block, block.data[0], p)) return;

@@ -1,4 +1,4 @@
-// *SURFACE, *ORIENTATION and *TRANSFORM: places and directions that sections and constraints refer to.
+// *SURFACE, *ORIENTATION and *TRANSFORM: places and directions for sections and constraints.
 #pragma once
 
 #include "reducer/decks/abaqus/model.hpp"
@@ -8,10 +8,10 @@ namespace tisserand::reducer::abaqus {
 void read_surface(Model& model, int scope, const Block& block);
 void read_orientation(Model& model, int scope, const Block& block);
 void read_transform(Model& model, int scope, const Block& block);
-/// Whether components of the node have directions; if not, a fault at `where`.
+/// Whether components of the node have directions; if not, adds a fault at `where`.
 bool has_directions(Model& model, int node, const std::string& where);
 
-/// Nodes of a surface with the area that each stands for (face_weights); nodal surfaces: 1 each. Sorted by node.
+/// Nodes of a surface with their shares of its area (face_weights); nodal surfaces: 1 each. Sorted by node.
 std::map<int, double> surface_weights(const Model& model, const Surface& surface);
 
 }  // namespace tisserand::reducer::abaqus

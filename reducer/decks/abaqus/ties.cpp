@@ -9,7 +9,7 @@
 namespace tisserand::reducer::abaqus {
 namespace {
 
-/// Directions of the components of a coupling; nothing, with a fault, if its orientation is not usable.
+/// Directions of the components of a coupling; empty, with a fault, if its orientation cannot be used.
 std::optional<Eigen::Matrix3d> coupling_axes(Model& model, int scope, const Block& block) {
   const std::string* name = block.find("ORIENTATION");
   if (name == nullptr) return Eigen::Matrix3d::Identity();
@@ -21,7 +21,7 @@ std::optional<Eigen::Matrix3d> coupling_axes(Model& model, int scope, const Bloc
                       orientation->where, "give rectangular axes");
 }
 
-/// Union of the ranges of all data lines; all six without data lines.
+/// Components of all data lines together; all six without data lines.
 std::optional<Components> components_of(Model& model, const Block& block, std::size_t field) {
   Components result = block.data.empty() ? all_components : 0;
   for (const Line& line : block.data) {
@@ -32,7 +32,7 @@ std::optional<Components> components_of(Model& model, const Block& block, std::s
   return result;
 }
 
-/// Takes the nodes but the reference; a fault if none is left.
+/// Adds a spider with the nodes except the reference; a fault if none remains.
 void add_spider(Model& model, const Block& block, Spider spider, const std::vector<int>& nodes) {
   for (const int node : nodes)
     if (node != spider.reference) spider.nodes.push_back(node);
@@ -71,7 +71,7 @@ void make_distributing(Model& model, const Block& block, const Block& kind, Spid
   add_spider(model, block, std::move(spider), {});
 }
 
-/// The block at `index`; *KINEMATIC or *DISTRIBUTING is the next one.
+/// Reads the coupling block at `index`; *KINEMATIC or *DISTRIBUTING is the next one.
 void read_coupling(Model& model, int scope, std::size_t index) {
   const std::vector<const Block*>& blocks = model.scopes[scope].blocks;
   const Block& block = *blocks[index];
@@ -101,7 +101,7 @@ void read_coupling(Model& model, int scope, std::size_t index) {
   add_spider(model, block, std::move(spider), nodes);
 }
 
-/// The older form: every data line has nodes of its own and their components.
+/// Reads the older form, in which every data line has its own nodes and components.
 void read_kinematic_coupling(Model& model, int scope, const Block& block) {
   const std::optional<int> reference = find_one_node(model, scope, block.name_of("REFNODE"), model.where(block));
   const std::optional<Eigen::Matrix3d> axes = coupling_axes(model, scope, block);
@@ -121,7 +121,7 @@ void read_kinematic_coupling(Model& model, int scope, const Block& block) {
   }
 }
 
-/// Nodes of the elements of a set; those of solids follow with translations, which is all they have.
+/// Nodes of the elements of a set; those of solids follow with translations, their only components.
 std::vector<int> nodes_of_elements(const Model& model, const std::vector<int>& elements) {
   std::vector<int> nodes;
   add_nodes_of(model, elements, nodes);
@@ -193,7 +193,7 @@ void read_mpc_pair(Model& model, const Block& block, const Line& line, const Mpc
   add_spider(model, block, std::move(spider), {pair[0]});
 }
 
-/// type, dependent node or set, reference node or set of as many.
+/// Reads type, dependent node or set, and reference node or set of equal size.
 void read_mpc(Model& model, int scope, const Block& block) {
   for (const Line& line : block.data) {
     const std::vector<std::string_view> fields = split(line.text);

@@ -5,17 +5,17 @@
 
 namespace tisserand::reducer::abaqus {
 
-/// *COUPLING with *KINEMATIC or *DISTRIBUTING, *KINEMATIC COUPLING, *RIGID BODY, *MPC, *EQUATION of one scope.
+/// Reads *COUPLING with *KINEMATIC or *DISTRIBUTING, *KINEMATIC COUPLING, *RIGID BODY, *MPC, *EQUATION of a scope.
 void read_ties(Model& model, int scope);
 
-/// *EQUATION; used by read_ties.
+/// Reads *EQUATION, for read_ties().
 void read_equation(Model& model, int scope, const Block& block);
 
-/// first, last (1-6) of a data line from `field` on: a missing last is the first, a missing first all six. Nothing,
-/// with a fault, for anything else.
+/// Components first to last (1-6) of a data line from `field` on. Without last it is first; without first it is all
+/// six. Empty, with a fault, for anything else.
 std::optional<Components> read_components(Model& model, const Line& line, std::size_t field);
 
-/// One node by number or by a set of one node. Nothing, with a fault, otherwise.
+/// One node by number or by a set of one node. Empty, with a fault, otherwise.
 std::optional<int> find_one_node(Model& model, int scope, std::string_view text, const std::string& where);
 
 }  // namespace tisserand::reducer::abaqus

@@ -1,4 +1,4 @@
-// PBAR, PBARL, PBEAM, PBEAML and the constants of rods of a Nastran deck become properties of beams.
+// Properties of beams from PBAR, PBARL, PBEAM, PBEAML and the constants of rods of a Nastran deck.
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -12,14 +12,14 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Both ends of a beam, and the non-structural mass (not yet scaled by PARAM,WTMASS).
+/// Both ends of a beam, and the non-structural mass (before scaling by PARAM,WTMASS).
 struct BeamSections {
   formats::Section first, second;
   bool tapered = false;  ///< false: `first` everywhere
   AddedMass added;
 };
 
-/// E and G of the card: beams see nothing else of the material.
+/// Material with E and G of the card, the only constants that beams use.
 std::optional<formats::Material> beam_material(NastranModel& model, CardFields& f) {
   const NastranMaterial* m = material(model, f, 1, "MID");
   if (m == nullptr) return std::nullopt;
@@ -39,7 +39,7 @@ void judge(CardFields& f, const formats::Section& s) {
     f.fault(fmt::format("I12 {:g} exceeds the root of I1 I2 = {:g}", Iyz, std::sqrt(Iy * Iz)), "correct I12");
 }
 
-/// A, I1, I2 and so on: I1 = ∫y² dA bends in plane 1 (x-y), I2 = ∫z² dA in plane 2.
+/// Section of A, I1, I2 and so on: I1 = ∫y² dA bends in plane 1 (x-y), I2 = ∫z² dA in plane 2.
 formats::Section constants(double A, double I1, double I2, double I12, double J) {
   formats::Section s;
   s.area = A;
@@ -51,7 +51,7 @@ formats::Section constants(double A, double I1, double I2, double I12, double J)
   return s;
 }
 
-/// Blank K1, K2: no shear flexibility, also if I12 is not zero (as in Nastran).
+/// Reads PBAR. Blank K1, K2: no shear flexibility, also if I12 is not zero (as in Nastran).
 BeamSections read_pbar(CardFields& f) {
   const double A = f.real(2, "A"), I1 = f.real(3, "I1", 0.0), I2 = f.real(4, "I2", 0.0), J = f.real(5, "J", 0.0);
   const double K1 = f.real(16, "K1", 0.0), K2 = f.real(17, "K2", 0.0), I12 = f.real(18, "I12", 0.0);
@@ -66,7 +66,7 @@ BeamSections read_pbar(CardFields& f) {
   return b;
 }
 
-/// Sizes from field `start` on; faults for unknown types and sizes that are no section.
+/// Section of the sizes from field `start` on; faults for unknown types and invalid sizes.
 std::optional<formats::Section> shaped(CardFields& f, const std::string& type, int start) {
   std::vector<double> sizes;
   for (int i = 0; i < pbarl_sizes(type); ++i) sizes.push_back(f.real(start + i, fmt::format("DIM{}", i + 1)));
@@ -91,7 +91,7 @@ bool is_station(std::string_view text) {
   return same_word(text, "YES") || same_word(text, "YESA") || same_word(text, "NO");
 }
 
-/// Stations of PBEAML: SO, X/XB, sizes, NSM; the one with X/XB = 1 is end B.
+/// Reads stations of PBEAML: SO, X/XB, sizes, NSM; the one with X/XB = 1 is end B.
 BeamSections read_pbeaml(NastranModel& model, CardFields& f) {
   BeamSections b;
   const std::string type = capitals(f.text(3));
@@ -117,7 +117,7 @@ BeamSections read_pbeaml(NastranModel& model, CardFields& f) {
   return b;
 }
 
-/// One end of PBEAM: A, I1, I2, I12, J, NSM from field `start` on, blanks as `before`.
+/// One end of PBEAM: A, I1, I2, I12, J, NSM from field `start` on; blanks are copied from `before`.
 formats::Section pbeam_end(CardFields& f, int start, const formats::Section& before) {
   formats::Section s =
       constants(f.real(start, "A", before.area), f.real(start + 1, "I1", before.second_moment_z),
@@ -127,7 +127,7 @@ formats::Section pbeam_end(CardFields& f, int start, const formats::Section& bef
   return s;
 }
 
-/// N1, N2: the centroid from the line of shear centres, along y and z, blanks as `before`.
+/// Sets the centroid from N1, N2, its distance from the line of shear centres along y and z; blanks from `before`.
 void place_centroid(CardFields& f, int N1, const formats::Section& before, formats::Section& s) {
   s.centroid_y = f.real(N1, "N1", before.centroid_y);
   s.centroid_z = f.real(N1 + 1, "N2", before.centroid_z);
@@ -135,8 +135,8 @@ void place_centroid(CardFields& f, int N1, const formats::Section& before, forma
   s.shear_center_z = -s.centroid_z;
 }
 
-/// The last lines of PBEAM: K1, K2 (blank: 1), S1, S2, NSI, CW; M1, M2 (the centre of NSM), N1, N2. Means of both ends
-/// where the beam has one value.
+/// Reads the last lines of PBEAM: K1, K2 (blank: 1), S1, S2, NSI, CW; M1, M2 (the centre of NSM), N1, N2. Values that
+/// the beam has once are means of both ends.
 void read_pbeam_tail(NastranModel& model, CardFields& f, int tail, BeamSections& b) {
   const double K1 = f.real(tail, "K1", 1.0), K2 = f.real(tail + 1, "K2", 1.0);
   const double nsi = f.real(tail + 4, "NSI(A)", 0.0);
@@ -159,7 +159,7 @@ void read_pbeam_tail(NastranModel& model, CardFields& f, int tail, BeamSections&
   place_centroid(f, tail + 14, b.first, b.second);
 }
 
-/// Ends, then optional lines of stress points (C1 to F2) behind each end, then the tail.
+/// Reads PBEAM: ends, each with optional lines of stress points (C1 to F2), then the tail.
 BeamSections read_pbeam(NastranModel& model, CardFields& f) {
   BeamSections b;
   formats::Section none;

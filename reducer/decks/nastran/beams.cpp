@@ -1,4 +1,4 @@
-// CBAR, CBEAM, CROD, CTUBE and CONROD of a Nastran deck become beams of the mesh.
+// Beams of the mesh from CBAR, CBEAM, CROD, CTUBE and CONROD of a Nastran deck.
 #include <optional>
 #include <vector>
 
@@ -10,12 +10,12 @@
 namespace tisserand::reducer {
 namespace {
 
-/// BAROR or BEAMOR: fields for those that are blank.
+/// BAROR or BEAMOR: values for blank fields.
 struct BeamDefaults {
   std::optional<CardFields> card;
 };
 
-/// OFFT: first letter of the frame of the orientation (G: CD of GA, B: basic), then of the offsets (G: CD, O: element).
+/// Frames of OFFT: first letter for the orientation (G: CD of GA, B: basic), then for the offsets (G: CD, O: element).
 struct OffsetFrames {
   char orientation = 'G', first = 'G', second = 'G';
 };
@@ -110,7 +110,7 @@ struct Rod {
   long pid = 0;  ///< 0: CONROD
 };
 
-/// Axes with x along the rod and any y.
+/// Sets axes with x along the rod and any y.
 bool set_rod_axes(NastranModel& model, CardFields& f, BeamElement& beam) {
   if (!f.ok()) return false;
   const Eigen::Vector3d axis = model.position(beam.second) - model.position(beam.first);

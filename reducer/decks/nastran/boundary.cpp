@@ -1,4 +1,4 @@
-// What of a Nastran deck is attached to nodes, what of them is boundary, and what is held to ground.
+// Attachments, boundary and supports of the nodes of a Nastran deck.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -13,14 +13,14 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr double drilling_cosine = 0.985;  // 10 degrees: what the program of these decks holds by itself in flat shells
+constexpr double drilling_cosine = 0.985;  // 10 degrees: the decks' program holds this rotation in flat shells
 
 void attach(std::vector<Components>& attached, int node, Components components) {
   Components& of_node = attached[node];
   of_node = static_cast<Components>(of_node | components);
 }
 
-/// Translations, and rotations if any of them carries something.
+/// Components with entries in a block: translations, and rotations, each all or none.
 Components of_block(const Eigen::Matrix<double, 6, 6>& block) {
   Components result = 0;
   if (block.diagonal().head<3>().cwiseAbs().maxCoeff() > 0.0) result |= translations_only;
@@ -33,7 +33,7 @@ void attach_spider(std::vector<Components>& attached, const Spider& spider) {
   for (const int node : spider.nodes) attach(attached, node, spider.node_components);
 }
 
-/// Boundary components of every node that a card names, in the order of the deck.
+/// Boundary components of all nodes that cards name, in the order of the deck.
 class Boundary {
  public:
   explicit Boundary(NastranModel& model) : model_(model) {}
@@ -54,7 +54,7 @@ class Boundary {
   std::map<int, std::size_t> place_;
 };
 
-/// ID1, C1, ID2, C2, ...
+/// Reads ID1, C1, ID2, C2, ...
 void read_pairs(NastranModel& model, CardFields& f, Boundary& boundary) {
   for (int i = 0; i < f.size() && f.ok(); i += 2) {
     if (f.blank(i)) continue;
@@ -63,7 +63,7 @@ void read_pairs(NastranModel& model, CardFields& f, Boundary& boundary) {
   }
 }
 
-/// C, ID1, ID2, ... or C, ID1, THRU, ID2.
+/// Reads C, ID1, ID2, ... or C, ID1, THRU, ID2.
 void read_list(NastranModel& model, CardFields& f, Boundary& boundary) {
   const Components components = f.components(0, "C", 0);
   for (const long id : f.id_list(1, "ID", KnownGrids{model.grid_rows}))
@@ -79,10 +79,10 @@ std::vector<Eigen::Vector3d> rotation_axes(const NastranModel& model, int node, 
   return axes;
 }
 
-/// Normals of the shells at the nodes of `wanted`; a node that also carries anything else that turns is left out.
+/// Normals of the shells at the nodes of `wanted`; nodes with rotations of other elements are omitted.
 std::map<int, std::vector<Eigen::Vector3d>> shell_normals(const NastranModel& model, const std::set<int>& wanted) {
   const Mesh& mesh = model.deck.mesh;
-  Mesh others;  // all but the shells
+  Mesh others;  // all except the shells
   others.position = mesh.position;
   others.beams = mesh.beams;
   others.beam_properties = mesh.beam_properties;
@@ -100,7 +100,7 @@ std::map<int, std::vector<Eigen::Vector3d>> shell_normals(const NastranModel& mo
   return normals;
 }
 
-/// Takes from held.components those to which nothing is attached: all that is left holds the part.
+/// Removes from held.components those without attachments; the remaining ones hold the part.
 void drop_idle(const NastranModel& model, const std::vector<Components>& attached,
                const std::map<int, std::vector<Eigen::Vector3d>>& normals, HeldNode& held) {
   const Components present = attached[held.node];
@@ -217,7 +217,7 @@ void judge_supports(NastranModel& model) {
     std::vector<std::string> nodes;
     std::size_t number = 0;
   };
-  std::map<std::size_t, Support> supports;  // by card
+  std::map<std::size_t, Support> supports;  // key: card
   for (const HeldNode& entry : model.held) {
     HeldNode held = entry;
     drop_idle(model, attached, normals, held);

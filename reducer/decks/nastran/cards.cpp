@@ -1,4 +1,4 @@
-// First step of a Nastran deck: from the text of the file and its INCLUDEs to cards of fields, each with its line.
+// First step of a Nastran deck: cards of fields with line numbers, from the text of the file and its INCLUDEs.
 #include "reducer/decks/nastran/cards.hpp"
 
 #include <algorithm>
@@ -29,13 +29,13 @@ bool starts_with_word(std::string_view line, std::string_view word) {
   return line.size() >= word.size() && same_word(line.substr(0, word.size()), word);
 }
 
-/// One physical line, cut into fields.
+/// One physical line as fields.
 struct Line {
   std::string_view name;  ///< trimmed; with the sign + or * of a continuation
   std::array<std::string_view, 8> fields;
   int count = 0;  ///< four or eight
   bool continuation = false;
-  std::string_view mark;  ///< what the next line must carry, without its first character
+  std::string_view mark;  ///< continuation mark for the next line, without its first character
 };
 
 class CardReader {
@@ -62,19 +62,19 @@ class CardReader {
 
   NastranCards& cards_;
   DeckFaults& faults_;
-  std::vector<fs::path> open_;  ///< files that are being read, outermost first
+  std::vector<fs::path> open_;  ///< open files, outermost first
   std::uintmax_t bytes_ = 0;
   std::uint32_t file_ = 0;
   std::uint32_t line_ = 0;
-  std::string_view text_;                      ///< of the present file from the next line on
-  std::size_t position_ = 0;                   ///< fields of the last card, blank ones included
+  std::string_view text_;                      ///< of the current file from the next line on
+  std::size_t position_ = 0;                   ///< fields of the last card with blank ones
   bool has_card_ = false;                      ///< a continuation may follow
   std::string_view mark_;                      ///< of the last line
   std::array<std::string_view, 8> pattern_{};  ///< of the last replication
   bool ended_ = false;
 };
 
-/// The text of `path`. Only regular files: a pipe or device has no end that could be trusted.
+/// Text of `path`. Only regular files are read: a pipe or device may have no end.
 std::string_view CardReader::load(const std::string& path, const std::string& from) {
   std::error_code code;
   if (!fs::exists(path, code)) throw Error(fmt::format("{} does not exist", path), from, "check the path of the deck");
@@ -91,8 +91,7 @@ std::string_view CardReader::load(const std::string& path, const std::string& fr
   return *cards_.texts.back();
 }
 
-/// Where the bulk data begin: after the line BEGIN BULK, or at the start if there is none. `line` counts the lines
-/// before.
+/// Begin of the bulk data: after the line BEGIN BULK, or the start without it. `line` is the number of lines before.
 std::size_t bulk_start(std::string_view text, std::size_t& line) {
   std::size_t number = 0;
   for (std::size_t at = 0; at < text.size(); ++number) {
@@ -127,7 +126,7 @@ void CardReader::read_file(const std::string& path, const std::string& from) {
   const std::size_t start = bulk_start(text, first_line);
   if (open_.size() == 1) cards_.complete = first_line == 0;
   read_lines(text.substr(start), first_line);
-  if (open_.size() == 1) read_case_control(text.substr(0, start));  // behind the bulk data, which it overrides
+  if (open_.size() == 1) read_case_control(text.substr(0, start));  // after the bulk data, which it overrides
   file_ = outer_file;
   line_ = outer_line;
   text_ = outer_text;
@@ -162,7 +161,7 @@ void CardReader::read_line(std::string_view raw) {
   if (split(line, fields)) append(fields);
 }
 
-/// INCLUDE 'path': quotes may span lines; the path is relative to the folder of the file that includes.
+/// Reads INCLUDE 'path': quotes may span lines; the path is relative to the folder of the including file.
 void CardReader::include(std::string_view rest) {
   const std::string from = here();
   std::string name(trimmed(rest));
@@ -188,12 +187,12 @@ void CardReader::include(std::string_view rest) {
     return path.is_absolute() ? path : fs::path(cards_.files[file_]).parent_path() / path;
   };
   std::error_code code;
-  if (!fs::exists(place(name), code)) std::replace(name.begin(), name.end(), '\\', '/');  // of another system
+  if (!fs::exists(place(name), code)) std::replace(name.begin(), name.end(), '\\', '/');  // path of another system
   read_file(place(name).string(), from);
   has_card_ = false;
 }
 
-/// Tabs stop at every eighth column.
+/// Line with tabs replaced by blanks up to the next multiple of eight columns.
 std::string_view CardReader::expand_tabs(std::string_view line) {
   auto text = std::make_unique<std::string>();
   for (const char c : line) {
@@ -207,7 +206,7 @@ std::string_view CardReader::expand_tabs(std::string_view line) {
   return *cards_.texts.back();
 }
 
-/// False: nothing on the line, or a fault that is told.
+/// Splits a line into fields. False for an empty line, or after a fault.
 bool CardReader::split(std::string_view line, Line& out) {
   if (line.find(',') != std::string_view::npos) {
     if (!split_free(line, out)) return false;
@@ -240,7 +239,7 @@ bool CardReader::split_free(std::string_view line, Line& out) {
   const auto last = static_cast<std::size_t>(out.count) + 1;
   for (std::size_t i = 1; i < last; ++i) out.fields[i - 1] = part[i];
   std::string_view mark = part[last];
-  const std::size_t tail = std::min(count, last) - 1;  // a lone + or * ends the line wherever it stands
+  const std::size_t tail = std::min(count, last) - 1;  // a lone + or * ends the line at any place
   if (tail >= 1 && tail < last && (part[tail] == "+" || part[tail] == "*")) {
     mark = part[tail];
     out.fields[tail - 1] = {};
@@ -276,7 +275,7 @@ std::string_view CardReader::keep(std::string text) {
   return *cards_.texts.back();
 }
 
-/// `value` and `step` as numbers of the deck, added; nothing if one is none.
+/// Sum of `value` and `step` as numbers of the deck; empty if one is no number.
 std::optional<std::string> incremented(std::string_view value, std::string_view step) {
   if (const auto a = parse_integer(value), b = parse_integer(step); a && b) return std::to_string(*a + *b);
   const auto a = parse_real(value), b = parse_real(step);
@@ -286,7 +285,7 @@ std::optional<std::string> incremented(std::string_view value, std::string_view 
   return text;
 }
 
-/// One more card like the last: = keeps its field, == also those behind, *x and *(x) add x to it.
+/// Adds a card like the last: = keeps its field, == also the following fields, *x and *(x) add x to it.
 void CardReader::repeat(const std::array<std::string_view, 8>& pattern) {
   const NastranCard last = cards_.cards.back();
   Line line;
@@ -314,8 +313,8 @@ void CardReader::repeat(const std::array<std::string_view, 8>& pattern) {
   append(line);
 }
 
-/// Lines that begin with =: the last card again, with changes; =n and =(n) the last of these n times. False: another
-/// line.
+/// Handles lines that begin with =: the last card with changes, or =n and =(n), the last of these n times. False:
+/// another line.
 bool CardReader::replicate(const Line& line) {
   if (line.name.empty() || line.name[0] != '=') return false;
   if (!has_card_ || cards_.cards.back().count > 8) {
@@ -339,7 +338,7 @@ bool CardReader::replicate(const Line& line) {
   return true;
 }
 
-/// PARAM counts as in the bulk data; SPC and MPC say which sets hold, in any subcase.
+/// Reads case control: PARAM counts as in the bulk data; SPC and MPC select sets, in any subcase.
 void CardReader::read_case_control(std::string_view text) {
   line_ = 0;
   while (!text.empty()) {

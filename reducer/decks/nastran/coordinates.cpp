@@ -1,4 +1,4 @@
-// Coordinate systems of a Nastran deck: from the chain of CORD cards to origins and axes in the part frame.
+// Coordinate systems of a Nastran deck: origins and axes in the part frame from the chain of CORD cards.
 #include "reducer/decks/nastran/coordinates.hpp"
 
 #include <cmath>

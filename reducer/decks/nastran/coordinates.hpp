@@ -1,4 +1,4 @@
-// Coordinate systems of a Nastran deck: from the chain of CORD cards to origins and axes in the part frame.
+// Coordinate systems of a Nastran deck: origins and axes in the part frame from the chain of CORD cards.
 #pragma once
 
 #include <map>
@@ -23,17 +23,16 @@ struct NastranFrame {
 /// Position in the part frame of a point with these coordinates.
 Eigen::Vector3d frame_point(const NastranFrame& frame, const Eigen::Vector3d& coordinates);
 
-/// Axes (columns, part axes) in which components of vectors at a position are given: x y z; e_r e_θ e_z; e_ρ e_θ e_φ.
-/// On the z axis of a cylindrical or spherical system, where they are not defined, those of the half-plane θ = 0 (φ =
-/// 0).
+/// Axes (columns, part axes) of vector components at a position: x y z; e_r e_θ e_z; e_ρ e_θ e_φ. On the z axis of a
+/// cylindrical or spherical system, where they are not defined, they are those of the half-plane θ = 0 (φ = 0).
 Eigen::Matrix3d frame_axes_at(const NastranFrame& frame, const Eigen::Vector3d& position);
 
-/// Row 0 is the basic system: the part frame.
+/// Coordinate systems. Index 0 is the basic system: the part frame.
 struct NastranFrames {
   std::vector<NastranFrame> frames{NastranFrame{}};
   std::map<long, int> row_of_id{{0, 0}};
 
-  /// The row, or −1.
+  /// Index of a system, or −1.
   int find(long id) const {
     const auto found = row_of_id.find(id);
     return found == row_of_id.end() ? -1 : found->second;

@@ -1,4 +1,4 @@
-// Second step of a Nastran deck: from the fields of a card to numbers, with faults that name card, field and value.
+// Second step of a Nastran deck: numbers from the fields of a card, with faults that name card, field and value.
 #include "reducer/decks/nastran/fields.hpp"
 
 #include <charconv>
@@ -18,7 +18,7 @@ std::string_view without_plus(std::string_view text) {
   return text;
 }
 
-/// All of `text` as std::from_chars reads it.
+/// Number of the whole text, as std::from_chars reads it.
 std::optional<double> plain_real(std::string_view text) {
   double value = 0.0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -1,4 +1,4 @@
-// Second step of a Nastran deck: from the fields of a card to numbers, with faults that name card, field and value.
+// Second step of a Nastran deck: numbers from the fields of a card, with faults that name card, field and value.
 #pragma once
 
 #include <optional>
@@ -11,20 +11,20 @@
 
 namespace tisserand::reducer {
 
-/// A whole number of up to 18 digits. Nothing for any other text.
+/// Integer of up to 18 digits. Empty for any other text.
 std::optional<long> parse_integer(std::string_view text);
 
-/// A finite number: 7.0, .7, 7., 0.7E1, 70.-1, 7.+2, 7D3; also 7 without a point, and blanks before and in the exponent.
-/// Nothing for any other text.
+/// A finite number: 7.0, .7, 7., 0.7E1, 70.-1, 7.+2, 7D3; also 7 without a point, and blanks before and in the
+/// exponent. Empty for any other text.
 std::optional<double> parse_real(std::string_view text);
 
-/// Whether the text is meant as a real number: it has a point or an exponent.
+/// Whether the text is written as a real number, with a point or an exponent.
 bool is_real(std::string_view text);
 
-/// Digits 1 to 6, each at most once, blanks between them, as bits 0 to 5; 0 alone is none. Nothing for any other text.
+/// Digits 1 to 6, each at most once, blanks between them, as bits 0 to 5; 0 alone is none. Empty for any other text.
 std::optional<Components> parse_components(std::string_view text);
 
-/// A card whose fields are asked for one by one; a fault is told once and clears ok(). Positions as in NastranCards.
+/// Access to the fields of a card. A fault is added once and clears ok(). Positions as in NastranCards.
 class CardFields {
  public:
   CardFields(const NastranCards& cards, const NastranCard& card, DeckFaults& faults)
@@ -34,29 +34,29 @@ class CardFields {
   std::string_view text(int index) const { return cards_->field(*card_, index); }
   int size() const { return static_cast<int>(card_->count); }
 
-  /// A number greater than 0 that must be there: ids of every kind. 0 after a fault.
+  /// Required number greater than 0, for ids of every kind. 0 after a fault.
   long id(int index, std::string_view name);
 
-  /// An id that may be blank or 0 (both give 0).
+  /// Id that may be blank or 0 (both give 0).
   long id_or_none(int index, std::string_view name);
   long integer(int index, std::string_view name, long if_blank);
 
-  /// NaN after a fault.
+  /// Real number; NaN after a fault.
   double real(int index, std::string_view name);
   double real(int index, std::string_view name, double if_blank);
   Components components(int index, std::string_view name, Components if_blank);
   Eigen::Vector3d vector(int index, std::string_view name);  ///< blanks are 0
 
-  /// The ids from `index` on: blanks skipped, "a THRU b" filled with those numbers between that `known` accepts.
+  /// Ids from `index` on. Blanks are skipped; "a THRU b" stands for the numbers in this range that `known` accepts.
   template <class Known>
   std::vector<long> id_list(int index, std::string_view name, const Known& known);
 
-  /// "CQUAD4 17": the card with its first field.
+  /// Card with its first field, "CQUAD4 17".
   std::string label() const;
   std::string where() const { return cards_->where(*card_); }
   const NastranCard& card() const { return *card_; }
   bool ok() const { return ok_; }
-  void mark_faulty() { ok_ = false; }  ///< for a fault that the caller tells itself
+  void mark_faulty() { ok_ = false; }  ///< after a fault that the caller adds itself
   void fault(const std::string& what, const std::string& remedy);
   /// Adds the fault and returns nothing, for functions that end with it.
   std::nullopt_t refuse(const std::string& what, const std::string& remedy) {

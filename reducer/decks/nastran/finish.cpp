@@ -1,4 +1,4 @@
-// Last step of a Nastran deck: nodes by their numbers, and the elements of properties as sets.
+// Last step of a Nastran deck: nodes by their numbers, and elements of properties as sets.
 #include <algorithm>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// GRID, GRDSET and the coordinate systems of a Nastran deck become the nodes of the mesh.
+// Nodes of the mesh from GRID, GRDSET and the coordinate systems of a Nastran deck.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -14,14 +14,14 @@ namespace {
 constexpr int deepest_chain = 200;
 constexpr double farthest = 1e30;
 
-/// A CORD card before its axes are known: three points in another system, or three grid points.
+/// CORD card before its axes are known: three points in another system, or three grid points.
 struct FrameCard {
   CardFields fields;
   long id = 0;
   FrameKind kind = FrameKind::rectangular;
   bool by_grids = false;
   std::array<long, 3> grids{};  ///< ids
-  long reference = 0;           ///< id of the system of the points
+  long reference = 0;           ///< id of the points' system
   std::array<Eigen::Vector3d, 3> points;
   enum class State { open, busy, done, failed } state = State::open;
 };
@@ -31,7 +31,7 @@ struct GridCard {
   Eigen::Vector3d x;
 };
 
-/// Follows references between systems and grid points until every one has its place in the part frame.
+/// Follows references between systems and grid points until all are placed in the part frame.
 class Placement {
  public:
   explicit Placement(NastranModel& model) : model_(model) {}
@@ -50,7 +50,7 @@ class Placement {
   std::optional<Eigen::Vector3d> corner(FrameCard& card, std::size_t i, int depth);
 
   NastranModel& model_;
-  std::vector<FrameCard> frames_;  ///< row = row of NastranFrames − 1
+  std::vector<FrameCard> frames_;  ///< index = index in NastranFrames − 1
   std::vector<GridCard> grids_;
 };
 
@@ -137,7 +137,7 @@ void Placement::read_grids() {
   }
 }
 
-/// Position of one of the three points of a system; nothing after a fault.
+/// Position of one of the three points of a system; empty after a fault.
 std::optional<Eigen::Vector3d> Placement::corner(FrameCard& card, std::size_t i, int depth) {
   int frame = model_.frames.find(card.reference);
   Eigen::Vector3d x = card.points[i];
@@ -153,7 +153,7 @@ std::optional<Eigen::Vector3d> Placement::corner(FrameCard& card, std::size_t i,
   return frame_point(model_.frames.frames[frame], x);
 }
 
-/// z from A to B; C lies in the half-plane of positive x.
+/// Computes the axes of a system: z from A to B; C lies in the half-plane of positive x.
 bool Placement::resolve(int row, CardFields& asked, int depth) {
   if (row == 0) return true;
   FrameCard& card = frames_[row - 1];

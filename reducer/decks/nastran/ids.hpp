@@ -1,4 +1,4 @@
-// Numbers of a Nastran deck (grid points, properties) to rows: dense where the numbers are, sorted elsewhere.
+// Tables from numbers of a Nastran deck (grid points, properties) to rows: dense if the numbers are, otherwise sorted.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace tisserand::reducer {
 
 class IdTable {
  public:
-  /// ids[row] -> row. Returns the rows whose id an earlier row has.
+  /// Builds the table ids[row] -> row. Returns the rows whose id occurs in an earlier row.
   std::vector<int> build(const std::vector<long>& ids) {
     sorted_.clear();
     sorted_.reserve(ids.size());
@@ -22,14 +22,14 @@ class IdTable {
     return again;
   }
 
-  /// The (first) row, or −1.
+  /// First row of an id, or −1.
   int find(long id) const {
     if (!dense_.empty()) return id < 0 || id >= static_cast<long>(dense_.size()) ? -1 : dense_[id];
     const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair<long, int>(id, 0));
     return at != sorted_.end() && at->first == id ? at->second : -1;
   }
 
-  /// Appends the ids from first to last that there are.
+  /// Appends the existing ids from first to last.
   void between(long first, long last, std::vector<long>& ids) const {
     auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair<long, int>(first, 0));
     for (long before = first - 1; at != sorted_.end() && at->first <= last; ++at) {

@@ -1,4 +1,4 @@
-// MAT cards of a Nastran deck: from their fields to the elastic matrices that properties ask for.
+// MAT cards of a Nastran deck: elastic matrices for properties.
 #include "reducer/decks/nastran/materials.hpp"
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Two of E, G, NU give the third by E = 2 (1 + ν) G; with all three each is used where it acts.
+/// Reads MAT1. Two of E, G, NU give the third by E = 2 (1 + ν) G; of three given ones each is used in its own terms.
 void read_mat1(CardFields& f, NastranMaterial& m) {
   const bool has_E = !f.blank(1), has_G = !f.blank(2), has_nu = !f.blank(3);
   m.E = f.real(1, "E", 0.0);

@@ -1,4 +1,4 @@
-// The workbench of the Nastran reader: cards by name, grid points by id and coordinate systems, between text and mesh.
+// Intermediate model of the Nastran reader: cards by name, grid points by id, and coordinate systems.
 #pragma once
 
 #include <map>
@@ -24,11 +24,11 @@ struct GridDefaults {
   Components fixed = 0;
 };
 
-/// Components of a node that the deck ties to ground, in the axes of its CD.
+/// Components of a node that the deck holds to ground, in the axes of its CD.
 struct HeldNode {
   int node = 0;
   Components components = 0;
-  std::size_t card = 0;  ///< row of NastranCards::cards
+  std::size_t card = 0;  ///< index in NastranCards::cards
 };
 
 struct NastranModel {
@@ -38,21 +38,21 @@ struct NastranModel {
   std::map<std::string, std::vector<std::size_t>> rows;  ///< cards by name in capitals, in the order of the deck
   NastranFrames frames;
   IdTable grid_rows;          ///< GRID id -> row = node of the mesh
-  std::vector<long> grid_id;  ///< one per node, as the next three
+  std::vector<long> grid_id;  ///< one per node, like the next three
   std::vector<std::size_t> grid_card;
-  std::vector<int> displacement_frame;                            ///< row of `frames`
+  std::vector<int> displacement_frame;                            ///< index in `frames`
   std::vector<Components> fixed;                                  ///< PS: components held to ground
-  double mass_scale = 1.0;                                        ///< PARAM,WTMASS: every reader of a mass multiplies by it
+  double mass_scale = 1.0;                                        ///< PARAM,WTMASS: factor of all masses
   formats::MassMatrix mass_matrix = formats::MassMatrix::lumped;  ///< PARAM,COUPMASS
   NastranMaterials materials;
   NastranProperties properties;
   std::map<long, ElementSet> of_property;                  ///< elements by PID
-  std::vector<std::pair<long, std::size_t>> element_card;  ///< element id and card, to find ids that stand twice
+  std::vector<std::pair<long, std::size_t>> element_card;  ///< element id and card, to find duplicate ids
   std::vector<HeldNode> held;
   std::set<std::string> told;  ///< sets that case control does not select
   Deck deck;
 
-  /// Calls action(CardFields&) for every card of that name.
+  /// Calls action(CardFields&) for every card of this name.
   template <class Action>
   void for_each(const std::string& name, const Action& action) {
     const auto found = rows.find(name);
@@ -63,13 +63,13 @@ struct NastranModel {
     }
   }
 
-  /// The card in that row of NastranCards::cards, and the row of a card.
+  /// Card at an index of NastranCards::cards, and index of a card.
   CardFields card(std::size_t row) { return {cards, cards.cards[row], faults}; }
   std::size_t row(const CardFields& fields) const {
     return static_cast<std::size_t>(&fields.card() - cards.cards.data());
   }
 
-  /// Node of the GRID in that field; −1 after a fault (no number, no such GRID).
+  /// Node of the GRID in this field; −1 after a fault (no number, no such GRID).
   int node(CardFields& fields, int index, std::string_view name);
 
   /// Node of the GRID, or −1 with a fault.
@@ -78,30 +78,30 @@ struct NastranModel {
   /// Axes of the displacements of a node (columns, part axes): CD of its GRID.
   Eigen::Matrix3d displacement_axes(int node) const;
 
-  /// Element id of that field, noted to find ids that stand twice.
+  /// Element id in this field, recorded to find duplicate ids.
   int element_id(CardFields& fields, int index = 0);
 
-  /// Whether the card's set of SPC or MPC (field 0) holds: all do without case control, else those that it selects, also by
-  /// SPCADD or MPCADD. A remark names the others.
+  /// Whether the card's set of SPC or MPC (field 0) is active. Without case control all are, otherwise those that it
+  /// selects, also by SPCADD or MPCADD. A remark names the others.
   bool holds(CardFields& fields, const std::string& kind);
 
-  /// Row of `frames` of the coordinate system in that field (blank: 0, basic); −1 after a fault.
+  /// Index in `frames` of the coordinate system in this field (blank: 0, basic); −1 after a fault.
   int frame(CardFields& fields, int index, std::string_view name);
 
   Eigen::Vector3d position(int node) const { return deck.mesh.position.col(node); }
 };
 
-/// Grid points whose id lies in a range, for lists with THRU.
+/// Grid points whose id is in a range, for lists with THRU.
 struct KnownGrids {
   const IdTable& table;
   void operator()(long first, long last, std::vector<long>& ids) const { table.between(first, last, ids); }
 };
 
-/// Sorts the cards by name; PARAM. Cards that are understood as not belonging to a superelement become remarks, the
-/// ones that are not understood a fault or a remark.
+/// Sorts the cards by name; reads PARAM. Cards that do not belong to a superelement become remarks. Unsupported ones
+/// become a fault or a remark.
 void sort_cards(const DeckOptions& options, NastranModel& model);
 
-/// Elements, point masses and springs; the rods last, because their torsion needs nodes that others hold in rotation.
+/// Add elements, point masses and springs. Rods are last: their torsion needs nodes whose rotation others hold.
 void add_beams(NastranModel& model);
 void add_shells(NastranModel& model);
 void add_solids(NastranModel& model);
@@ -109,23 +109,22 @@ void add_springs(NastranModel& model);
 void add_masses(NastranModel& model);  // in springs.cpp
 void add_rods(NastranModel& model);
 
-/// RBE1, RBE2, RBE3, RBAR as spiders, MPC as equations.
+/// Adds RBE1, RBE2, RBE3, RBAR as spiders, MPC as equations.
 void add_ties(NastranModel& model);
 
-/// Components of each node (of part axes, all rotations or none) to which something is attached: stiffness, mass or
-/// tie.
+/// Components of each node (part axes, rotations all or none) with stiffness, mass or tie attached.
 std::vector<Components> attachments(const Mesh& mesh);
 
-/// ASET and BSET cards become the boundary.
+/// Makes ASET and BSET cards the boundary.
 void add_boundary(NastranModel& model);
 
-/// SPC, SPC1, PS of GRID and springs to ground: a fault, unless nothing is attached to the component.
+/// Adds a fault for SPC, SPC1, PS of GRID and springs to ground, unless nothing is attached to the component.
 void judge_supports(NastranModel& model);
 
-/// Takes nodes out of the mesh to which nothing is attached (a remark), and fills node_of_id and the sets of PIDs.
+/// Removes nodes without attachments from the mesh (a remark), and sets node_of_id and the sets of PIDs.
 void finish_nodes(NastranModel& model);
 
-/// GRID, GRDSET and coordinate systems: fills the nodes of the mesh, grid_* and frames.
+/// Reads GRID, GRDSET and coordinate systems: sets the nodes of the mesh, grid_* and frames.
 void place_grids(NastranModel& model);
 
 }  // namespace tisserand::reducer

@@ -1,4 +1,4 @@
-// Property cards of a Nastran deck: from their fields to the rows of properties that elements of the mesh name.
+// Property cards of a Nastran deck: rows of properties of the mesh from their fields.
 #include "reducer/decks/nastran/properties.hpp"
 
 #include <numbers>
@@ -21,7 +21,7 @@ void index_cards(NastranModel& model, PropertyCards<Read>& cards) {
     });
 }
 
-/// What read(card) gives for the property, kept; the default with a fault of the element if the card is missing.
+/// Result of read(card) for the property, cached; a default value with a fault of the element if the card is missing.
 template <class Read, class Reader>
 const Read& read_once(NastranModel& model, CardFields& element, PropertyCards<Read>& cards,
                       const std::pair<long, double>& key, const Reader& read) {
@@ -38,7 +38,7 @@ const Read& read_once(NastranModel& model, CardFields& element, PropertyCards<Re
   return none;
 }
 
-/// Two springs per card: PID, K, GE, S.
+/// Reads PELAS with two springs per card: PID, K, GE, S.
 void read_pelas(NastranModel& model) {
   model.for_each("PELAS", [&](CardFields& f) {
     for (const int start : {0, 4}) {
@@ -52,7 +52,7 @@ void read_pelas(NastranModel& model) {
   });
 }
 
-/// PROD or PTUBE.
+/// Reads PROD or PTUBE.
 int read_rod(NastranModel& model, CardFields& f) {
   RodConstants rod;
   if (same_word(f.card().name, "PROD")) {
@@ -110,7 +110,7 @@ int read_solid(NastranModel& model, CardFields& f) {
   return add_row(model.deck.mesh.solid_properties, property);
 }
 
-/// Lines of "K", "B", "GE", "RCV", "M", each with six values.
+/// Reads lines of "K", "B", "GE", "RCV", "M", each with six values.
 std::optional<BushProperty> read_bush(CardFields& f) {
   BushProperty property;
   for (int line = 0; line < f.size(); line += 8) {

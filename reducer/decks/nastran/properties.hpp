@@ -1,4 +1,4 @@
-// Property cards of a Nastran deck: from their fields to the rows of properties that elements of the mesh name.
+// Property cards of a Nastran deck: rows of properties of the mesh from their fields.
 #pragma once
 
 #include <map>
@@ -14,13 +14,13 @@ namespace tisserand::reducer {
 struct NastranModel;
 class CardFields;
 
-/// A row of the mesh's properties, −1: its fault is told.
+/// Row of the mesh's properties; −1 after a fault.
 struct PropertyRow {
   int row = -1;
-  double offset = 0.0;  ///< shells: of the middle surface from the reference surface (PCOMP with Z0)
+  double offset = 0.0;  ///< shells: offset of the middle surface from the reference surface (PCOMP with Z0)
 };
 
-/// PELAS with a zero stiffness is allowed, as in the program it comes from.
+/// PELAS. Zero stiffness is permitted, as in the original program.
 struct ElasticProperty {
   double stiffness = 0.0;
 };
@@ -30,16 +30,16 @@ struct BushProperty {
   Eigen::Matrix<double, 6, 1> stiffness = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
-/// Property cards of one kind, and what was read of them.
+/// Property cards of one kind, and the results of reading them.
 template <class Read>
 struct PropertyCards {
   std::vector<std::string> names;
-  std::string kinds;                                  ///< the names in words
-  std::map<long, std::size_t> card = {};              ///< id -> row of NastranCards::cards
-  std::map<std::pair<long, double>, Read> read = {};  ///< by id and thickness of the element (0: of the card)
+  std::string kinds;                                  ///< their names in words
+  std::map<long, std::size_t> card = {};              ///< key: id, value: index in NastranCards::cards
+  std::map<std::pair<long, double>, Read> read = {};  ///< key: id and thickness of the element (0: that of the card)
 };
 
-/// Properties are read when the first element asks for them; what no element uses is not judged.
+/// Properties. They are read when the first element needs them, so unused ones are not checked.
 struct NastranProperties {
   PropertyCards<PropertyRow> beam{{"PBAR", "PBARL", "PBEAM", "PBEAML"}, "PBAR, PBARL, PBEAM or PBEAML"};
   PropertyCards<PropertyRow> rod{{"PROD", "PTUBE"}, "PROD or PTUBE"};
@@ -49,17 +49,17 @@ struct NastranProperties {
   std::map<long, ElasticProperty> elastic;
 };
 
-/// Finds the property cards and reads PELAS; faults for ids that stand twice.
+/// Finds the property cards and reads PELAS; faults for duplicate ids.
 void index_properties(NastranModel& model);
 
-/// Rows for an element with that property; −1 after a fault (told once, a missing card with every element).
+/// Rows for an element with this property; −1 after a fault (added once; a missing card for every element).
 int beam_property(NastranModel& model, CardFields& element, long id);
 int rod_property(NastranModel& model, CardFields& element, long id);
 PropertyRow shell_property(NastranModel& model, CardFields& element, long id, double thickness);
 int solid_property(NastranModel& model, CardFields& element, long id);
 const BushProperty* bush_property(NastranModel& model, CardFields& element, long id);
 
-/// A rod of these constants as a beam that bends without resistance; -1 after a fault. `card` names the material.
+/// A rod of these constants as a beam without bending stiffness; -1 after a fault. `card` names the material.
 struct RodConstants {
   double area = 0.0;
   double torsion_constant = 0.0;
@@ -67,7 +67,7 @@ struct RodConstants {
 };
 int add_rod_property(NastranModel& model, CardFields& card, int material_index, const RodConstants& rod);
 
-/// Used by the above; in files of their own.
+/// Called by the functions above; in files of their own.
 int read_beam_property(NastranModel& model, CardFields& card);
 PropertyRow read_shell_property(NastranModel& model, CardFields& card, double thickness);
 

@@ -1,4 +1,4 @@
-// A Nastran deck becomes a mesh: the order of the steps.
+// Mesh from a Nastran deck: sequence of the steps.
 #include <algorithm>
 #include <string>
 #include <tuple>
@@ -11,7 +11,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Rigid elements and masses have numbers of their own.
+/// Classes of cards with separate numbers: elements, rigid elements, masses.
 enum class IdClass { element, rigid, mass };
 
 IdClass id_class(const NastranCard& card) {
@@ -35,7 +35,7 @@ void judge_ids(NastranModel& model) {
   }
 }
 
-/// Another kind of file would be told in as many faults as it has lines.
+/// Throws Error for another kind of file, which would have a fault in every line.
 void require_grids(const NastranModel& model, const std::string& path) {
   const auto& cards = model.cards.cards;
   if (std::any_of(cards.begin(), cards.end(), [](const NastranCard& card) { return same_word(card.name, "GRID"); }))

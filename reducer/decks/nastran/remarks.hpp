@@ -8,12 +8,12 @@
 
 namespace tisserand::reducer {
 
-/// Remarks of one kind: the number of times and the first few names, told in one line ("3 GRID: 1, 2, 3").
+/// Remarks by kind: their number and the first few names, reported in one line ("3 GRID: 1, 2, 3").
 class NastranRemarks {
  public:
   void add(const std::string& kind, const std::string& name);
 
-  /// One text for each kind: "<kind>: <names> (<number>)".
+  /// One text per kind: "<kind>: <names> (<number>)".
   std::vector<std::string> texts() const;
 
  private:

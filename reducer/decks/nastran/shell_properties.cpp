@@ -1,4 +1,4 @@
-// PSHELL and PCOMP of a Nastran deck become sections of shells.
+// Sections of shells from PSHELL and PCOMP of a Nastran deck.
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// A material that has plane stress stiffness; null if the field is blank or after a fault.
+/// Material with plane stress stiffness; null if the field is blank or after a fault.
 const NastranMaterial* plane_material(NastranModel& model, CardFields& f, int index, std::string_view name) {
   if (f.blank(index) || parse_integer(f.text(index)) == 0) return nullptr;
   const NastranMaterial* m = material(model, f, index, name);
@@ -24,7 +24,7 @@ const NastranMaterial* plane_material(NastranModel& model, CardFields& f, int in
   return f.ok() ? m : nullptr;
 }
 
-/// N = T G1 ε + T² G4 χ, M = T² G4 ε + I G2 χ, Q = TS G3 γ with ε(z) = ε − z χ, so that our κ = −χ and B = −T² G4.
+/// Reads PSHELL: N = T G1 ε + T² G4 χ, M = T² G4 ε + I G2 χ, Q = TS G3 γ with ε(z) = ε − z χ, so κ = −χ and B = −T² G4.
 std::optional<ShellSection> pshell_section(NastranModel& model, CardFields& f, double own_thickness) {
   if (f.integer(3, "MID2", 0) == -1) f.fault("MID2 -1 (plane strain) is not understood", "give a material");
   const double T = own_thickness > 0.0 ? own_thickness : f.real(2, "T");
@@ -48,7 +48,7 @@ std::optional<ShellSection> pshell_section(NastranModel& model, CardFields& f, d
   if (shear != nullptr && bending != nullptr) s.As = (ratio > 0.0 ? ratio : 5.0 / 6.0) * T * shear->shear;
   const double density = membrane != nullptr ? membrane->density : bending->density;
   s.mass = density * T + nsm * model.mass_scale;
-  if (bending != nullptr) s.rotary_inertia = density * T * T * T / 12.0;  // else its rotations stay free of all
+  if (bending != nullptr) s.rotary_inertia = density * T * T * T / 12.0;  // without them rotations must have no mass
   return s;
 }
 
@@ -57,7 +57,7 @@ struct Stack {
   double thickness = 0.0;
 };
 
-/// Four fields per ply from field 8 on: MID, T, THETA, SOUT; blank MID and T repeat those of the ply before.
+/// Reads four fields per ply from field 8 on: MID, T, THETA, SOUT; blank MID and T repeat those of the ply before.
 std::optional<Stack> read_plies(NastranModel& model, CardFields& f) {
   Stack stack;
   long id = 0;
@@ -90,7 +90,7 @@ std::optional<Stack> read_plies(NastranModel& model, CardFields& f) {
   return stack;
 }
 
-/// `offset`: of the middle from the reference surface, Z0 + thickness/2.
+/// Reads PCOMP. `offset`: distance of the middle from the reference surface, Z0 + thickness/2.
 std::optional<ShellSection> pcomp_section(NastranModel& model, CardFields& f, double& offset) {
   std::optional<Stack> stack = read_plies(model, f);
   if (!stack) return std::nullopt;

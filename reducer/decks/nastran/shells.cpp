@@ -1,4 +1,4 @@
-// CQUAD4, CQUADR, CTRIA3 and CTRIAR of a Nastran deck become shells of the mesh.
+// Shells of the mesh from CQUAD4, CQUADR, CTRIA3 and CTRIAR of a Nastran deck.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// THETA (real) turns from the side G1-G2; MCID (integer) projects the first axis of a coordinate system at the middle.
+/// THETA (real) turns from the side G1-G2. MCID (integer) projects the first axis of a coordinate system at the middle.
 void read_material_axis(NastranModel& model, CardFields& f, int index, ShellElement& shell) {
   if (f.blank(index) || !f.ok()) return;
   const Eigen::Vector3d n = normal_of(model.deck.mesh, shell).normalized();
@@ -30,7 +30,7 @@ void read_material_axis(NastranModel& model, CardFields& f, int index, ShellElem
   shell.material_x = std::cos(angle) * e + std::sin(angle) * n.cross(e);
 }
 
-/// T of the PSHELL, 0 without one.
+/// T of the PSHELL; 0 for other properties.
 double property_thickness(NastranModel& model, long pid) {
   const auto card = model.properties.shell.card.find(pid);
   if (card == model.properties.shell.card.end()) return 0.0;

@@ -1,4 +1,4 @@
-// CTETRA, CHEXA and CPENTA of a Nastran deck become solids of the mesh.
+// Solids of the mesh from CTETRA, CHEXA and CPENTA of a Nastran deck.
 #include <array>
 
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// The mesh's (gmsh's) node i is the deck's node order[i]: edge nodes stand in another order.
+/// Node orders: node i of the mesh (gmsh's order) is node order[i] of the deck.
 constexpr std::array<int, 10> tetrahedron_order{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
 constexpr std::array<int, 20> hexahedron_order{0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 9, 13, 10, 14, 15, 16, 19, 17, 18};
 constexpr std::array<int, 15> prism_order{0, 1, 2, 3, 4, 5, 6, 8, 9, 7, 10, 11, 12, 14, 13};

@@ -1,5 +1,5 @@
-// Cards of a Nastran deck by name: what builds the mesh, what does not belong to a superelement, what is not
-// understood.
+// Cards of a Nastran deck by name: those that build the mesh, those that do not belong to a superelement, and
+// unsupported ones.
 #include <map>
 #include <set>
 #include <string>
@@ -25,7 +25,7 @@ const std::set<std::string>& understood() {
   return names;
 }
 
-/// Cards of analysis, loads and sets, which a reduction does not need: told, never an error.
+/// Cards of analysis, loads and sets, which a reduction does not need: a remark, never an error.
 const std::set<std::string>& left_out() {
   static const std::set<std::string> names{
       "EIGR",    "EIGRL",   "EIGB",   "EIGC",   "EIGP",   "FORCE",   "FORCE1",  "FORCE2",  "MOMENT",
@@ -52,7 +52,7 @@ void read_mass_parameters(NastranModel& model) {
   });
 }
 
-/// Fields of cards without more behind them, by the manuals.
+/// Number of fields of cards after which none may follow, from the manuals.
 const std::map<std::string, int>& field_count() {
   static const std::map<std::string, int> counts{
       {"GRID", 8},    {"CBAR", 16}, {"CROD", 8},    {"CONROD", 8}, {"CELAS1", 6}, {"CELAS2", 8},  {"CONM2", 14},

@@ -1,4 +1,4 @@
-// CELAS1, CELAS2, CBUSH and CONM2 of a Nastran deck become springs and point masses of the mesh.
+// Springs and point masses of the mesh from CELAS1, CELAS2, CBUSH and CONM2 of a Nastran deck.
 #include <bit>
 #include <optional>
 
@@ -57,7 +57,7 @@ void add_elastic(NastranModel& model, CardFields& f, double stiffness, long pid,
   if (pid > 0) model.of_property[pid].springs.push_back(row);
 }
 
-/// Columns: axes of the bushing in part axes; without CID and v only K1 and K4 mean anything.
+/// Axes of the bushing in part axes (columns); without CID and v only K1 and K4 have a meaning.
 std::optional<Eigen::Matrix3d> bush_axes(NastranModel& model, CardFields& f, const Spring& spring,
                                          const BushProperty& bush) {
   const Eigen::Vector3d a = model.position(spring.first), axis = model.position(spring.second) - a;
@@ -85,7 +85,7 @@ std::optional<Eigen::Matrix3d> bush_axes(NastranModel& model, CardFields& f, con
   return beam_axes(axis, Eigen::Vector3d::Unit(least));
 }
 
-/// Where the bushing acts: S (blank: 0.5) of the way from GA to GB, or S1, S2, S3 in the coordinate system OCID.
+/// Point of action of the bushing: S (blank: 0.5) of the way from GA to GB, or S1, S2, S3 in coordinate system OCID.
 Eigen::Vector3d bush_point(NastranModel& model, CardFields& f, const Spring& spring) {
   const Eigen::Vector3d a = model.position(spring.first), b = model.position(spring.second);
   if (f.integer(9, "OCID", -1) < 0) return a + f.real(8, "S", 0.5) * (b - a);
@@ -115,7 +115,7 @@ void add_bush(NastranModel& model, CardFields& f) {
   model.of_property[pid].springs.push_back(add_row(model.deck.mesh.springs, spring));
 }
 
-/// I11, I21, I22, I31, I32, I33 about the centre of mass; products of inertia enter the matrix with a minus sign.
+/// Adds a mass: I11, I21, I22, I31, I32, I33 about its centre; products enter the matrix with a minus sign.
 void add_mass(NastranModel& model, CardFields& f) {
   model.element_id(f);
   NodalMass mass;

@@ -1,4 +1,4 @@
-// RBE1, RBE2, RBE3, RBAR and MPC of a Nastran deck become spiders and equations of the mesh.
+// Spiders and equations of the mesh from RBE1, RBE2, RBE3, RBAR and MPC of a Nastran deck.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -15,7 +15,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Whether the components mean the same in every system of axes: all or none of the translations, and of the rotations.
+/// Whether the components are independent of the axes: all or none of the translations, and of the rotations.
 bool free_of_axes(Components c) {
   const int t = c & translations_only, r = c & rotations_only;
   return (t == 0 || t == translations_only) && (r == 0 || r == rotations_only);
@@ -26,7 +26,7 @@ struct Follower {
   Components components = all_components;
 };
 
-/// Rigid spiders from `reference`: one for each run of followers with the same components in the same axes (their CD).
+/// Adds rigid spiders from `reference`, one per run of followers with the same components in the same axes (CD).
 void add_rigid(NastranModel& model, CardFields& f, int reference, const std::vector<Follower>& followers) {
   if (!f.ok()) return;
   if (followers.empty()) return f.fault("no dependent grid points", "name at least one");
@@ -51,7 +51,7 @@ void add_rigid(NastranModel& model, CardFields& f, int reference, const std::vec
   for (Spider& spider : spiders) model.deck.mesh.spiders.push_back(std::move(spider));
 }
 
-/// EID, GN, CM, GM1, GM2, ..., thermal expansion (a real number at the end).
+/// Reads EID, GN, CM, GM1, GM2, ..., thermal expansion (a real number at the end).
 void add_rbe2(NastranModel& model, CardFields& f) {
   model.element_id(f);
   const int reference = model.node(f, 1, "GN");
@@ -73,7 +73,7 @@ void add_rbe2(NastranModel& model, CardFields& f) {
   add_rigid(model, f, reference, followers);
 }
 
-/// EID, GA, GB, CNA, CNB, CMA, CMB: one end must be independent with all six components.
+/// Reads EID, GA, GB, CNA, CNB, CMA, CMB: one end must be independent with all six components.
 void add_rbar(NastranModel& model, CardFields& f) {
   model.element_id(f);
   const int a = model.node(f, 1, "GA"), b = model.node(f, 2, "GB");
@@ -86,7 +86,7 @@ void add_rbar(NastranModel& model, CardFields& f) {
   f.fault("independent components on both ends are not understood", "give CNA or CNB as 123456");
 }
 
-/// EID, pairs of independent points, "UM", pairs of dependent points: one independent point with all six components.
+/// Reads EID, pairs of independent points, "UM", pairs of dependent points; one independent point with all components.
 void add_rbe1(NastranModel& model, CardFields& f) {
   model.element_id(f);
   std::vector<Follower> leaders, followers;
@@ -116,7 +116,7 @@ struct AveragingGroups {
   Components components = 0;
 };
 
-/// From field 4 on: weight (real), components, grid points, the next weight; up to UM or ALPHA.
+/// Reads from field 4 on: weight (real), components, grid points, the next weight; up to UM or ALPHA.
 AveragingGroups read_groups(NastranModel& model, CardFields& f) {
   AveragingGroups groups;
   std::unordered_map<int, std::size_t> place;
@@ -149,7 +149,7 @@ AveragingGroups read_groups(NastranModel& model, CardFields& f) {
   return groups;
 }
 
-/// The axes that all the nodes share; nothing if they differ.
+/// Common axes of all nodes; empty if they differ.
 std::optional<Eigen::Matrix3d> common_axes(const NastranModel& model, int reference, const std::vector<int>& nodes) {
   const Eigen::Matrix3d axes = model.displacement_axes(reference);
   const bool same = std::all_of(nodes.begin(), nodes.end(),
@@ -157,7 +157,7 @@ std::optional<Eigen::Matrix3d> common_axes(const NastranModel& model, int refere
   return same ? std::optional(axes) : std::nullopt;
 }
 
-/// EID, blank, REFGRID, REFC, groups. UM chooses which components are dependent; the equations are the same.
+/// Reads EID, blank, REFGRID, REFC, groups. UM chooses which components are dependent; the equations are the same.
 void add_rbe3(NastranModel& model, CardFields& f) {
   model.element_id(f);
   Spider spider;
@@ -185,7 +185,7 @@ void add_rbe3(NastranModel& model, CardFields& f) {
   model.deck.mesh.spiders.push_back(std::move(spider));
 }
 
-/// One term in axes of CD as terms in part axes, the largest first.
+/// Appends a term in axes of CD as terms in part axes, the largest first.
 void append_term(const NastranModel& model, int node, int component, double coefficient, TieEquation& equation) {
   const Eigen::Vector3d direction = coefficient * model.displacement_axes(node).col(component % 3);
   std::array<int, 3> order{0, 1, 2};
@@ -195,7 +195,7 @@ void append_term(const NastranModel& model, int node, int component, double coef
       equation.terms.push_back({node, component / 3 * 3 + i, direction(i)});
 }
 
-/// SID, then G, C, A twice per line; the later lines leave the first field blank. The first term is the dependent one.
+/// Reads SID, then G, C, A twice per line; later lines have a blank first field. The first term is dependent.
 void add_mpc(NastranModel& model, CardFields& f) {
   f.id(0, "SID");
   if (!model.holds(f, "MPC")) return;
@@ -216,7 +216,7 @@ void add_mpc(NastranModel& model, CardFields& f) {
   model.deck.mesh.equations.push_back(equation);
 }
 
-/// Without case control nothing says which set of MPC counts.
+/// Adds a fault for several sets of MPC without case control, which would select one.
 void judge_sets(NastranModel& model) {
   std::string first;
   bool told = false;
