@@ -1,4 +1,4 @@
-// Jacobians of curved cells by gmsh, and its optimisation of nodes of second order.
+// Jacobians of curved cells by gmsh, and its optimisation of second-order nodes.
 #include "reducer/gmsh/curved.hpp"
 
 #include <algorithm>

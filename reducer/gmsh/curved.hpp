@@ -1,11 +1,11 @@
-// Cells of second order that curved faces have folded: found in the current model of gmsh, and unfolded.
+// Second-order cells that curved faces have folded: detection in the current model of gmsh, and unfolding.
 #pragma once
 
 #include <cstddef>
 
 namespace tisserand::reducer {
 
-/// Volume cells of the current model that have a Jacobian determinant of 0 or less at one of their nodes.
+/// Number of volume cells of the current model with a Jacobian determinant of 0 or less at one of their nodes.
 std::size_t folded_cells();
 
 struct Unfolding {
@@ -13,8 +13,8 @@ struct Unfolding {
   std::size_t after = 0;
 };
 
-/// gmsh's optimisation of curved cells, where any is folded. Without folded ones nothing moves: the optimisation sums
-/// in an order that changes from run to run, so that its meshes differ in their last digits.
+/// Runs gmsh's optimisation of curved cells if any is folded. Otherwise nothing is moved: the optimisation sums in an
+/// order that changes from run to run, so the last digits of its meshes differ.
 Unfolding unfold_cells();
 
 }  // namespace tisserand::reducer

@@ -1,4 +1,4 @@
-// The door: rlimits, Landlock and the filter of calls.
+// Sandbox: rlimits, Landlock and the filter of system calls.
 #include "reducer/gmsh/door.hpp"
 
 #include <fcntl.h>
@@ -23,7 +23,7 @@ namespace {
 
 void limit(int resource, double value) {
   const auto whole = static_cast<rlim_t>(std::ceil(std::min(value, 1e18)));
-  const rlimit both{whole, resource == RLIMIT_CPU ? whole + 2 : whole};  // SIGXCPU says why; SIGKILL if it is ignored
+  const rlimit both{whole, resource == RLIMIT_CPU ? whole + 2 : whole};  // SIGXCPU shows the reason; SIGKILL if ignored
   ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
 }
 
@@ -31,7 +31,7 @@ int landlock_version() {
   return static_cast<int>(::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION));
 }
 
-/// All rights that this kernel can withhold and these headers know.
+/// All access rights that this kernel can restrict and these headers define.
 std::uint64_t withheld_rights(int version) {
   std::uint64_t rights = LANDLOCK_ACCESS_FS_REFER - 1;  // version 1
   if (version >= 2) rights |= LANDLOCK_ACCESS_FS_REFER;
@@ -48,7 +48,7 @@ bool allow_reading(int rules, const std::string& path, std::uint64_t rights) {
   landlock_path_beneath_attr rule{};
   rule.allowed_access = rights;
   rule.parent_fd = ::open(path.c_str(), O_PATH | O_CLOEXEC);
-  if (rule.parent_fd < 0) return true;  // then nothing is opened there
+  if (rule.parent_fd < 0) return true;  // then nothing can be opened there
   const bool done = ::syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
   ::close(rule.parent_fd);
   return done;
@@ -60,8 +60,8 @@ bool is_alone() {
   return !error && std::distance(begin(threads), end(threads)) == 1;
 }
 
-/// What reading, computing, threads and giving up need. Through pipes to themselves sanitizers see which memory is
-/// there.
+/// Allows system calls for reading, computing, threads and the end. Sanitizers test addresses through pipes to
+/// themselves.
 void allow_harmless(CallFilter& filter) {
   using enum CallFilter::Action;
   filter.add(allow, {SYS_read,
@@ -118,14 +118,14 @@ void allow_harmless(CallFilter& filter) {
                      SYS_getrandom,
                      SYS_getcpu,
                      SYS_pipe2});
-#if defined(__x86_64__)  // younger processors lack these, which others of the list replace
+#if defined(__x86_64__)  // newer processors lack these and use others of the list
   filter.add(allow, {SYS_stat, SYS_lstat, SYS_access, SYS_readlink, SYS_poll, SYS_time, SYS_pipe});
 #endif
 }
 
-/// What no geometry does by accident: the process ends, and its parent says why. Of gmsh's language only `Sleep`
-/// sleeps. Sockets are not among them: the C library asks for names of users through one, which OpenCASCADE wants to
-/// know for IGES.
+/// Kills the process at calls that no geometry makes by accident; its parent reports the reason. Only `Sleep` of gmsh's
+/// language sleeps. Sockets are not killed: the C library uses one to look up user names, which OpenCASCADE needs for
+/// IGES.
 void kill_harmful(CallFilter& filter) {
   using enum CallFilter::Action;
   filter.add(kill_process,
@@ -138,7 +138,7 @@ void kill_harmful(CallFilter& filter) {
 #endif
 }
 
-/// Rules that look at arguments too.
+/// Adds rules that also check arguments.
 void add_conditional(CallFilter& filter) {
   using enum CallFilter::Action;
   constexpr std::uint32_t writing = O_ACCMODE | O_CREAT | O_TRUNC, thread = CLONE_THREAD | CLONE_VM | CLONE_SIGHAND,
@@ -147,12 +147,12 @@ void add_conditional(CallFilter& filter) {
   filter.add(allow, SYS_open, {1, writing, O_RDONLY});
 #endif
   filter.add(allow, SYS_openat, {2, writing, O_RDONLY});
-  // Without CLONE_VM or CLONE_THREAD a clone is a process, as in posix_spawn and system.
+  // A clone without CLONE_VM or CLONE_THREAD is a process, as in posix_spawn and system.
   filter.add(allow, SYS_clone, {0, thread, thread});
   for (const std::uint32_t flag : {CLONE_THREAD, CLONE_VM, CLONE_SIGHAND})
     filter.add(kill_process, SYS_clone, {0, flag, 0});
   filter.add(allow, SYS_tgkill, {0, all, static_cast<std::uint32_t>(::getpid())});
-  // Nothing shared and no stacks: the limit of memory would not count them.
+  // No shared mappings and no stacks: the limit of memory would not count them.
   filter.add(allow, SYS_mmap, {3, uncounted, MAP_PRIVATE});
   filter.add(allow, SYS_prlimit64, {2, all, 0, true});
   for (const std::uint32_t question : {F_GETFD, F_SETFD, F_GETFL}) filter.add(allow, SYS_fcntl, {1, all, question});
@@ -193,8 +193,8 @@ bool close_paths(const std::string& file, bool whole_folder) {
 
 bool close_calls() {
   limit(RLIMIT_FSIZE, 0.0);
-  // All else as on a kernel that knows no other calls: libraries then do without, also without clone3 and openat2,
-  // whose arguments a filter cannot see.
+  // Other calls fail as on a kernel without them. Libraries then use alternatives, also for clone3 and openat2, whose
+  // arguments a filter cannot see.
   CallFilter filter;
   allow_harmless(filter);
   kill_harmful(filter);

@@ -1,4 +1,4 @@
-// What this process may still do once it reads a stranger's file: limits, no paths but the file's, no calls but those
+// Sandbox of this process for untrusted files: limits, no paths except the file's, and no system calls except those
 // that computing needs.
 #pragma once
 
@@ -6,18 +6,18 @@
 
 namespace tisserand::reducer {
 
-/// Limits of processor time [s] and memory [bytes], no core files, the end together with the parent. An allocation
-/// beyond the limit ends this process with out_of_memory_code. Sanitizers reserve terabytes:
-/// in a build with them memory is not limited.
+/// Sets limits of processor time [s] and memory [bytes], no core files, and the end together with the parent. An
+/// allocation beyond the limit ends this process with out_of_memory_code. Sanitizers reserve terabytes, so a build with
+/// them has no limit of memory.
 void set_limits(double seconds, double bytes);
 
-/// Landlock: from here on only `file` can be read, or all in its folder and below. False if the kernel has no Landlock,
-/// or another thread runs already, which it would not hold.
+/// Landlock: from here on only `file` can be read, or everything in its folder and below. False if the kernel has no
+/// Landlock, or if another thread already runs, which it would not restrict.
 [[nodiscard]] bool close_paths(const std::string& file, bool whole_folder);
 
-/// seccomp: reading and computing go on, and writing to what is open. Starting programs, making, renaming and removing
-/// files end this process (SIGSYS). All else, also opening a file for writing and sockets: ENOSYS. False if the
-/// kernel has no seccomp.
+/// seccomp: reading, computing and writing to open files continue. Starting programs, and making, renaming and removing
+/// files, end this process (SIGSYS). All other calls, such as opening a file for writing and sockets, fail with ENOSYS.
+/// False if the kernel has no seccomp.
 [[nodiscard]] bool close_calls();
 
 }  // namespace tisserand::reducer

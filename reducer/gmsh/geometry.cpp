@@ -1,4 +1,4 @@
-// Questions to gmsh's kernels, of which one or the other may have no answer.
+// Queries to gmsh's kernels, some of which may have no answer.
 #include "reducer/gmsh/geometry.hpp"
 
 #include <cmath>
@@ -9,9 +9,9 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr int grid_points = 7;  // along each parameter: more than the surfaces with an axis have unknowns
+constexpr int grid_points = 7;  // along each parameter: more points than unknowns of surfaces with an axis
 
-/// Length or area with its middle. The kernel of .geo files without OpenCASCADE has none.
+/// Sets length or area and its middle. The kernel of .geo files without OpenCASCADE has none.
 void measure(const Entity& entity, double scale, EntityGeometry& geometry) {
   try {
     double size = 0.0, x = 0.0, y = 0.0, z = 0.0;
@@ -25,7 +25,7 @@ void measure(const Entity& entity, double scale, EntityGeometry& geometry) {
   }
 }
 
-/// Middles of the cells of a grid of parameters: not on the edges, where poles and seams are.
+/// Middles of the cells of a grid of parameters, which avoid the edges with poles and seams.
 std::vector<double> grid_of(int face) {
   std::vector<double> low, high, grid;
   gmsh::model::getParametrizationBounds(2, face, low, high);

@@ -1,4 +1,4 @@
-// What the kernel knows of edges and faces beyond their mesh: lengths, areas, and points of surfaces with normals.
+// Kernel data of edges and faces in addition to their mesh: lengths, areas, and points of surfaces with normals.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace tisserand::reducer {
 
-/// Of each entity of the open model, lengths times `scale`: size and middle where OpenCASCADE tells them, of faces also
-/// points on a grid of their parameters, inside of the rectangle that holds them, and the volumes that they bound.
+/// Data of each entity of the open model, lengths times `scale`: size and middle if OpenCASCADE has them. Faces also
+/// have points on a grid of their parameters, inside their parameter rectangle, and the volumes that they bound.
 std::vector<EntityGeometry> geometry_of(const std::vector<Entity>& entities, double scale);
 
 }  // namespace tisserand::reducer

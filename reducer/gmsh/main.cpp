@@ -1,6 +1,5 @@
-// The program reducer-mesher, started by reducer-solver: loads gmsh, closes the door behind it, reads a geometry or
-// mesh file and answers with its cells. What it is asked, and where the answer goes, are descriptors that are open when
-// it starts.
+// The program reducer-mesher, started by reducer-solver: loads gmsh, enters the sandbox, reads a geometry or mesh file
+// and answers with its cells. The request and the answer use descriptors that are open when it starts.
 #include <unistd.h>
 
 #include <array>
@@ -42,7 +41,7 @@ void send(const char* bytes, std::size_t size) {
 
 void begin(MesherPhase phase) { send(reinterpret_cast<const char*>(&phase), 1); }
 
-/// A note if the kernel lacks what closes the door; then only what is no program is read, or what is trusted.
+/// Enters the sandbox. Returns a note if the kernel lacks it; then only trusted files and no programs are read.
 std::string close_door(const GeometryRequest& request) {
   const bool paths = request.is_trusted || close_paths(request.file, request.is_program);
   const bool calls = close_calls();
@@ -63,7 +62,7 @@ CellMesh mesh_of(const GeometryRequest& request) {
   set_limits(request.seconds, request.bytes);
   ::setenv("HOME", "/dev/null", 1);  // FLTK, a library of gmsh, makes folders there, or in /etc
   start_gmsh();
-  std::atexit([] { ::_exit(1); });  // a file may end gmsh; the ends of the libraries tidy up where this process may not
+  std::atexit([] { ::_exit(1); });  // a file may end gmsh; exit handlers of libraries clean up in forbidden places
   ::clearenv();
   const std::string note = close_door(request);
   begin(MesherPhase::reading);
@@ -72,7 +71,7 @@ CellMesh mesh_of(const GeometryRequest& request) {
   return mesh;
 }
 
-/// gmsh tells about lists that find no memory by a message.
+/// Packed error. gmsh reports lists without memory by a message only.
 std::string answer_of(const Error& error) {
   if (error.message().find("Out of memory") != std::string::npos) ::_exit(out_of_memory_code);
   if (error.message().find("Unable to open file") != std::string::npos)
@@ -82,7 +81,7 @@ std::string answer_of(const Error& error) {
   return pack(error);
 }
 
-/// gmsh throws std::string; OpenCASCADE, what is no std::exception.
+/// Answer to a request. gmsh throws std::string; OpenCASCADE throws types other than std::exception.
 std::string answer_to(const GeometryRequest& request) {
   try {
     return pack(mesh_of(request));

@@ -1,4 +1,4 @@
-// A file opened, meshed if it is a geometry, and read out of gmsh.
+// Cells of a file: opened, meshed if it is a geometry, and read out of gmsh.
 #include "reducer/gmsh/read.hpp"
 
 #include <algorithm>
@@ -24,11 +24,11 @@ namespace {
 
 constexpr const char* open_with_gmsh = "open it with gmsh to see what is wrong";
 
-/// gmsh's number of an element type, or nothing for kinds that have no element here.
+/// Sets a numeric option of gmsh.
 void set_option(const char* name, double value) { gmsh::option::setNumber(name, value); }
 
-/// OpenCASCADE knows its target unit only after a STEP reader has been made; gmsh makes none for IGES. Reading a STEP
-/// file that cannot be there makes one and fails.
+/// Makes a STEP reader by reading a STEP file that cannot exist. OpenCASCADE knows its target unit only after that, and
+/// gmsh makes none for IGES.
 void make_step_reader() {
   set_option("General.Verbosity", 0);
   try {
@@ -52,7 +52,7 @@ void set_sizes(const GeometryRequest& settings) {
   }
 }
 
-/// Local sizes at the points around the entities; inside, sizes follow from the boundary.
+/// Sets sizes at the points around the entities; inside, sizes follow from the boundary.
 void set_local_sizes(const GeometryRequest& request) {
   for (const SizedEntity& sized : request.sizes) {
     gmsh::vectorpair points;
@@ -67,7 +67,7 @@ bool has_cells(int dimension, int tag) {
   return !types.empty();
 }
 
-/// Nodes on curved faces fold coarse cells of second order.
+/// Unfolds coarse second-order cells, which nodes on curved faces fold.
 void unfold(const std::string& file, std::vector<std::string>& warnings) {
   const Unfolding cells = unfold_cells();
   if (cells.before == 0) return;
@@ -81,7 +81,7 @@ void unfold(const std::string& file, std::vector<std::string>& warnings) {
                   file, cells.before));
 }
 
-/// Length, area or volume of an entity; of a .geo file, whose kernel may not tell, about a quarter of its box.
+/// Length, area or volume of an entity; for a .geo file, whose kernel may not know it, about a quarter of its box.
 double extent_of(MeshFileKind kind, int dimension, int tag) {
   double extent = 0.0;
   if (kind != MeshFileKind::geo) {
@@ -95,14 +95,14 @@ double extent_of(MeshFileKind kind, int dimension, int tag) {
   return dimension == 1 ? side[0] : dimension == 2 ? 0.25 * side[0] * side[1] : 0.25 * side[0] * side[1] * side[2];
 }
 
-/// Diagonal of the box around everything, in the unit that it was read in.
+/// Diagonal of the box around the model, in the unit of the file.
 double size_of_model() {
   std::array<double, 6> b{};
   gmsh::model::getBoundingBox(-1, -1, b[0], b[1], b[2], b[3], b[4], b[5]);
   return std::hypot(b[3] - b[0], b[4] - b[1], b[5] - b[2]);
 }
 
-/// Refuses a size that would take days: by the number of regular triangles, squares or tetrahedra of that edge.
+/// Throws Error for a size that would take days, by the number of regular cells with this edge.
 void check_size(const GeometryRequest& request, int dimension, const gmsh::vectorpair& entities) {
   if (!(request.size > 0.0)) return;
   const double size = request.size / request.scale;
@@ -125,7 +125,7 @@ void check_size(const GeometryRequest& request, int dimension, const gmsh::vecto
                 request.file, "use a larger size, and `sizes` where details need smaller ones; check the units");
 }
 
-/// Meshes the geometry, unless the file has done so itself.
+/// Meshes the geometry, unless the file has already done it.
 void generate(const GeometryRequest& request, std::vector<std::string>& warnings) {
   const std::string& file = request.file;
   const int dimension = std::min(request.dimension, gmsh::model::getDimension());
@@ -147,7 +147,7 @@ void generate(const GeometryRequest& request, std::vector<std::string>& warnings
   if (!meshed && dimension == 3) unfold(file, warnings);
 }
 
-/// Columns of the nodes by gmsh's numbers.
+/// Columns of the nodes, by gmsh's numbers.
 class NodeTable {
  public:
   NodeTable(CellMesh& mesh, double scale) {
@@ -184,8 +184,8 @@ struct NodesHash {
   }
 };
 
-/// Cells entity by entity; what has the same nodes as an earlier cell (an element that is written once for each of its
-/// physical groups) is left out.
+/// Reads cells entity by entity. Cells with the same nodes as an earlier one (an element that is written once for each
+/// of its physical groups) are omitted.
 class Reader {
  public:
   Reader(const GeometryRequest& request, CellMesh& mesh)
@@ -194,7 +194,7 @@ class Reader {
   void read_entity(int dimension, int tag) {
     Entity entity{dimension, tag, "", mesh_.cells[dimension].size(), 0};
     gmsh::model::getEntityName(dimension, tag, entity.label);
-    // "Shapes/Open CASCADE STEP translator 7.6 2": nobody's name, but that of the program that wrote the file.
+    // "Shapes/Open CASCADE STEP translator 7.6 2" is the name of the program that wrote the file, not of a face.
     if (entity.label.find("Open CASCADE STEP translator") != std::string::npos) entity.label.clear();
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> ids, nodes;
@@ -272,8 +272,8 @@ void open_file(const GeometryRequest& request) {
   check_gmsh_messages(request.file, open_with_gmsh);
 }
 
-/// The tolerances of gmsh are lengths, about 1e-8, and made for millimetres: in metres it meshes small parts badly or
-/// not at all. Files with units are read in millimetres and scaled after meshing, so a part meshes alike in all units.
+/// gmsh's tolerances are lengths of about 1e-8, made for millimetres: in metres it meshes small parts badly or not at
+/// all. Files with units are read in millimetres and scaled after meshing, so a part has the same mesh in all units.
 void open_geometry(GeometryRequest& request) {
   static const std::map<std::string, double> millimetres{
       {"M", 1e3}, {"CM", 10.0}, {"KM", 1e6}, {"INCH", 25.4}, {"FT", 304.8}};
@@ -326,7 +326,7 @@ CellMesh read_geometry(const GeometryRequest& asked, const std::function<void(Me
   std::vector<std::string> warnings;
   if (is_geometry) {
     begin(MesherPhase::meshing);
-    set_sizes(request);  // a .geo file may have set its own; what the part file gives counts
+    set_sizes(request);  // overrides sizes of a .geo file
     generate(request, warnings);
   }
   CellMesh mesh = read_out(request, is_geometry);

@@ -1,4 +1,4 @@
-// A geometry or mesh file as cells: inside the process that may do nothing else.
+// A geometry or mesh file as cells, read inside the sandbox.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace tisserand::reducer {
 
-/// As import_with_gmsh; `begin` is called when a phase begins. gmsh has been started. Throws Error, and std::string
-/// where gmsh does.
+/// Cells as from import_with_gmsh(); `begin` is called when a phase begins. gmsh must have been started. Throws Error,
+/// and std::string if gmsh does.
 CellMesh read_geometry(const GeometryRequest& request, const std::function<void(MesherPhase)>& begin);
 
 }  // namespace tisserand::reducer

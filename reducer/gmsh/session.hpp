@@ -1,4 +1,4 @@
-// The library gmsh, which is one global state of this process: start and messages.
+// The library gmsh, a global state of this process: start and messages.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@ namespace tisserand::reducer {
 
 inline constexpr int gmsh_verbosity = 2;  ///< errors and warnings
 
-/// Without ~/.gmshrc; errors and warnings go to standard error, too, where they outlive a crash. It never ends: the
-/// process does.
+/// Starts gmsh without ~/.gmshrc. Errors and warnings also go to standard error, where they survive a crash. gmsh is
+/// never stopped, the process ends.
 void start_gmsh();
 
 /// The first messages of a kind ("Error", "Warning") since the start, without the kind.
 std::vector<std::string> gmsh_messages(const std::string& kind);
 
-/// Throws what gmsh has reported as an error although its functions returned.
+/// Throws Error if gmsh has reported an error although its functions returned.
 void check_gmsh_messages(const std::string& where, const std::string& remedy);
 
 }  // namespace tisserand::reducer

@@ -31,7 +31,7 @@ double tetrahedron_volume(const Points& x, const Cell& cell, const std::array<in
   return std::abs((at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0))) / 6.0;
 }
 
-/// Area of triangle or (warped) quadrilateral: half of the cross product of the diagonals.
+/// Area of a triangle or (warped) quadrilateral: half of the cross product of the diagonals.
 double face_area(const Points& x, const Cell& cell, int corners) {
   const auto at = [&](int i) { return x[cell.nodes[i]]; };
   if (corners == 3) return 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
@@ -100,9 +100,9 @@ NodeShares node_shares(const Cell& cell, const Points& position) {
     result.size = (position[cell.nodes[1]] - position[cell.nodes[0]]).norm();
   else
     result.size = form.dimension == 2 ? face_area(position, cell, form.corners) : volume(position, cell, form.corners);
-  // Share of one corner; the rest goes to the middle nodes in equal parts. Halving the edges gives these numbers: the
-  // triangle's corner touches one of four triangles, the quadrilateral's one of four quadrilaterals, whose middle is
-  // shared by the four middle nodes.
+  // Share of one corner; the middle nodes share the rest equally. These numbers come from halving the edges. The
+  // triangle's corner touches one of four triangles, the quadrilateral's one of four quadrilaterals, whose middle
+  // belongs to the four middle nodes.
   double corner = 1.0 / form.corners;
   if (cell.shape == CellShape::line3) corner = 1.0 / 4.0;
   if (cell.shape == CellShape::triangle6) corner = 1.0 / 12.0;

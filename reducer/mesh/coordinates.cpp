@@ -1,4 +1,4 @@
-// Coordinates of the nodes.
+// Coordinates of the nodes and their names.
 #include "reducer/mesh/coordinates.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// What uses each node.
+/// Nodes that have elements, use rotations, or are used at all.
 struct Use {
   std::vector<bool> element, rotation, any;
 };

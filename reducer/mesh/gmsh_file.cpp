@@ -17,16 +17,16 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Nodes of the elements of one gmsh type and property, one after the other.
+/// Nodes of the elements of one gmsh type and property, in sequence.
 struct Batch {
   int dimension = 1;
   std::string name;
-  std::map<int, std::vector<int>> nodes;  ///< by gmsh's element type
+  std::map<int, std::vector<int>> nodes;  ///< key: gmsh's element type
 };
 
 void append(std::vector<int>& to, const auto& nodes) { to.insert(to.end(), nodes.begin(), nodes.end()); }
 
-/// What a file calls an entity: a batch that is not empty.
+/// Entity of the file: a batch that is not empty.
 struct MshEntity {
   const Batch* batch;
   int number;  ///< from 1 in its dimension
@@ -68,9 +68,9 @@ void add_connections(const Mesh& mesh, std::vector<Batch>& batches) {
   for (const NodalMass& m : mesh.masses) batches.push_back({0, m.name, {{point_type, {m.node}}}});
 }
 
-using Groups = std::map<std::pair<int, std::string>, int>;  // dimension and name -> number
+using Groups = std::map<std::pair<int, std::string>, int>;  // key: dimension and name, value: number
 
-/// Batches of the same name and dimension become one physical group.
+/// Entities of the batches; batches of the same name and dimension become one physical group.
 std::vector<MshEntity> entities_of(const std::vector<Batch>& batches, Groups& groups) {
   std::vector<MshEntity> entities;
   std::array<int, 4> count{};
@@ -114,7 +114,7 @@ void write_entities(MshText& out, const Mesh& mesh, const std::vector<MshEntity>
   out.line("$EndEntities");
 }
 
-/// All nodes are those of the first entity, one of elements where there are any.
+/// Writes all nodes as nodes of the first entity, which has elements if there are any.
 void write_nodes(MshText& out, const Mesh& mesh, const MshEntity& owner) {
   const int n = mesh.nodes();
   out.line("$Nodes\n1 {} 1 {}\n{} {} 0 {}", n, n, owner.batch->dimension, owner.number, n);

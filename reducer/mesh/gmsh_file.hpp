@@ -1,4 +1,4 @@
-// A mesh as a gmsh file, to look at.
+// A mesh as a gmsh file, for viewing.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace tisserand::reducer {
 
-/// Text of version 4.1; one physical group for each property of beams, shells and solids, springs, spiders (lines to
-/// their legs), boundary nodes and point masses, with their names. The file appears whole or not at all.
+/// Writes text of version 4.1, with one named physical group for each property of beams, shells and solids, for
+/// springs, spiders (lines to their legs), boundary nodes and point masses. The file is complete or does not exist.
 void write_gmsh_file(const Mesh& mesh, const std::string& path);
 
 }  // namespace tisserand::reducer

@@ -10,12 +10,12 @@
 
 namespace tisserand::reducer {
 
-/// Nodes of which some components are held.
+/// Nodes with held components.
 struct MeshSupport {
   std::string name;
   std::vector<int> nodes;       ///< ascending, each once
   std::uint8_t components = 0;  ///< Components
-  bool where_present = false;   ///< rotations only of nodes that have them; else all nodes must
+  bool where_present = false;   ///< rotations only of nodes that have them; otherwise all nodes must have them
   std::string where;
 };
 
@@ -32,7 +32,7 @@ struct ShellPressure {
   double pressure = 0.0;
 };
 
-/// The same on a face of a solid: three, four, six or eight nodes, corners counter-clockwise seen from outside, then
+/// Pressure on a face of a solid: three, four, six or eight nodes, corners counter-clockwise seen from outside, then
 /// the middles of the edges between them.
 struct FacePressure {
   std::array<int, 8> nodes{};
@@ -46,7 +46,7 @@ struct BeamLineLoad {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
 };
 
-/// Force per length on an edge of a shell or solid: two ends, then the middle if there is one.
+/// Force per length on an edge of a shell or solid: two ends, then the middle node if there is one.
 struct EdgeLineLoad {
   std::array<int, 3> nodes{};
   int count = 0;

@@ -1,4 +1,4 @@
-// Questions to the mesh before anything is solved: its rigid motions, whether it is one piece, whether it is held.
+// Checks of the mesh before the solution: its rigid motions, whether it is one piece, whether it is held.
 #include "reducer/mesh/mesh.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Piece number of every node, numbered by their first nodes; nodes joined by an element or a tie are in one piece.
+/// Piece number of every node, in the order of first nodes; nodes joined by an element or a tie are in one piece.
 std::vector<int> pieces(const Mesh& mesh) {
   std::vector<int> parent(mesh.nodes());
   std::iota(parent.begin(), parent.end(), 0);
@@ -49,7 +49,7 @@ struct NearestPair {
   double distance = 0.0;
 };
 
-/// The smallest gap between the piece `chosen` and all others; sorts along x, so that near pairs are found quickly.
+/// Smallest gap between the piece `chosen` and all others; a sort along x finds near pairs quickly.
 NearestPair nearest_pair(const Mesh& mesh, const std::vector<int>& piece, int chosen) {
   std::vector<int> order(mesh.nodes());
   std::iota(order.begin(), order.end(), 0);
@@ -72,7 +72,7 @@ std::string vector_text(const Eigen::Vector3d& v) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", w.x(), w.y(), w.z());
 }
 
-/// Reduced column echelon form of a basis of motions (6 x k): the simplest words for the same space.
+/// Reduced column echelon form of a basis of motions (6 x k), which gives the simplest description of the space.
 Eigen::MatrixXd echelon(Eigen::MatrixXd basis) {
   Eigen::Index column = 0;
   for (Eigen::Index row = basis.rows() - 1; row >= 0 && column < basis.cols(); --row) {
@@ -88,7 +88,7 @@ Eigen::MatrixXd echelon(Eigen::MatrixXd basis) {
   return basis;
 }
 
-/// "turning about the axis ... through ...": a rigid motion [velocity of `center`; angular velocity] in words.
+/// Description of a rigid motion [velocity of `center`; angular velocity]: "turning about the axis ... through ...".
 std::string motion_text(const Eigen::Matrix<double, 6, 1>& motion, const Eigen::Vector3d& center, double length) {
   const Eigen::Vector3d v = motion.head<3>();
   const Eigen::Vector3d w = motion.tail<3>() / length;

@@ -1,5 +1,5 @@
-// The finite element model of a part: plain nodes, elements, masses and ties, between every way in (part.yaml, gmsh,
-// decks of other programs) and assembly.
+// Finite element model of a part: nodes, elements, masses and ties. All input formats (part.yaml, gmsh, decks of other
+// programs) produce it for assembly.
 #pragma once
 
 #include <array>
@@ -21,36 +21,36 @@
 
 namespace tisserand::reducer {
 
-/// Components of a node: bit 0-2 translations x, y, z; bit 3-5 rotations.
+/// Set of components of a node: bit 0-2 translations x, y, z; bit 3-5 rotations.
 using Components = std::uint8_t;
 inline constexpr Components translations_only = 0b000111;
 inline constexpr Components rotations_only = 0b111000;
 inline constexpr Components all_components = 0b111111;
 
-/// Two nodes, the axes R_PE (columns: element x, y, z in part axes; x from end to end of the beam axis) and the rest.
+/// Beam of two nodes with axes R_PE (columns: element x, y, z in part axes; x from end to end of the beam axis).
 struct BeamElement {
   int first = 0;
   int second = 0;
   Eigen::Matrix3d R_PE = Eigen::Matrix3d::Identity();
-  int property = 0;                                        ///< row of Mesh::beam_properties
+  int property = 0;                                        ///< index in Mesh::beam_properties
   Eigen::Vector3d first_offset = Eigen::Vector3d::Zero();  ///< from the node to the end of the beam axis, part axes
   Eigen::Vector3d second_offset = Eigen::Vector3d::Zero();
   std::uint16_t released = 0;  ///< bit k: the k-th of the twelve end forces (element axes) is zero
-  int id = 0;                  ///< number in a deck or in its group, for messages
+  int id = 0;                  ///< number in a deck or group, for messages
 };
 
-/// What beams share; the length of each element comes from its ends.
+/// Common data of beams; the length of each element comes from its ends.
 struct BeamProperty {
   BeamElementData data;
-  std::string name;  ///< of the line, group or property card, for messages
+  std::string name;  ///< name of the line, group or property card, for messages
 };
 
-/// Three or four nodes around the normal (counter-clockwise seen from its tip); nodes[3] = -1: a triangle.
+/// Shell with three or four nodes around the normal (counter-clockwise seen from its tip); nodes[3] = -1: a triangle.
 struct ShellElement {
   std::array<int, 4> nodes{-1, -1, -1, -1};
-  int property = 0;     ///< row of Mesh::shell_properties
-  double offset = 0.0;  ///< of the middle surface from the nodes, along the normal
-  /// Its projection on the element is the x axis of the laminate; zero: from nodes[0] to nodes[1].
+  int property = 0;     ///< index in Mesh::shell_properties
+  double offset = 0.0;  ///< offset of the middle surface from the nodes, along the normal
+  /// Direction whose projection is the x axis of the laminate; zero: from nodes[0] to nodes[1].
   Eigen::Vector3d material_x = Eigen::Vector3d::Zero();
   int id = 0;
   int corners() const { return nodes[3] < 0 ? 3 : 4; }
@@ -69,11 +69,11 @@ int node_count(SolidShape shape);
 struct SolidElement {
   SolidShape shape = SolidShape::tetrahedron4;
   std::array<int, 20> nodes{};
-  int property = 0;  ///< row of Mesh::solid_properties
+  int property = 0;  ///< index in Mesh::solid_properties
   int id = 0;
 };
 
-/// Nodes of an element, one after the other.
+/// Nodes of an element in sequence.
 inline std::array<int, 2> nodes_of(const BeamElement& beam) { return {beam.first, beam.second}; }
 inline std::span<const int> nodes_of(const ShellElement& shell) {
   return std::span(shell.nodes).first(static_cast<std::size_t>(shell.corners()));
@@ -107,7 +107,7 @@ struct NodalMass {
 };
 
 /// rigid: the nodes follow the reference node (RBE2). averaging: the reference node follows the weighted mean motion of
-/// the nodes, which stay free to deform (RBE3).
+/// the nodes, which can still deform (RBE3).
 enum class SpiderKind { rigid, averaging };
 
 struct Spider {
@@ -116,7 +116,7 @@ struct Spider {
   std::vector<int> nodes;
   std::vector<double> weight;                          ///< averaging: one per node, positive
   Components node_components = all_components;         ///< rigid: those that follow; averaging: those that are averaged
-  Components reference_components = all_components;    ///< averaging: those that the mean defines
+  Components reference_components = all_components;    ///< averaging: components that the mean defines
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: the directions of the components, in part axes
   std::string name;
 };
@@ -132,7 +132,7 @@ struct TieEquation {
   std::string name;
 };
 
-/// A node that other bodies will see; the components that are not retained stay internal.
+/// Node that other bodies see; components that are not retained stay internal.
 struct MeshBoundary {
   std::string name;
   int node = 0;
@@ -140,7 +140,7 @@ struct MeshBoundary {
   bool rotations = true;
 };
 
-/// A node that ties the frame of a modal body: the components are held.
+/// Node with held components that tie the frame of a modal body.
 struct FrameNode {
   std::string name;
   int node = 0;
@@ -150,7 +150,7 @@ struct FrameNode {
 struct Mesh {
   Eigen::Matrix3Xd position;            ///< 3 x nodes, part frame
   std::vector<std::string> node_label;  ///< for messages: "tip", "spar[3]" or "node 4711"
-  std::vector<int> node_number;         ///< in the mesh file, 0: it has none; empty: no node has one
+  std::vector<int> node_number;         ///< in the mesh file; 0: none; empty: no node has one
   std::vector<BeamProperty> beam_properties;
   std::vector<BeamElement> beams;
   std::vector<ShellProperty> shell_properties;
@@ -165,7 +165,7 @@ struct Mesh {
   std::vector<FrameNode> held;        ///< of formats::ModalBodyRequest
   std::vector<MeshSupport> supports;  ///< of `reducer solve`
   std::vector<MeshLoadCase> load_cases;
-  std::vector<std::string> warnings;  ///< of the way in: to be told and kept in the certificate
+  std::vector<std::string> warnings;  ///< from reading the part; they are reported and kept in the certificate
 
   int nodes() const { return static_cast<int>(position.cols()); }
   int elements() const { return count_of(beams) + count_of(shells) + count_of(solids) + count_of(springs); }
@@ -178,22 +178,22 @@ int add_row(std::vector<Row>& rows, std::type_identity_t<Row> row) {
   return count_of(rows) - 1;
 }
 
-/// Normal of a shell, as long as twice its area.
+/// Normal of a shell with twice its area as length.
 Eigen::Vector3d normal_of(const Mesh& mesh, const ShellElement& shell);
 
-/// l = largest distance of a node from the mean of the nodes (1 if 0): the length with which rotations are scaled.
+/// l = largest distance of a node from the mean of the nodes (1 if 0): the length that scales rotations.
 double characteristic_length(const Mesh& mesh);
 
 /// Throws Error naming the pieces, and the nearest pair of nodes between them, unless elements and ties form one piece.
 void check_connected(const Mesh& mesh, const std::string& where);
 
-/// A node with the components that something holds.
+/// Node with its held components.
 struct HeldComponents {
   int node = 0;
   Components components = all_components;
 };
 
-/// The rigid motions that nodes held so leave free, in words: "turning about the axis (0, 0, 1) through (0, 0, 0)".
+/// Descriptions of the rigid motions that held nodes leave free: "turning about the axis (0, 0, 1) through (0, 0, 0)".
 std::vector<std::string> free_motions(const Mesh& mesh, const std::vector<HeldComponents>& held);
 
 /// Throws Error naming the free motions if the retained boundary coordinates leave a rigid motion of the part free.

@@ -1,4 +1,4 @@
-// First look at mesh and geometry files: kind, beginning and end.
+// First check of mesh and geometry files: kind, beginning and end.
 #include "reducer/mesh/mesh_file.hpp"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ std::string content_of(const std::string& file, const std::string& where) {
   return text;
 }
 
-/// The line after `begin` of a section, as words.
+/// Words of the line after `begin` of a section.
 std::vector<std::string> words_after(const std::string& text, std::size_t begin) {
   const std::size_t line = text.find('\n', begin);
   if (line == std::string::npos) return {};
@@ -67,10 +67,10 @@ std::vector<std::string> words_after(const std::string& text, std::size_t begin)
   return result;
 }
 
-/// Every $Section has its $EndSection; the version is one of those that are read; the counts fit the length.
+/// Checks that every $Section has its $EndSection, that the version is supported, and that the counts fit the length.
 void check_msh(const std::string& file, const std::string& text) {
   const std::size_t format = text.find("$MeshFormat");
-  // With another beginning gmsh takes it for a .geo file.
+  // gmsh would take a file with another beginning for a .geo file.
   if (format == std::string::npos || (format > 0 && !text.starts_with("$Comments")))
     refuse_format(file, "this is no .msh file of gmsh: no $MeshFormat");
   const std::vector<std::string> words = words_after(text, format);
@@ -99,7 +99,7 @@ void check_step(const std::string& file, const std::string& text) {
   if (text.find("END-ISO-10303-21") == std::string::npos) refuse_end(file, "END-ISO-10303-21 is missing");
 }
 
-/// Column 73 of an IGES file names the section: S, G, D, P, T.
+/// Checks column 73 of an IGES file, which names the section: S, G, D, P, T.
 void check_iges(const std::string& file, const std::string& text) {
   if (text.size() < 73 || (text[72] != 'S' && text[72] != 'C'))
     refuse_format(file, "this is no IGES file: no S in column 73");
@@ -144,7 +144,7 @@ void check_mesh_file(const std::string& file, const std::string& where) {
   switch (kind) {
     case MeshFileKind::geo:
       if (text.find('\0') != std::string::npos) refuse_format(file, "this is no .geo file: it holds binary data");
-      return;  // a program: gmsh/door.hpp says what it may do
+      return;  // a program: gmsh/door.hpp defines what it may do
     case MeshFileKind::msh:
       return check_msh(file, text);
     case MeshFileKind::step:
@@ -155,7 +155,7 @@ void check_mesh_file(const std::string& file, const std::string& where) {
       return check_brep(file, text);
     case MeshFileKind::nastran:
     case MeshFileKind::abaqus:
-      return;  // their readers say what is wrong, line by line
+      return;  // their readers report faults line by line
   }
 }
 

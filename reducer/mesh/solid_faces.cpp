@@ -1,4 +1,4 @@
-// Faces that are met once.
+// Faces that belong to one solid only.
 #include "reducer/mesh/solid_faces.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Corners of the faces of solids, counter-clockwise seen from outside, and the two corners of each middle node, in
+/// Corners of the faces of a solid, counter-clockwise seen from outside, and the two corners of each middle node, in
 /// gmsh's numbering.
 struct SolidFaces {
   std::vector<std::vector<int>> faces;
@@ -27,7 +27,7 @@ const SolidFaces& faces_of(int corners) {
   return corners == 4 ? tetrahedron : corners == 8 ? hexahedron : prism;
 }
 
-/// The face of a solid as a cell with middle nodes.
+/// Face of a solid as a cell with middle nodes.
 Cell face_cell(const Cell& solid, const std::vector<int>& face) {
   const CellForm form = form_of(solid.shape);
   const bool second_order = form.nodes > form.corners;

@@ -9,14 +9,14 @@
 
 namespace tisserand::reducer {
 
-/// A solid as the cell that it was made from.
+/// A solid as the cell from which it was made.
 Cell as_cell(const SolidElement& solid);
 
 /// Faces of the mesh whose corners are all `wanted` and that belong to one solid only: corners counter-clockwise seen
 /// from outside, then the middles of their edges.
 std::vector<Cell> outer_faces(const Mesh& mesh, const std::function<bool(int node)>& wanted);
 
-/// A face that belongs to one solid only, by the numbers of its corners in that solid: three or four.
+/// Face that belongs to one solid only, by the numbers of its three or four corners in that solid.
 struct OuterFace {
   int solid = 0;
   std::vector<int> corners;  ///< counter-clockwise seen from outside

@@ -1,4 +1,4 @@
-// Measures of elements, their limits, and what they say of the modes.
+// Measures of elements, their limits, and the warnings for the modes.
 #include "reducer/mesh_error/doubts.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Above which measures, in units of the estimate, the estimate is not known.
+/// Limits of the measures, in units of the estimate; above them the estimate is not reliable.
 struct DoubtLimits {
   double traction = 3.0;
   double scatter = 1e3;  ///< no limit
@@ -45,7 +45,7 @@ DoubtLimits limits_of(const Mesh& mesh, int element) {
   return {};
 }
 
-/// Nodes at which something else than solids may act.
+/// Nodes at which other elements than solids, or ties, may act.
 std::vector<bool> attached_nodes(const Mesh& mesh) {
   std::vector<bool> attached(static_cast<std::size_t>(mesh.nodes()), false);
   for (const Spider& spider : mesh.spiders)
@@ -69,7 +69,7 @@ std::vector<std::vector<std::vector<int>>> free_faces(const Mesh& mesh) {
   return faces;
 }
 
-/// Energy of the traction of smooth stresses at a face if it falls to nothing over half of the depth of the element:
+/// Energy of the traction of smooth stresses at a face if it decreases to zero over half the depth of the element:
 /// depth/6 · ∫ |σ* n|²/G dA.
 VectorXd traction_energy(const Mesh& mesh, const SolidElement& solid, const std::vector<int>& corners,
                          const MatrixXd& smooth) {
@@ -141,7 +141,7 @@ MeshMeasures mesh_measures(const Mesh& mesh, const MatrixXd& motion, const Vecto
 
 MeshDoubts mesh_doubts(const Mesh& mesh, const MeshMeasures& measures, const VectorXd& beams, const VectorXd& lambda) {
   constexpr double least = 1.5e-3, largest = 0.5, out_of_balance = 0.2, cancelled = 2.5;
-  constexpr double turned_size = 0.1;                   ///< a cylinder of 8 to 12 shells around errs by 6 to 20 %
+  constexpr double turned_size = 0.1;                   ///< a cylinder of 8 to 12 shells has errors of 6 to 20 %
   constexpr double few_turned = 0.1, few_folded = 0.2;  // shares of the strain energy
   const Index modes = lambda.size();
   const int shells = count_of(mesh.shells), count = static_cast<int>(measures.error.rows());

@@ -12,7 +12,7 @@
 
 namespace tisserand::reducer {
 
-/// Why an estimate is not known.
+/// Reason why an estimate is not reliable.
 enum class MeshDoubt : std::uint8_t {
   none,
   too_large,         ///< the error of a mode is above 50 %: modes mix
@@ -24,29 +24,29 @@ enum class MeshDoubt : std::uint8_t {
   double_curvature,  ///< coarse shells of double curvature
 };
 
-/// One line for the user that says what is wrong, without the modes.
+/// Explanation for the user in one line, without the modes.
 const char* explain(MeshDoubt doubt);
 
-/// Energies per element and mode (elements x modes), not yet relative to a scale.
+/// Energies per element and mode (elements x modes, shells before solids), not yet relative to a scale.
 struct MeshMeasures {
   Eigen::MatrixXd error;      ///< energy_error()
   Eigen::MatrixXd strain;     ///< twice the strain energy, from the samples
-  Eigen::MatrixXd scatter;    ///< of the samples around the smooth stresses
-  Eigen::MatrixXd traction;   ///< of smooth stresses at free faces of solids, in the half of the element next to them
+  Eigen::MatrixXd scatter;    ///< distance of the samples from the smooth stresses
+  Eigen::MatrixXd traction;   ///< of smooth stresses at free faces of solids, in the adjacent half of the element
   Eigen::MatrixXd imbalance;  ///< of smooth stresses inside first-order solids
 };
 
-/// Shells, then solids.
+/// Measures of shells, then of solids.
 MeshMeasures mesh_measures(const Mesh& mesh, const Eigen::MatrixXd& motion, const Eigen::VectorXd& lambda);
 
-/// The warning of each mode, and the size that the error of its frequency may have.
+/// Warning of each mode, and possible size of the error of its frequency.
 struct MeshDoubts {
   std::vector<MeshDoubt> doubt;
   Eigen::VectorXd size;
 };
 
-/// `beams`: energy_error() of all beams per mode. Limits are measured ([table](docs/VERIFICATION.md)): below them the
-/// estimates of its parts are within a factor of two. No doubt where no measure exceeds 0.15 % of a frequency.
+/// Warnings. `beams`: energy_error() of all beams per mode. Limits are measured ([table](docs/VERIFICATION.md)): below
+/// them its estimates are within a factor of two. No warning if all measures are below 0.15 % of a frequency.
 MeshDoubts mesh_doubts(const Mesh& mesh, const MeshMeasures& measures, const Eigen::VectorXd& beams,
                        const Eigen::VectorXd& lambda);
 

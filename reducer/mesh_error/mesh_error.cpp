@@ -13,9 +13,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double least_share = 0.25;  ///< of λ_h that is left of λ: beyond, the estimate is no more than "useless"
+constexpr double least_share = 0.25;  ///< least λ/λ_h; below, the estimate only means "useless"
 
-/// [translation; rotation] of every node; zero rotations where it has none.
+/// [translation; rotation] of every node; zero rotations for nodes without them.
 MatrixXd motions(const Mesh& mesh, const System& system, const MatrixXd& q) {
   const MatrixXd x = expand(system.T, q);
   const Coordinates& numbers = system.coordinates;
@@ -42,7 +42,7 @@ MatrixXd beam_errors(const Mesh& mesh, const MatrixXd& motion, const VectorXd& l
   return errors;
 }
 
-/// Sums by property; the names of beams', shells' and solids' properties in this order.
+/// Sums by property, and the names of the properties of beams, shells and solids in this order.
 struct Properties {
   MatrixXd error;
   std::vector<std::string> name;

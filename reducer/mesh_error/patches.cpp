@@ -12,8 +12,8 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr double smooth_cosine = 0.866;  ///< of the angle between normals: 30 degrees
-constexpr double fuller = 1.5;           ///< a patch that takes so much more around its node has elements on more sides
+constexpr double smooth_cosine = 0.866;  ///< cosine of the angle between normals: 30 degrees
+constexpr double fuller = 1.5;           ///< a patch whose angle is larger by this factor has elements on more sides
 
 struct Corner {
   int element = 0;
@@ -48,13 +48,13 @@ Eigen::Matrix3Xd normals_of(const Mesh& mesh) {
   return normal;
 }
 
-/// The nodes next to a corner along its two edges.
+/// Nodes next to a corner along its two edges.
 std::array<int, 2> beside(const ShellElement& shell, int corner) {
   const int n = shell.corners();
   return {shell.nodes[(corner + 1) % n], shell.nodes[(corner + n - 1) % n]};
 }
 
-/// The edge from the corner to the next node, counted by its first corner.
+/// Edge from the corner to the next node, identified by its first corner.
 int edge_towards(const ShellElement& shell, int corner, int node) {
   return beside(shell, corner)[0] == node ? corner : (corner + shell.corners() - 1) % shell.corners();
 }
@@ -66,7 +66,7 @@ bool smooth_between(const Mesh& mesh, const Eigen::Matrix3Xd& normal, int e, int
          std::abs(cosine) > smooth_cosine;
 }
 
-/// Group of each corner at one node: the lowest corner that it hangs together with.
+/// Group of each corner at one node, identified by the lowest connected corner.
 class Groups {
  public:
   explicit Groups(std::size_t count) : of_(count) { std::iota(of_.begin(), of_.end(), 0); }
@@ -80,7 +80,7 @@ class Groups {
   std::vector<int> of_;
 };
 
-/// Shells that share an edge at the node with no third one, and solids of one property.
+/// Groups at a node: shells that share an edge with no third one, and solids of one property.
 Groups groups_at(const Mesh& mesh, const Eigen::Matrix3Xd& normal, const std::vector<Corner>& corners,
                  std::vector<ShellEdges>& ending) {
   Groups groups(corners.size());
@@ -109,7 +109,7 @@ Groups groups_at(const Mesh& mesh, const Eigen::Matrix3Xd& normal, const std::ve
   return groups;
 }
 
-/// Patches of the nodes, and the patch of every corner.
+/// Makes the patches of the nodes, and assigns every corner to one.
 void make_patches(const Mesh& mesh, StressPatches& all) {
   const Eigen::Matrix3Xd normal = normals_of(mesh);
   const std::vector<std::vector<Corner>> at = corners_at_nodes(mesh);
@@ -146,7 +146,7 @@ bool second_order(const Mesh& mesh, int element) {
   return element >= shells(mesh) && is_second_order(mesh.solids[element - shells(mesh)].shape);
 }
 
-/// Fullest first, so that the sources of what is taken over are known.
+/// Finds the sources of patches, those with the largest angles first, because others use their sources.
 void find_sources(const Mesh& mesh, StressPatches& all) {
   std::vector<int> order(all.patch.size());
   std::iota(order.begin(), order.end(), 0);

@@ -8,10 +8,10 @@
 
 namespace tisserand::reducer {
 
-/// Elements are numbered shells first, then solids.
+/// Patch of elements around a node. Shells are numbered before solids.
 struct StressPatch {
   int node = 0;
-  double angle = 0.0;         ///< sum over its elements at the node: angle of shells, solid angle of solids
+  double angle = 0.0;         ///< sum of the angles (shells) or solid angles (solids) of its elements at the node
   std::vector<int> elements;  ///< ascending
   /// Patches whose polynomials are used here: itself, or at edges and faces its neighbours inside, whose polynomials
   /// have elements on both sides.
@@ -20,16 +20,16 @@ struct StressPatch {
 
 struct StressPatches {
   std::vector<StressPatch> patch;
-  std::vector<int> first;          ///< elements + 1: into `of_corner`
+  std::vector<int> first;          ///< elements + 1: index into `of_corner`
   std::vector<int> of_corner;      ///< patch of each corner of each element
-  std::vector<ShellEdges> ending;  ///< of shells: edges at which patches end
+  std::vector<ShellEdges> ending;  ///< for shells: edges at which patches end
 };
 
-/// Patches end where properties or offsets change, where three shells share an edge, and at edges where the normals of
-/// shells differ by more than 30 degrees: stresses jump there. Shells whose normal is turned round belong together.
+/// Patches of a mesh. Stresses jump, so patches end, where properties or offsets change, three shells share an edge, or
+/// normals of shells differ by more than 30 degrees. Shells with opposite normals stay together.
 StressPatches stress_patches(const Mesh& mesh);
 
-/// Corners of an element in that numbering, and their nodes.
+/// Corners of an element in this numbering, and their nodes.
 int corners_of(const Mesh& mesh, int element);
 int corner_node(const Mesh& mesh, int element, int corner);
 

@@ -1,4 +1,4 @@
-// Turns between shells and between free edges.
+// Angles between shells and between free edges.
 #include "reducer/mesh_error/shell_form.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ bool coarse_curve(double turn) { return turn > coarse_turn && turn < corner_turn
 
 struct ShellEdge {
   int shell = 0;
-  int corner = 0;  ///< its first
+  int corner = 0;  ///< first corner of the edge
 };
 
 using EdgeMap = std::map<std::pair<int, int>, std::vector<ShellEdge>>;
@@ -46,7 +46,7 @@ EdgeMap edges_of(const Mesh& mesh) {
 
 double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
-/// Turn between two shells, whichever side their normals point to.
+/// Angle between two shells, independent of the sides of their normals.
 double turn_between(const Mesh& mesh, int a, int b) {
   const double angle = angle_between(normal_of(mesh, mesh.shells[a]), normal_of(mesh, mesh.shells[b]));
   return std::min(angle, std::numbers::pi - angle);
@@ -54,7 +54,7 @@ double turn_between(const Mesh& mesh, int a, int b) {
 
 void mark_turned(const Mesh& mesh, const EdgeMap& edges, std::vector<ShellForm>& forms) {
   std::vector<int> turns(mesh.shells.size(), 0);
-  std::map<int, std::vector<std::pair<ShellEdge, Vector3d>>> free_at;  // by node: edges and their directions from it
+  std::map<int, std::vector<std::pair<ShellEdge, Vector3d>>> free_at;  // key: node; edges and their directions from it
   for (const auto& [nodes, shells] : edges) {
     if (shells.size() == 2 && coarse_curve(turn_between(mesh, shells[0].shell, shells[1].shell)))
       for (const ShellEdge& edge : shells) ++turns[edge.shell];
@@ -63,7 +63,7 @@ void mark_turned(const Mesh& mesh, const EdgeMap& edges, std::vector<ShellForm>&
     free_at[nodes.first].emplace_back(shells[0], along);
     free_at[nodes.second].emplace_back(shells[0], -along);
   }
-  std::map<std::pair<int, int>, int> ends;  // of free edges that turn there
+  std::map<std::pair<int, int>, int> ends;  // number of ends at which free edges turn
   for (const auto& [node, two] : free_at)
     if (two.size() == 2 && coarse_curve(std::numbers::pi - angle_between(two[0].second, two[1].second)))
       for (const auto& [edge, along] : two) ++ends[{edge.shell, edge.corner}];
@@ -78,7 +78,7 @@ void mark_few_across(const Mesh& mesh, const EdgeMap& edges, std::vector<ShellFo
     if (shells.size() > 2 || (shells.size() == 2 && turn_between(mesh, shells[0].shell, shells[1].shell) > fold_turn))
       fold[nodes.first] = fold[nodes.second] = true;
   std::vector<bool> touches(mesh.shells.size(), false);
-  std::vector<bool> beside_free(static_cast<std::size_t>(mesh.nodes()), false);  // node of a shell that touches no fold
+  std::vector<bool> beside_free(static_cast<std::size_t>(mesh.nodes()), false);  // nodes of shells off all folds
   for (std::size_t s = 0; s < mesh.shells.size(); ++s) {
     const ShellElement& shell = mesh.shells[s];
     touches[s] = std::ranges::any_of(nodes_of(shell), [&](int n) { return fold[n]; });

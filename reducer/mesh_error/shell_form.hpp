@@ -8,10 +8,10 @@
 namespace tisserand::reducer {
 
 struct ShellForm {
-  bool turned = false;  ///< at two edges, or at both ends of a free edge, by 25 to 75 degrees: a curve in coarse pieces
-  bool few_across = false;  ///< it and all shells that share a corner with it touch a fold: fewer than three across
+  bool turned = false;      ///< at two edges, or both ends of a free edge, by 25 to 75 degrees: a coarse curve
+  bool few_across = false;  ///< the shell and all with a common corner touch a fold: fewer than three across
   bool double_curvature =
-      false;  ///< both curvatures turn it by more than 1.5 degrees, the smaller by a fifth of the other
+      false;  ///< both curvatures turn it by more than 1.5 degrees, the smaller by more than a fifth of the other
 };
 
 std::vector<ShellForm> shell_forms(const Mesh& mesh);

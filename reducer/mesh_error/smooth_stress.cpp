@@ -17,7 +17,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// 1, x, y (shells); 1, x, y, z; and their products.
+/// Number of terms: 1, x, y (shells); 1, x, y, z; and with their products.
 int terms(bool shell, bool quadratic) { return shell ? 3 : quadratic ? 10 : 4; }
 
 Eigen::RowVectorXd monomials(const Eigen::Vector3d& x, int count) {
@@ -27,12 +27,12 @@ Eigen::RowVectorXd monomials(const Eigen::Vector3d& x, int count) {
   return all.head(count);
 }
 
-/// Least squares by orthogonalising one term after the other over the samples. A term whose new part is small there
-/// against its values at the nodes is not determined by these samples and is left out.
+/// Least squares by orthogonalisation of one term after the other over the samples. If the new part of a term is small
+/// there relative to its values at the nodes, the samples do not determine it, and it is omitted.
 MatrixXd least_squares(MatrixXd at_samples, MatrixXd at_nodes, const MatrixXd& values) {
   constexpr double known_share = 0.05;
   const Index count = at_samples.cols();
-  MatrixXd combination = MatrixXd::Identity(count, count);  // column k: term k less those before it
+  MatrixXd combination = MatrixXd::Identity(count, count);  // column k: term k minus those before it
   MatrixXd coefficient = MatrixXd::Zero(count, values.cols());
   std::vector<Index> kept;
   for (Index k = 0; k < count; ++k) {
@@ -55,8 +55,8 @@ MatrixXd least_squares(MatrixXd at_samples, MatrixXd at_nodes, const MatrixXd& v
   return coefficient;
 }
 
-/// A shell seen from axes of another tangent plane: cosine and sine of the turn from its x axis, and whether its normal
-/// points the other way (then z → −z and y → −y first).
+/// Relation of a shell to axes of another tangent plane: cosine and sine of the turn from its x axis, and whether its
+/// normal is opposite (then z → −z and y → −y first).
 struct PlaneTurn {
   double c = 1.0, s = 0.0;
   bool flipped = false;
@@ -76,7 +76,7 @@ PlaneTurn plane_turn(const Eigen::Matrix3d& shell, const Eigen::Matrix3d& axes) 
   return turn;
 }
 
-/// [xx yy xy] with the axes turned back by the angle: components in the axes from which the turn is seen.
+/// Transforms [xx yy xy] to axes turned back by the angle, those from which the turn was measured.
 void rotate(Eigen::Ref<Eigen::Vector3d> t, double c, double s) {
   const double xx = t[0], yy = t[1], xy = t[2];
   t << c * c * xx + s * s * yy - 2.0 * c * s * xy, s * s * xx + c * c * yy + 2.0 * c * s * xy,
@@ -95,7 +95,7 @@ void to_plane(const PlaneTurn& turn, Eigen::Ref<Eigen::Matrix<double, 6, 1>> res
   rotate(resultants.tail<3>(), turn.c, turn.s);
 }
 
-/// [N; M; Q].
+/// Transforms [N; M; Q] back to the axes of the shell.
 void from_plane(const PlaneTurn& turn, Eigen::Ref<Eigen::Matrix<double, 8, 1>> resultants) {
   rotate(resultants.head<3>(), turn.c, -turn.s);
   rotate(resultants.segment<3>(3), turn.c, -turn.s);
@@ -107,7 +107,7 @@ void from_plane(const PlaneTurn& turn, Eigen::Ref<Eigen::Matrix<double, 8, 1>> r
   resultants[6] *= -1.0;
 }
 
-/// x along that of the first shell, z along the mean normal.
+/// Axes of a patch: x along that of the first shell, z along the mean normal.
 Eigen::Matrix3d mean_axes(const std::vector<int>& shells, const std::vector<Eigen::Matrix3d>& axes) {
   const Eigen::Matrix3d& first = axes[shells.front()];
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
@@ -123,7 +123,7 @@ Eigen::Matrix3d axes_of_shell(const Mesh& mesh, const ShellElement& shell) {
   return shell.corners() == 3 ? shell_geometry<3>(mesh, shell).R_PE : shell_geometry<4>(mesh, shell).R_PE;
 }
 
-/// Points x (6 · modes) of samples that have modes within points.
+/// Samples that have modes within points, as points x (6 · modes).
 MatrixXd by_points(const StressSamples& samples, Index modes) {
   const Index points = samples.place.cols();
   MatrixXd rows(points, 6 * modes);
@@ -132,7 +132,7 @@ MatrixXd by_points(const StressSamples& samples, Index modes) {
   return rows;
 }
 
-/// Shape function of a shell's corner at one of its samples: the middle of a triangle; a fifth of the way from the
+/// Shape function of a shell's corner at one of its samples: the middle of a triangle, or a fifth of the way from the
 /// middle to the corner `sample` of a quadrilateral.
 double sample_weight(int corners, int sample, int corner) {
   if (corners == 3) return 1.0 / 3.0;
@@ -227,7 +227,7 @@ SmoothStress::Polynomial SmoothStress::fit(const StressPatch& patch) const {
   return result;
 }
 
-/// Mean of the polynomials that hold there: 6 x modes of solids.
+/// Mean of the polynomials of a patch at a place: 6 x modes, for solids.
 MatrixXd SmoothStress::at(int patch, const Eigen::Vector3d& place) const {
   const std::vector<int>& source = patches_.patch[patch].source;
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(6 * modes_);

@@ -1,5 +1,5 @@
 // Smooth stresses by superconvergent patch recovery: one polynomial around each corner, by least squares through the
-// elements' stresses where these are most accurate.
+// elements' stresses at their most accurate points.
 #pragma once
 
 #include <vector>
@@ -11,28 +11,28 @@
 
 namespace tisserand::reducer {
 
-/// Motions of the modes: 6 rows per node [translation; rotation], part axes.
+/// Smooth stresses for motions of the modes (6 rows per node [translation; rotation], part axes).
 class SmoothStress {
  public:
-  /// [ZZ92a]: linear polynomials for first-order elements, quadratic ones for the others; terms that the points of a
-  /// patch do not determine (a single layer of elements) are left out. Deterministic whatever the number of threads.
+  /// Fits polynomials [ZZ92a]: linear for first-order elements, quadratic for the others. Terms that the points of a
+  /// patch do not determine (single layer of elements) are omitted. The result is the same for any number of threads.
   SmoothStress(const Mesh& mesh, const Eigen::MatrixXd& motion);
 
-  /// Stresses for energy_error(): [N; M; Q] at the corners of a shell in its axes, Q = div M of the polynomials; [xx
-  /// yy zz xy yz zx] at all nodes of a solid.
+  /// Stresses for energy_error(). Shell: [N; M; Q] at the corners in its axes, Q = div M of the polynomials. Solid: [xx
+  /// yy zz xy yz zx] at all nodes.
   Eigen::MatrixXd of_shell(int shell) const;
   Eigen::MatrixXd of_solid(int solid) const;
   const ShellSurround& around(int shell) const { return surround_[shell]; }
 
-  /// Stresses at the points from which the smooth ones are made, and the smooth ones there less these; 6 x (points ·
-  /// modes), modes within a point. Elements as in StressPatch.
+  /// Stresses at the sample points, and the smooth ones there minus these; 6 x (points · modes), modes within a point.
+  /// Elements as in StressPatch.
   Eigen::MatrixXd samples(int element) const;
   Eigen::MatrixXd scatter(int element) const;
 
  private:
   struct Polynomial {
     Eigen::Vector3d origin;
-    Eigen::Matrix3d axes;  ///< columns: of shells with the normal last; of solids the part's
+    Eigen::Matrix3d axes;  ///< columns; shells: normal last; solids: axes of the part
     double size = 1.0;
     Eigen::MatrixXd coefficient;  ///< terms x (6 · modes)
   };
@@ -49,7 +49,7 @@ class SmoothStress {
   std::vector<Polynomial> polynomial_;
 };
 
-/// Motions of the nodes of an element, as element_matrices() has them.
+/// Motions of the nodes of an element, with the rows of element_matrices().
 Eigen::MatrixXd motion_of(const ShellElement& shell, const Eigen::MatrixXd& motion);
 Eigen::MatrixXd motion_of(const SolidElement& solid, const Eigen::MatrixXd& motion);
 

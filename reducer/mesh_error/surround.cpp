@@ -23,7 +23,7 @@ Eigen::Matrix3d shell_axes(const Mesh& mesh, const ShellElement& shell) {
   return shell.corners() == 3 ? shell_geometry<3>(mesh, shell).R_PE : shell_geometry<4>(mesh, shell).R_PE;
 }
 
-/// What both parts of this file look at.
+/// Shells with their patches and axes.
 struct Shells {
   const Mesh& mesh;
   const StressPatches& patches;
@@ -34,7 +34,7 @@ struct Shells {
   bool at_border(int patch_index) const { return patches.patch[patch_index].source.front() != patch_index; }
 };
 
-/// Mean normals of patches, along that of their first shell.
+/// Mean normals of patches, on the side of their first shell's normal.
 Eigen::Matrix3Xd normals_of_patches(const Shells& all) {
   Eigen::Matrix3Xd normal = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(all.patches.patch.size()));
   for (int s = 0; s < std::ssize(all.axes); ++s)
@@ -73,12 +73,12 @@ void set_turn(const Shells& all, int s, ShellSurround& around) {
   for (int k = 0; k < count; ++k) middle += all.corner(s, k) / count;
   for (int k = 0; k < count; ++k) x.col(k) = (all.axes[s].transpose() * (all.corner(s, k) - middle)).head<2>();
   const Eigen::Matrix2d spread = x * x.transpose();
-  const double size = std::pow(spread.determinant(), 0.25);  // the side of a square
+  const double size = std::pow(spread.determinant(), 0.25);  // side of a square of equal spread
   const Eigen::Matrix2d gradient = around.slope * x.transpose() * spread.inverse();
   around.turn = 0.5 * size * (gradient + gradient.transpose());
 }
 
-/// An edge of one shell alone.
+/// Edge that belongs to one shell only.
 struct FreeEdge {
   int shell = 0;
   int corner = 0;
@@ -102,15 +102,15 @@ std::vector<FreeEdge> free_edges(const Mesh& mesh, const StressPatches& patches)
   return result;
 }
 
-/// Turn of the border at each end of a free edge, positive where the sheet is convex; a free edge beyond an end belongs
-/// to the same patch there.
+/// Sets the bows from the turn of the border at each end of a free edge, positive where the sheet is convex. A free
+/// edge beyond an end belongs to the same patch there.
 void set_bows(const Shells& all, std::vector<ShellSurround>& around) {
   struct End {
     FreeEdge edge;
     int patch = 0;
     Vector3d along, outwards;  ///< from the end into the edge; out of the sheet
   };
-  std::map<int, std::vector<End>> at;  // by patch
+  std::map<int, std::vector<End>> at;  // key: patch
   for (const FreeEdge& edge : free_edges(all.mesh, all.patches)) {
     const int next = (edge.corner + 1) % all.mesh.shells[edge.shell].corners();
     const Vector3d d = (all.corner(edge.shell, next) - all.corner(edge.shell, edge.corner)).normalized();

@@ -1,4 +1,4 @@
-// The curved surface and the curved edges on which the nodes of shells lie, from the turns between neighbours.
+// Curved surface and edges on which the nodes of shells lie, from the turns between neighbours.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace tisserand::reducer {
 
-/// One per shell. The normal at a corner is the mean of those of its patch, weighted by their angles; at borders, where
-/// a patch has one side only, curvature goes on as inside. A free edge is curved where it turns by less than 30 degrees
-/// into the next one; its bow is a twelfth of length and mean turn.
+/// Surround of each shell. The normal at a corner is the mean of those of its patch, weighted by their angles. At
+/// borders, where a patch has one side only, curvature continues as inside. A free edge is curved if it turns by less
+/// than 30 degrees into the next one; its bow is a twelfth of length and mean turn.
 std::vector<ShellSurround> surroundings(const Mesh& mesh, const StressPatches& patches);
 
 }  // namespace tisserand::reducer

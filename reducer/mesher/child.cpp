@@ -1,4 +1,4 @@
-// Spawning, listening and ending.
+// Start, supervision and end of the child process.
 #include "reducer/mesher/child.hpp"
 
 #include <fcntl.h>
@@ -36,10 +36,10 @@ namespace {
               number == ENOENT ? "keep it in the folder of reducer-solver, or install anew" : remedy_of_errno(number));
 }
 
-/// A descriptor that closes itself.
+/// Descriptor that is closed by its destructor.
 class Descriptor {
  public:
-  /// Moved above the numbers that the child gets, so that none is overwritten on its way there.
+  /// Moves the descriptor above the numbers that the child uses, so that none is overwritten during the start.
   explicit Descriptor(int file) : file_(file < 0 ? -1 : ::fcntl(file, F_DUPFD_CLOEXEC, 16)) {
     const int number = errno;
     if (file >= 0) ::close(file);
@@ -62,7 +62,7 @@ class Descriptor {
 };
 
 struct Pipe {
-  Descriptor out;  ///< to read from
+  Descriptor out;  ///< end for reading
   Descriptor in;
 };
 
@@ -72,7 +72,7 @@ Pipe make_pipe() {
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
-/// A file without a name that holds the request, to be read from its beginning.
+/// A file without a name that contains the request, positioned at its beginning.
 Descriptor file_of(const std::string& bytes) {
   Descriptor file(::memfd_create("request", MFD_CLOEXEC));
   for (std::size_t done = 0; done < bytes.size();) {
@@ -85,7 +85,7 @@ Descriptor file_of(const std::string& bytes) {
   return file;
 }
 
-/// What loader and sanitizers read before gmsh begins; the child then forgets it.
+/// Variables that loader and sanitizers read before gmsh begins; the child then removes them.
 std::vector<std::string> child_environment() {
   std::vector<std::string> result;
   for (const char* name : {"LD_LIBRARY_PATH", "ASAN_OPTIONS", "UBSAN_OPTIONS"})
@@ -93,9 +93,9 @@ std::vector<std::string> child_environment() {
   return result;
 }
 
-/// While it lives, programs that this process starts have their memory at the same addresses in every run: gmsh orders
-/// some of its sets by address, and the mesh of a solid, hence the content of the superelement, would differ from run
-/// to run.
+/// While an object lives, programs that this process starts have their memory at the same addresses in every run. gmsh
+/// orders some of its sets by address: otherwise the mesh of a solid, and so the content of the superelement, would
+/// differ from run to run.
 class SameAddresses {
  public:
   SameAddresses() : before_(::personality(query)) {
@@ -112,7 +112,7 @@ class SameAddresses {
   int before_;
 };
 
-/// posix_spawn's settings: no signal blocked or ignored, descriptors 0 to 4 and no others.
+/// Settings of posix_spawn: no signal blocked or ignored, descriptors 0 to 4 and no others.
 class SpawnSettings {
  public:
   SpawnSettings(int request, int answer, int words) {
@@ -158,16 +158,16 @@ class SpawnSettings {
   posix_spawnattr_t attributes_;
 };
 
-/// Of the child's memory: gmsh takes ten times the size of the answer and more, and unpacking takes six times its size.
+/// Share of the child's memory: gmsh needs ten times the size of the answer or more, and unpacking six times its size.
 constexpr double answer_share = 0.125;
 
 struct Heard {
   std::string answer;
   std::string words;
-  std::optional<MesherEnding> stopped = std::nullopt;  ///< why the child must end
+  std::optional<MesherEnding> stopped = std::nullopt;  ///< reason for which the child must end
 };
 
-/// Reads what is there; false at the end.
+/// Reads the available bytes; returns false at the end.
 bool read_some(Descriptor& from, std::string& to) {
   std::array<char, 1 << 16> buffer;
   const ssize_t count = ::read(from.number(), buffer.data(), buffer.size());
@@ -177,7 +177,7 @@ bool read_some(Descriptor& from, std::string& to) {
   return count > 0;
 }
 
-/// Where the bytes of phases at the beginning end, and the last of them.
+/// End of the phase bytes at the beginning of the answer, and the last of them.
 std::pair<std::size_t, MesherPhase> phase_of(const std::string& answer) {
   MesherPhase phase = MesherPhase::starting;
   std::size_t k = 0;
@@ -185,7 +185,7 @@ std::pair<std::size_t, MesherPhase> phase_of(const std::string& answer) {
   return {k, phase};
 }
 
-/// Looks at the clock and at the processor time that the child has taken, and shows both to the user.
+/// Reads the clock and the child's processor time, and shows both to the user.
 class Watch {
  public:
   Watch(pid_t child, const GeometryRequest& request)
@@ -193,7 +193,7 @@ class Watch {
     if (::clock_getcpuclockid(child, &clock_) != 0) clock_ = CLOCK_MONOTONIC;
   }
 
-  /// Why the child must end, if it must.
+  /// Reason for which the child must end, if any.
   std::optional<MesherEnding> look(MesherPhase phase) {
     const double now = seconds(CLOCK_MONOTONIC), used = seconds(clock_);
     if (phase != phase_) phase_ = phase, used_at_phase_ = used;
@@ -224,7 +224,7 @@ class Watch {
   double start_ = seconds(CLOCK_MONOTONIC), worked_at_ = start_, used_ = 0.0, used_at_phase_ = 0.0;
 };
 
-/// Until the child has closed both pipes, or must end.
+/// Reads both pipes until the child has closed them, or must end.
 Heard listen(Descriptor& answer, Descriptor& words, pid_t child, const GeometryRequest& request) {
   constexpr std::size_t most_words = 4000;
   constexpr int look_every = 100;  // [ms]
@@ -244,7 +244,7 @@ Heard listen(Descriptor& answer, Descriptor& words, pid_t child, const GeometryR
   return heard;
 }
 
-/// gmsh's last error, else the last line that is not empty.
+/// Last error of gmsh, or else the last line that is not empty.
 std::string last_message(std::string text) {
   constexpr std::string_view error = "Error   : ";
   if (const std::size_t at = text.rfind(error); at != std::string::npos) {
@@ -265,7 +265,7 @@ MesherEnding ending_of(const Heard& heard, int status, const rusage& used, const
     if (heard.stopped) return *heard.stopped;
     if (WTERMSIG(status) == SIGSYS) return MesherEnding::forbidden;
   }
-  // C code that got no memory ends in ways of its own.
+  // C code without memory ends in various ways.
   if (1024.0 * static_cast<double>(used.ru_maxrss) > 0.8 * request.bytes) return MesherEnding::memory;
   return WIFSIGNALED(status) ? MesherEnding::crashed : MesherEnding::left;
 }
@@ -280,7 +280,7 @@ MesherReport run_mesher(const GeometryRequest& request) {
   answer.in.close();
   words.in.close();
   Heard heard = listen(answer.out, words.out, child, request);
-  ::kill(child, SIGKILL);  // whoever has closed both pipes has ended, or means ill
+  ::kill(child, SIGKILL);  // a child that has closed both pipes has ended, or is malicious
   int status = 0;
   rusage used{};
   while (::wait4(child, &status, 0, &used) < 0 && errno == EINTR) {

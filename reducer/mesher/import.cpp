@@ -1,4 +1,4 @@
-// From the wishes of a part file to the request, and from how the process ended to a mesh or an error.
+// Request from the settings of a part file, and a mesh or an error from the end of the process.
 #include "reducer/mesher/import.hpp"
 
 #include <algorithm>
@@ -20,13 +20,13 @@ constexpr double gigabyte = 1e9;
 
 bool is_cad(MeshFileKind kind) { return is_geometry(kind) && kind != MeshFileKind::geo; }
 
-/// Whether nobody asks for small elements of a CAD file: what takes long then is no fine mesh. `reducer groups` draws
-/// faces with thirty elements per turn.
+/// Whether a CAD file is meshed without small elements: a long time then has another cause than a fine mesh. `reducer
+/// groups` draws faces with thirty elements per turn.
 bool is_coarse(const GeometryRequest& request) {
   return is_cad(request.kind) && !(request.size > 0.0) && request.sizes.empty() && request.curvature <= 30;
 }
 
-/// The unit into which OpenCASCADE converts STEP and IGES; files without named units stay in millimetres.
+/// Unit into which OpenCASCADE converts STEP and IGES; files without named units stay in millimetres.
 std::string target_unit(const Units& units) {
   static const std::map<std::string, std::string> known{{"m", "M"},   {"mm", "MM"},   {"cm", "CM"},
                                                         {"km", "KM"}, {"in", "INCH"}, {"ft", "FT"}};
@@ -49,7 +49,7 @@ GeometryRequest geometry_request(const ImportRequest& request) {
   result.scale = settings.scale;
   result.sizes = request.sizes;
   result.describes_faces = request.describes_faces;
-  // gmsh takes for commands: name.opt beside a file of any kind, and files with endings such as .Step.
+  // gmsh runs name.opt next to a file of any kind, and files with endings such as .Step, as commands.
   std::error_code error;
   const std::string ending = std::filesystem::path(settings.file).extension().string();
   const bool is_mixed = std::ranges::any_of(ending, [](unsigned char c) { return std::isupper(c) != 0; }) &&
@@ -59,14 +59,14 @@ GeometryRequest geometry_request(const ImportRequest& request) {
   result.is_trusted = settings.permission.trusted;
   const auto size = static_cast<double>(std::filesystem::file_size(settings.file, error));
   const formats::MeshFile::Permission& given = settings.permission;
-  // Ten times and more of what gmsh takes for large .msh and STEP files; fine meshes of small geometries may need more.
+  // Ten times the memory of gmsh for large .msh and STEP files, or more; fine meshes of small geometries may need more.
   result.bytes = given.memory > 0.0 ? given.memory * gigabyte : 4.0 * gigabyte + 40.0 * size;
-  // CAD files of some MB are read in seconds, and meshed in seconds too where nobody asks for small elements; damaged
-  // ones may loop. A .geo file has sizes of its own, and may mesh while it is read.
+  // CAD files of some MB are read in seconds, and also meshed in seconds without small elements; damaged ones may loop.
+  // A .geo file sets its own sizes and may mesh while it is read.
   const double brief = 5.0 + size / 1e5, ample = 600.0 + size / 2e5;
   result.reading_seconds = given.time > 0.0 ? given.time : is_cad(result.kind) ? brief : ample;
   result.seconds = given.time > 0.0 ? given.time : is_coarse(result) ? 2.0 * brief : ample;
-  result.wall_seconds = 4.0 * result.seconds;  // other work may have most of the processor
+  result.wall_seconds = 4.0 * result.seconds;  // other programs may use most of the processor
   if (!(given.time > 0.0)) result.wall_seconds = std::max(result.wall_seconds, 60.0);
   result.idle_seconds = 20.0;
   return result;
@@ -78,7 +78,7 @@ double kilobytes(const std::string& file) {
   return error ? 0.0 : static_cast<double>(size) / 1e3;
 }
 
-/// A larger limit, in two digits.
+/// Proposal for a larger limit, with two digits.
 std::string twice(double value) { return fmt::format("{:.2g}", std::max(2.0 * value, 0.1)); }
 
 [[noreturn]] void explain(const MesherReport& report, const GeometryRequest& request) {

@@ -1,4 +1,4 @@
-// Geometry (.geo, STEP, IGES, BREP) and .msh files as cells, through gmsh in a process of its own.
+// Geometry (.geo, STEP, IGES, BREP) and .msh files as cells, through gmsh in a sandboxed process.
 #pragma once
 
 #include <vector>
@@ -12,16 +12,16 @@ namespace tisserand::reducer {
 
 struct ImportRequest {
   const formats::MeshFile& settings;
-  const Units& units;  ///< of the part: STEP and IGES are converted to its length
+  const Units& units;  ///< of the part: STEP and IGES are converted to its length unit
   int dimension = 2;   ///< geometry is meshed up to this dimension
   std::vector<SizedEntity> sizes;
   bool describes_faces = false;  ///< fills CellMesh::geometry of a geometry
 };
 
 /// Cells of all dimensions up to the request's, each once, with entities, labels and physical groups; coordinates in
-/// units of the part. Second order means cells without nodes inside faces and volumes. Throws Error for files that gmsh
-/// does not accept, that crash it, that reach a limit or for what geometry must not, for cells of an unknown kind,
-/// entities that could not be meshed, and an empty mesh. Costs the start of a process that loads gmsh (DECISIONS.md).
+/// units of the part. Second-order cells have no nodes inside faces and volumes. Throws Error for files that gmsh does
+/// not accept, that crash it, reach a limit or do forbidden things, for cells of an unknown kind, entities that could
+/// not be meshed, and an empty mesh. Costs the start of a process that loads gmsh (DECISIONS.md).
 CellMesh import_with_gmsh(const ImportRequest& request);
 
 }  // namespace tisserand::reducer

@@ -101,7 +101,7 @@ void unpack_geometry(Unpacker& from, CellMesh& mesh) {
 }
 
 void unpack_entities(Unpacker& from, CellMesh& mesh) {
-  std::array<std::size_t, 4> next{};  // entities of a dimension own its cells one after the other
+  std::array<std::size_t, 4> next{};  // cells of a dimension belong to its entities in sequence
   mesh.entities.resize(from.size(4 * sizeof(int)));
   for (Entity& entity : mesh.entities) {
     entity.dimension = from.value<int>();
@@ -233,7 +233,7 @@ std::string doing(MesherPhase phase) {
     case MesherPhase::answering:
       return "handing over the mesh";
   }
-  return "reading the file";  // a byte of its own
+  return "reading the file";  // a separate byte
 }
 
 }  // namespace tisserand::reducer

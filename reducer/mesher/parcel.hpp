@@ -1,5 +1,5 @@
-// What goes to the program that runs gmsh and what comes back, as bytes. The answer comes from a process that has read
-// a stranger's file, so nothing of it is taken on trust.
+// Request and answer of the program that runs gmsh, as bytes. The answer comes from a process that has read an
+// untrusted file, so all of it is checked.
 #pragma once
 
 #include <string>
@@ -13,29 +13,29 @@ namespace tisserand::reducer {
 
 /// Descriptors of the program that runs gmsh, open when it starts.
 inline constexpr int request_descriptor = 3, answer_descriptor = 4;
-/// Its exit code when an allocation went beyond its limit of memory.
+/// Its exit code if an allocation exceeded its limit of memory.
 inline constexpr int out_of_memory_code = 77;
 
-/// What the answer's descriptor tells before the answer: a byte when a phase begins, the last one before the answer.
+/// Byte that the answer's descriptor carries when a phase begins; the last one precedes the answer.
 enum class MesherPhase : char { starting = 0, reading = 'r', meshing = 'm', answering = 'a' };
 
-/// "reading the file"
+/// Words for a phase, such as "reading the file".
 std::string doing(MesherPhase phase);
 
-/// The size wanted on an entity of a geometry.
+/// Requested size on an entity of a geometry.
 struct SizedEntity {
   int dimension = 0;
   int number = 0;
   double size = 0.0;  ///< in units of the part
 };
 
-/// All that gmsh needs to know. Lengths in units of the part, unless said otherwise.
+/// Request to gmsh. Lengths in units of the part, unless said otherwise.
 struct GeometryRequest {
   std::string file;
   MeshFileKind kind = MeshFileKind::geo;
-  std::string target_unit;  ///< of OpenCASCADE, into which STEP and IGES are converted
+  std::string target_unit;  ///< unit of OpenCASCADE, into which STEP and IGES are converted
   int dimension = 2;        ///< geometry is meshed up to this dimension
-  double size = 0.0;        ///< as in formats::MeshFile, also the next ones
+  double size = 0.0;        ///< as in formats::MeshFile, like the next ones
   double smallest = 0.0;
   int curvature = 0;
   int order = 0;
@@ -43,12 +43,12 @@ struct GeometryRequest {
   double scale = 1.0;
   std::vector<SizedEntity> sizes;
   bool describes_faces = false;  ///< fills CellMesh::geometry
-  bool is_program = false;       ///< gmsh may run commands that the file, or one beside it, holds
+  bool is_program = false;       ///< gmsh may run commands in the file, or in one next to it
   bool is_trusted = false;       ///< may read files anywhere
   double seconds = 0.0;          ///< limit of processor time
-  double reading_seconds = 1e9;  ///< that of the phase `reading`; the caller's matter, not sent, as the next two
+  double reading_seconds = 1e9;  ///< limit of the phase `reading`; for the caller, not sent, like the next two
   double wall_seconds = 0.0;     ///< limit by the clock
-  double idle_seconds = 1e9;     ///< without any processor time
+  double idle_seconds = 1e9;     ///< limit without any processor time
   double bytes = 0.0;            ///< limit of memory
 };
 
@@ -58,8 +58,8 @@ GeometryRequest unpack_request(const std::string& bytes);
 std::string pack(const CellMesh& mesh);
 std::string pack(const Error& error);
 
-/// The mesh, or throws the error that was packed. Throws Error, too, if sizes, numbers of nodes and entities do not fit
-/// each other, or a coordinate is not finite. Texts are made printable.
+/// Mesh of an answer; throws the Error that was packed. Also throws Error if sizes, numbers of nodes and entities do
+/// not fit each other, or a coordinate is not finite. Texts are made printable.
 CellMesh unpack_answer(const std::string& bytes, const std::string& file);
 
 }  // namespace tisserand::reducer

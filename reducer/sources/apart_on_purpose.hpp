@@ -1,4 +1,4 @@
-// Nodes that touch without being one: whether something ties them, or a joint may.
+// Nodes at the same place that are not merged: whether something ties them, or a joint may connect them.
 #pragma once
 
 #include <map>
@@ -11,11 +11,11 @@ namespace tisserand::reducer {
 
 using NodePairs = std::set<std::pair<int, int>>;
 
-/// Pairs of nodes that a spring or a spider ties: they may lie at one place on purpose.
+/// Pairs of nodes that a spring or a spider ties; they may be at one place on purpose.
 NodePairs tied_pairs(const Mesh& mesh);
 
-/// Whether nodes at one place are apart on purpose: a spring or an equation has both, they follow one rigid spider, or
-/// both stay, so that a joint may connect them.
+/// Whether nodes at one place are separate on purpose: a spring or an equation has both, they follow one rigid spider,
+/// or both are boundary nodes, which a joint may connect.
 class ApartOnPurpose {
  public:
   explicit ApartOnPurpose(const Mesh& mesh);
@@ -25,7 +25,7 @@ class ApartOnPurpose {
   bool have_one_leader(int a, int b) const;
 
   NodePairs tied_;
-  std::map<int, std::set<int>> leads_;  ///< references of the rigid spiders that a node follows
+  std::map<int, std::set<int>> leads_;  ///< references of the rigid spiders that each node follows
   std::set<int> stays_;
 };
 

@@ -1,4 +1,4 @@
-// Spiders, springs, point masses and boundary nodes at their places.
+// Spiders, springs, point masses and boundary nodes of the mesh.
 #include <algorithm>
 #include <map>
 
@@ -15,7 +15,7 @@ namespace {
 
 User user_of(const formats::SpiderLine& spider) { return {fmt::format("spider '{}'", spider.name), spider.where}; }
 
-/// The legs of a spider with their weights.
+/// Legs of a spider with their weights.
 std::map<int, double> legs_of(const MeshBuilder& builder, const formats::SpiderLine& line) {
   const User user = user_of(line);
   std::map<int, double> legs;
@@ -41,8 +41,8 @@ Eigen::Vector3d mean(const MeshBuilder& builder, const std::map<int, double>& le
   return sum / total;
 }
 
-/// Whether the legs lie on one straight line, about which their translations do not turn: within 1e-5 of their extent,
-/// as ties/averaging.cpp judges it.
+/// Whether the legs are collinear, so that their translations do not define a rotation about the line: within 1e-5 of
+/// their extent, as ties/averaging.cpp judges it.
 bool on_one_line(const MeshBuilder& builder, const std::map<int, double>& legs) {
   const Eigen::Vector3d middle = mean(builder, legs);
   Eigen::Vector3d along = Eigen::Vector3d::Zero();
@@ -63,7 +63,7 @@ void add_spider(MeshBuilder& builder, const formats::SpiderLine& line) {
   spider.reference =
       own_centroid ? builder.add_node(mean(builder, legs), line.name) : find_place(builder, line.at, user_of(line));
   if (line.at.kind == formats::PlaceKind::position) builder.label.back() = line.name;
-  // Mean rotations follow from translations; those of single nodes would count twice, but about a line they alone tell.
+  // Mean rotations follow from translations, so those of nodes would count twice; about a line only they define them.
   if (spider.kind == SpiderKind::averaging && !on_one_line(builder, legs)) spider.node_components = translations_only;
   for (const auto& [node, weight] : legs) {
     if (node == spider.reference) continue;
@@ -125,7 +125,7 @@ void add_boundary(MeshBuilder& builder) {
   }
 }
 
-/// Boundary nodes by their names, else points and spiders.
+/// Adds held nodes: boundary nodes by their names, else points and spiders.
 void add_held_nodes(MeshBuilder& builder) {
   if (!builder.part.modal_body) return;
   const formats::ModalBodyRequest& body = *builder.part.modal_body;

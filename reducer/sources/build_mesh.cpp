@@ -1,4 +1,4 @@
-// The steps from a part to its mesh, in their order.
+// Mesh of a part: its steps in their order.
 #include "reducer/sources/build_mesh.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// A deck may hold nodes by mistake, a geometry always holds points.
+/// Warns of removed nodes of a deck, which may be there by mistake; a geometry always has unused points.
 void tell_left_out(MeshBuilder& builder, const std::vector<int>& row) {
   constexpr int most_told = 10;
   std::vector<std::string> told;
@@ -54,7 +54,7 @@ std::vector<FacePlace> face_places(const CellMesh& cells, std::size_t most) {
   return places;
 }
 
-/// A geometry or mesh file of which nothing is said: its faces as shells of any kind, to be looked at.
+/// Part with the faces of its geometry or mesh file as shells, for viewing, if it uses none of its elements.
 formats::Part with_skin(formats::Part part) {
   if (part.mesh.file.empty() || !part.shells.empty() || !part.solids.empty() || !part.beams.empty() ||
       !part.patches.empty())
@@ -74,7 +74,7 @@ formats::Part with_skin(formats::Part part) {
   return part;
 }
 
-/// All but the last step.
+/// All steps except the last.
 void build(MeshBuilder& builder) {
   const formats::Part& part = builder.part;
   if (part.beams.empty() && part.patches.empty() && part.mesh.file.empty())
@@ -97,7 +97,7 @@ void build(MeshBuilder& builder) {
 
 }  // namespace
 
-/// Nodes that nothing refers to (points of a geometry, orientation nodes of a deck) leave; the others keep their order.
+/// Removes nodes without references (points of a geometry, orientation nodes of a deck); the others keep their order.
 void finish(MeshBuilder& builder) {
   Mesh& mesh = builder.mesh;
   std::vector<int> row(builder.cells.position.size(), -1);

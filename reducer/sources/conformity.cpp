@@ -1,4 +1,4 @@
-// Whether the edges of patches and beams that touch have the same nodes.
+// Check that the edges of patches and beams that touch have the same nodes.
 #include <algorithm>
 #include <map>
 
@@ -12,14 +12,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A straight edge of an element; owner: the patch, or -1 for a beam.
+/// Straight edge of an element; owner: the patch, or -1 for a beam.
 struct Segment {
   int first = 0;
   int second = 0;
   int owner = -1;
 };
 
-/// All edges of the faces, and the nodes of those that belong to one face only.
+/// All edges of the faces, and the nodes of edges that belong to one face only.
 struct FaceEdges {
   std::vector<Segment> segments;
   std::vector<int> free_nodes;
@@ -60,7 +60,7 @@ FaceEdges face_edges(const CellMesh& patches) {
               "the other ends");
 }
 
-/// Throws if one of the nodes in the grid lies inside the segment.
+/// Throws Error if one of the nodes in the grid lies inside the segment.
 void check_segment(const formats::Part& part, const OwnLines& lines, const Segment& segment, const NodeGrid& grid,
                    double step) {
   const Vector3d a = lines.position[segment.first];
@@ -72,7 +72,7 @@ void check_segment(const formats::Part& part, const OwnLines& lines, const Segme
       if (node == segment.first || node == segment.second) return;
       const Vector3d x = lines.position[node] - a;
       const double s = x.dot(d) / (length * length);
-      constexpr double slack = 1e-3;  // closer than this to an edge without a node there is no intention
+      constexpr double slack = 1e-3;  // a node nearer to a foreign edge than this touches it
       if (s > -slack && s < 1.0 + slack && (x - std::clamp(s, 0.0, 1.0) * d).norm() < slack * length)
         refuse(part, lines, segment, node);
     });

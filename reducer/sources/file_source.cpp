@@ -13,7 +13,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Geometry is meshed as far as the part file needs it.
+/// Highest dimension in which the part file needs the geometry meshed.
 int wanted_dimension(const formats::Part& part) {
   if (!part.solids.empty()) return 3;
   if (!part.shells.empty()) return 2;
@@ -45,7 +45,7 @@ void append_cells(MeshBuilder& builder, const CellMesh& file) {
     all.entities.push_back(entity);
   }
   if (!file.geometry.empty()) {
-    all.geometry.resize(static_cast<std::size_t>(entity_shift));  // what the part file draws has none
+    all.geometry.resize(static_cast<std::size_t>(entity_shift));  // entities of the part file have no geometry
     all.geometry.insert(all.geometry.end(), file.geometry.begin(), file.geometry.end());
   }
   for (EntityGroup group : file.groups) {
@@ -56,7 +56,7 @@ void append_cells(MeshBuilder& builder, const CellMesh& file) {
   builder.mesh.warnings.insert(builder.mesh.warnings.end(), file.warnings.begin(), file.warnings.end());
 }
 
-/// Sizes of groups need their entities, which a coarse first mesh tells.
+/// Entities with sizes of their own. Groups have sizes, and a coarse first mesh shows their entities.
 std::vector<SizedEntity> sized_entities(const MeshBuilder& builder, const ImportRequest& request) {
   const formats::MeshFile& settings = builder.part.mesh;
   std::vector<SizedEntity> sizes;
@@ -71,7 +71,7 @@ std::vector<SizedEntity> sized_entities(const MeshBuilder& builder, const Import
       sizes.push_back({entity.dimension, entity.number, local.size});
     }
   }
-  // The smallest size last: points between two faces get it.
+  // The smallest size is set last, because points between two faces get the last one.
   std::ranges::sort(sizes, [](const SizedEntity& a, const SizedEntity& b) { return a.size > b.size; });
   return sizes;
 }
@@ -95,7 +95,7 @@ void append(std::vector<T>& to, std::vector<T>& from) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
-/// Nodes and properties of a deck come after those that are there.
+/// Shifts nodes and properties of a deck past the existing ones.
 void shift_deck(Mesh& deck, int nodes, const Mesh& before) {
   for_nodes(deck, [nodes](int& node) { node += nodes; });
   const auto shift = [](auto& elements, const auto& properties) {
@@ -106,7 +106,7 @@ void shift_deck(Mesh& deck, int nodes, const Mesh& before) {
   shift(deck.solids, before.solid_properties);
 }
 
-/// The deck's nodes, elements, sets and boundary.
+/// Appends the deck's nodes, elements, sets and boundary.
 void append_deck(MeshBuilder& builder, Deck& deck) {
   const int shift = count_of(builder.cells.position);
   builder.first_file_node = shift;
@@ -118,7 +118,7 @@ void append_deck(MeshBuilder& builder, Deck& deck) {
   for (auto& [name, nodes] : deck.node_sets)
     for (int& node : nodes) node += shift;
   builder.node_sets = std::move(deck.node_sets);
-  builder.element_sets = std::move(deck.element_sets);  // the deck's elements come first in the mesh
+  builder.element_sets = std::move(deck.element_sets);  // the deck's elements are the first of the mesh
   Mesh& mesh = builder.mesh;
   shift_deck(deck.mesh, shift, mesh);
   append(mesh.beam_properties, deck.mesh.beam_properties);

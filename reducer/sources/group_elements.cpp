@@ -1,4 +1,4 @@
-// Shells, solids and beams on groups: cells get their properties and become elements.
+// Shells, solids and beams on groups: cells with properties become elements.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -24,7 +24,7 @@ namespace {
                                    : "shells and beams are of first order: write the mesh with order 1");
 }
 
-/// Marks an entity as taken; two properties for one entity are an error.
+/// Marks an entity as used; two properties for one entity are an error.
 void take(MeshBuilder& builder, int entity, const User& user) {
   std::string& owner = builder.property_of_entity[entity];
   if (!owner.empty())
@@ -33,7 +33,7 @@ void take(MeshBuilder& builder, int entity, const User& user) {
   owner = user.name;
 }
 
-/// Entities of a group that may get a property: elements of decks bring their own.
+/// Entities of a group that may get a property; elements of decks already have one.
 std::vector<int> entities_for(MeshBuilder& builder, const std::vector<std::string>& on, int dimension,
                               const User& user) {
   std::vector<int> result;
@@ -111,7 +111,7 @@ void add_solid_groups(MeshBuilder& builder) {
   }
 }
 
-/// The default orientation looks at all lines of an entity.
+/// Orientation of beams on an entity; the default depends on all lines of the entity.
 Eigen::Vector3d orientation_of(const MeshBuilder& builder, const formats::BeamLine& line, int entity) {
   if (line.orientation) return *line.orientation;
   std::vector<Eigen::Vector3d> tangents;
@@ -139,7 +139,7 @@ void add_beam_groups(MeshBuilder& builder) {
   }
 }
 
-/// Groups that part.yaml names somewhere, or says to ignore.
+/// Groups that part.yaml names anywhere, or ignores explicitly.
 std::set<std::string> named_groups(const formats::Part& part) {
   std::set<std::string> names(part.mesh.ignore.begin(), part.mesh.ignore.end());
   const auto add = [&names](const std::vector<std::string>& more) { names.insert(more.begin(), more.end()); };
@@ -160,7 +160,7 @@ std::set<std::string> named_groups(const formats::Part& part) {
   return names;
 }
 
-/// Whether all nodes of an entity's cells belong to elements already: the skin of a solid, the edge of a shell.
+/// Whether all nodes of an entity's cells already belong to elements, as on the skin of a solid or the edge of a shell.
 bool lies_on_elements(const MeshBuilder& builder, int entity) {
   bool covered = true;
   for_cells(builder, entity, [&](const Cell& cell) {
@@ -170,7 +170,7 @@ bool lies_on_elements(const MeshBuilder& builder, int entity) {
   return covered;
 }
 
-/// A physical group that nothing mentions, with elements that carry nothing, is a property that was forgotten.
+/// Throws Error for a physical group that nothing mentions and whose cells have no elements: a forgotten property.
 void check_groups_have_properties(const MeshBuilder& builder) {
   const std::set<std::string> named = named_groups(builder.part);
   std::vector<Error> errors;
@@ -190,7 +190,7 @@ void check_groups_have_properties(const MeshBuilder& builder) {
   if (!errors.empty()) throw merge_errors(errors);
 }
 
-/// Patches without a layout that no shell has taken; volumes of a geometry that no solid has taken.
+/// Throws Error for patches without a layout that no shell uses, and for volumes of a geometry that no solid uses.
 void check_nothing_is_left(const MeshBuilder& builder) {
   std::vector<Error> errors;
   const std::set<std::string> ignored(builder.part.mesh.ignore.begin(), builder.part.mesh.ignore.end());

@@ -1,4 +1,4 @@
-// Boxes, bores and nearest entities.
+// Entities in boxes and on bores, and nearest entities.
 #include "reducer/sources/group_geometry.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ Holds on_cylinder(const formats::CylinderSelection& cylinder, double tolerance) 
   };
 }
 
-/// Whether all corners of the entity's cells are where `holds` says.
+/// Whether `holds` is true for all corners of the entity's cells.
 bool lies(const MeshBuilder& builder, const Entity& entity, const Holds& holds) {
   const auto& cells = builder.cells.cells[entity.dimension];
   for (std::size_t c = entity.first; c < entity.first + entity.count; ++c)

@@ -1,4 +1,4 @@
-// How the nodes of a group share its length, area or volume.
+// Shares of the nodes of a group in its length, area or volume.
 #include <algorithm>
 #include <map>
 #include <unordered_set>
@@ -48,7 +48,7 @@ std::vector<Cell> edges_between(const MeshBuilder& builder, const std::unordered
   return cells;
 }
 
-/// Shares of nodes that are named themselves; every one of them has a positive share.
+/// Adds shares of nodes that are named individually; each has a positive share.
 void add_nodes(const MeshBuilder& builder, const std::vector<int>& named, Weights& weights) {
   std::vector<Cell> between = faces_between(builder, named).cells;
   if (between.empty()) between = edges_between(builder, {named.begin(), named.end()});

@@ -1,5 +1,5 @@
-// Hanging nodes: on an edge or face of an element beside their own, which has no node there, so that nothing joins
-// them.
+// Hanging nodes: nodes on an edge or face of another element without a node there, so that they are not connected to
+// it.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -22,10 +22,11 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-constexpr double beside_face = 1e-4;    ///< of the longest edge of a face: nodes nearer to it lie on it
-constexpr double beside_corner = 1e-3;  ///< of it: nodes nearer to a node of the element are not between its nodes
+constexpr double beside_face = 1e-4;    ///< of the longest edge of a face: nodes within this distance lie on it
+constexpr double beside_corner = 1e-3;  ///< of the same: nodes within this distance of the element's nodes coincide
+                                        ///< with them
 
-/// Points halved by their widest direction again and again; finds those in a box.
+/// Tree of points, halved repeatedly along their longest extent; finds the points in a box.
 class PointTree {
  public:
   PointTree(const MeshBuilder& builder, std::vector<int> nodes) : builder_(builder), nodes_(std::move(nodes)) {
@@ -76,13 +77,13 @@ class PointTree {
 
   const MeshBuilder& builder_;
   std::vector<int> nodes_;
-  std::vector<char> axis_;  ///< of the splits, by their middle
+  std::vector<char> axis_;  ///< axes of the splits, indexed by their middle
 };
 
-/// A shell, or an outer face of a solid.
+/// Shell, or outer face of a solid.
 struct TouchedFace {
   std::vector<int> corners;
-  std::vector<int> nodes;  ///< of its element
+  std::vector<int> nodes;  ///< nodes of its element
   bool shell = false;
   int element = 0;  ///< shell or solid
 };
@@ -146,7 +147,7 @@ class HangingPlace {
   AlignedBox3d box_;
 };
 
-/// Elements at each node: shells and solids by their faces' elements, as neighbours only.
+/// Elements at each node: shells and solids.
 class ElementsAtNodes {
  public:
   explicit ElementsAtNodes(const Mesh& mesh, std::size_t nodes) : of_(nodes) {
@@ -154,7 +155,7 @@ class ElementsAtNodes {
     for (const SolidElement& solid : mesh.solids) add(nodes_of(solid));
   }
 
-  /// Whether an element at `node` has one of the others, too.
+  /// Whether an element at `node` also has one of the other nodes.
   bool meets(int node, const std::vector<int>& others) const {
     return std::ranges::any_of(of_[node], [&](int element) {
       return std::ranges::any_of(nodes_[element], [&](int n) { return std::ranges::find(others, n) != others.end(); });
@@ -187,8 +188,7 @@ void tell_hanging_nodes(MeshBuilder& builder) {
   const std::vector<TouchedFace> faces = touched_faces(mesh);
   std::vector<int> nodes;
   for (const TouchedFace& face : faces) nodes.insert(nodes.end(), face.corners.begin(), face.corners.end());
-  for (const TouchedFace& face :
-       faces)  // middle nodes of second-order solids lie on edges of first-order ones beside them
+  for (const TouchedFace& face : faces)  // middle nodes of second-order solids may lie on edges of first-order ones
     if (face.nodes.size() > 8) nodes.insert(nodes.end(), face.nodes.begin(), face.nodes.end());
   std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());

@@ -1,4 +1,4 @@
-// Lines and arcs through their points, and how many elements they get.
+// Lines and arcs through points, and their number of elements.
 #include "reducer/sources/lines.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace tisserand::reducer {
 namespace {
 
-/// The circle through three points; the arc runs from `from` over `through` to `to`.
+/// Circular arc from `from` through `through` to `to`.
 Curve circle_arc(const Eigen::Vector3d& from, const Eigen::Vector3d& through, const Eigen::Vector3d& to,
                  const formats::BeamLine& line) {
   const Eigen::Vector3d a = through - from, b = to - from;

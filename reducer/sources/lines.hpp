@@ -21,15 +21,14 @@ struct Curve {
   Eigen::Vector3d at(double s) const;
 };
 
-/// The curve of a beam between the positions of its ends. Throws Error for zero length and points of an arc on a line.
+/// Curve of a beam between the positions of its ends. Throws Error for zero length and collinear points of an arc.
 Curve curve_of(const formats::BeamLine& line, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
-/// Number of equal elements: the given one, or from the size. Throws Error if there are too many, or too few for an
-/// arc.
+/// Number of equal elements, given or by the size. Throws Error if there are too many, or too few for an arc.
 int element_count(const Curve& curve, const formats::BeamLine& line);
 
-/// By the rule of PART.md the global axis that is most nearly normal to all of the unit vectors (ties: y before z
-/// before x).
+/// Global axis that is most nearly normal to all of the unit vectors, by the rule of PART.md (ties: y before z before
+/// x).
 Eigen::Vector3d default_orientation(const std::vector<Eigen::Vector3d>& tangents);
 
 }  // namespace tisserand::reducer

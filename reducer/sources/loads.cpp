@@ -17,7 +17,7 @@ namespace {
 
 using NodeSet = std::unordered_set<int>;
 
-/// Nodes that something of the mesh holds on to.
+/// Nodes that elements, masses or ties of the mesh use.
 NodeSet connected_nodes(const MeshBuilder& builder) {
   NodeSet nodes;
   for (int n = 0; n < std::ssize(builder.used); ++n)
@@ -32,7 +32,7 @@ NodeSet connected_nodes(const MeshBuilder& builder) {
   return nodes;
 }
 
-/// Boundary nodes by their names, else points, spiders and nodes of the mesh file. Throws Error where there is none.
+/// Node of a place: boundary node by name, else a point, spider or file node. Throws Error if there is none.
 int node_there(MeshBuilder& builder, const NodeSet& connected, const formats::Place& place, const User& user) {
   const auto& boundary = builder.mesh.boundary;
   if (place.kind == formats::PlaceKind::name)
@@ -57,7 +57,7 @@ std::vector<int> nodes_on(const MeshBuilder& builder, const NodeSet& connected, 
   return {nodes.begin(), nodes.end()};
 }
 
-/// The nodes of a support in a plane of symmetry lie in one.
+/// Throws Error unless the nodes of a support in a plane of symmetry lie in one plane.
 void check_plane(const MeshBuilder& builder, const std::vector<int>& nodes, int axis, const User& user) {
   constexpr double flat = 1e-6;
   Eigen::Vector3d low = builder.position(nodes[0]), high = low;
@@ -104,7 +104,7 @@ NodeSet nodes_of(const std::vector<Cell>& cells) {
   return nodes;
 }
 
-/// What can carry a pressure between some nodes: shells and outer faces of solids, by their corners.
+/// Shells and outer faces of solids between some nodes, for pressures; keys are their corners.
 struct LoadedFaces {
   std::map<FaceKey, int> shells;
   std::map<FaceKey, Cell> solids;
@@ -143,8 +143,8 @@ void add_pressure_on_cells(const MeshBuilder& builder, const std::vector<Cell>& 
   }
 }
 
-/// Warns of neighbours among the loaded shells whose normals point to different sides: both run along their common edge
-/// the same way. Edges of three and more shells say nothing.
+/// Warns of neighbouring loaded shells whose normals point to different sides: both traverse their common edge in the
+/// same direction. Edges of three or more shells are ignored.
 void judge_normals(MeshBuilder& builder, const std::vector<ShellPressure>& loaded, const User& user) {
   struct Edge {
     int forward = 0, backward = 0;
@@ -189,7 +189,7 @@ void add_pressure(MeshBuilder& builder, const formats::PressureLoad& line, const
     for (const auto& [corners, face] : faces.solids) load.faces.push_back(on_face(face, line.pressure));
 }
 
-/// What can carry a line load between some nodes, by both ends.
+/// Beams and edges between some nodes, for line loads; keys are both ends.
 struct LoadedEdges {
   std::map<std::pair<int, int>, int> beams;
   std::set<std::pair<int, int>> others;  ///< of shells and solids
@@ -201,7 +201,7 @@ struct LoadedEdges {
     for (const ShellElement& shell : mesh.shells)
       for (int k = 0; k < shell.corners(); ++k) add(nodes, shell.nodes[k], shell.nodes[(k + 1) % shell.corners()]);
     for (const SolidElement& solid : mesh.solids) {
-      const int corners = form_of(as_cell(solid).shape).corners;  // pairs across a face are never asked for
+      const int corners = form_of(as_cell(solid).shape).corners;  // pairs across a face are never looked up
       for (int i = 0; i < corners; ++i)
         for (int k = 0; k < i; ++k) add(nodes, solid.nodes[i], solid.nodes[k]);
     }

@@ -1,4 +1,4 @@
-// Hash of cubes in space.
+// Hash table of cubes in space.
 #include "reducer/sources/node_grid.hpp"
 
 #include <algorithm>

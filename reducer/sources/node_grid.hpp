@@ -1,4 +1,4 @@
-// Points in space by place: which node is here, and which are near.
+// Spatial search for points: the node at a place, and nodes nearby.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace tisserand::reducer {
 
-/// A hash of cubes of edge `step`; each holds the numbers of the points inside.
+/// Hash table of cubes of edge `step`; each contains the numbers of the points inside.
 class NodeGrid {
  public:
   explicit NodeGrid(double step) : step_(step) {}
@@ -20,7 +20,7 @@ class NodeGrid {
   void near(const Eigen::Vector3d& x, Visit visit) const {
     near(x, step_, visit);
   }
-  /// The same within `distance`: of a distance much smaller than the step mostly one cube is looked at.
+  /// Calls visit(number) for points within `distance`. If it is much less than the step, one cube is mostly searched.
   template <class Visit>
   void near(const Eigen::Vector3d& x, double distance, Visit visit) const {
     const Cube low = cube(x.array() - distance), high = cube(x.array() + distance);
@@ -47,14 +47,14 @@ class NodeGrid {
   std::unordered_map<Cube, std::vector<int>, Hash> cubes_;
 };
 
-/// Nodes of which no two are at the same place within `tolerance`.
+/// Nodes, no two of which are at the same place within `tolerance`.
 class MergedNodes {
  public:
   explicit MergedNodes(double tolerance) : tolerance_(tolerance), grid_(tolerance) {}
 
   /// The node at x, or -1.
   int find(const Eigen::Vector3d& x) const;
-  /// The node at x, a new one if there is none.
+  /// Node at x, or a new one if there is none.
   int at(const Eigen::Vector3d& x);
   const std::vector<Eigen::Vector3d>& position() const { return position_; }
 

@@ -1,4 +1,4 @@
-// Every place where a mesh names a node.
+// All references of a mesh to nodes.
 #pragma once
 
 #include "reducer/mesh/mesh.hpp"

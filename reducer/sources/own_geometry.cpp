@@ -1,4 +1,4 @@
-// Points, patches and beams that the part file draws, as nodes and elements.
+// Points, patches and beams of the part file as nodes and elements.
 #include <set>
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ const Named& find_named(const std::vector<Named>& all, const std::string& name, 
               guess ? fmt::format("did you mean '{}'?", *guess) : fmt::format("{}s: {}", kind, listed(known)));
 }
 
-/// Names of points at which beams, springs and spiders end: only these become nodes.
+/// Names of points at which beams, springs and spiders end; only these become nodes.
 std::set<std::string> used_points(const formats::Part& part) {
   std::set<std::string> names;
   const auto use = [&names](const formats::Place& place) {
@@ -41,7 +41,7 @@ std::set<std::string> used_points(const formats::Part& part) {
   return names;
 }
 
-/// Nodes along a line; inner ones join nodes of patches that are at the same place.
+/// Nodes along a line; inner ones are merged with nodes of patches at the same place.
 std::vector<int> nodes_along(MeshBuilder& builder, const formats::BeamLine& line, const Curve& curve, int first,
                              int last) {
   const int elements = element_count(curve, line);

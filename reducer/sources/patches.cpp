@@ -18,18 +18,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A grid of nodes X(i, j), i = 0..n, j = 0..m; elements turn right-handed about X_i x X_j.
+/// Grid of nodes X(i, j), i = 0..n, j = 0..m; the normal of its elements is X_i x X_j.
 struct Grid {
   int n = 0;
   int m = 0;
   std::function<Vector3d(int, int)> at;
 };
 
-/// A row of nodes along an edge of a grid that becomes a group.
+/// Row of nodes along an edge of a grid that becomes a group.
 struct GridEdge {
   std::string name;
   std::size_t grid = 0;
-  bool along_i = true;  ///< i runs, j = fixed; or the reverse
+  bool along_i = true;  ///< i varies and j = fixed; or the reverse
   int fixed = 0;
 };
 
@@ -46,7 +46,7 @@ int count_from(double length, double size, const formats::ShellPatch& patch) {
   return std::max(1, static_cast<int>(wanted));
 }
 
-/// The direction across the axis to angle 0: the given one, or the global axis most nearly normal to the axis.
+/// Direction across the axis to angle 0: the given one, or the global axis most nearly normal to the axis.
 Vector3d start_direction(const std::optional<Vector3d>& start, const Vector3d& axis) {
   int best = 0;
   for (const int k : {1, 2})
@@ -70,7 +70,7 @@ Grids grids_of(const formats::Plate& plate, const formats::ShellPatch& patch) {
           {{"edge1", 0, true, 0}, {"edge2", 0, false, grid.n}, {"edge3", 0, true, grid.m}, {"edge4", 0, false, 0}}};
 }
 
-/// A frame for circles: e1 to angle 0, e2 to 90 degrees, right-handed about the axis.
+/// Axes of circles: e1 to angle 0, e2 to 90 degrees, right-handed about the axis.
 struct Circle {
   Vector3d center, e1, e2;
   Vector3d at(double radius, double angle) const {
@@ -83,7 +83,7 @@ Circle circle_of(const Vector3d& center, const Vector3d& axis, const std::option
   return {center, e1, axis.normalized().cross(e1)};
 }
 
-/// A square core whose corners lie at 0, 90, 180, 270 degrees on 0.6 of the radius, and rings around it.
+/// Square core with corners at 0, 90, 180, 270 degrees on 0.6 of the radius, and rings around it.
 Grids full_disc(const Circle& circle, double radius, int around, int rings) {
   const int side = around / 4;
   const auto corner = [circle, radius](int k) -> Vector3d {
@@ -183,7 +183,7 @@ double shortest_edge(const Grid& grid) {
   return shortest;
 }
 
-/// Puts the cells of one grid after the others; nodes(i, j) row by row.
+/// Appends the cells of one grid; nodes(i, j) row by row.
 class GridWriter {
  public:
   GridWriter(PatchMesh& mesh, const formats::ShellPatch& patch, std::size_t number, const Grid& grid)
@@ -222,7 +222,7 @@ class GridWriter {
     return nodes_[static_cast<std::size_t>(j) * static_cast<std::size_t>(grid_.n + 1) + static_cast<std::size_t>(i)];
   }
 
-  /// Corners that coincide (a profile that touches the axis of its arc) make a triangle, or no cell.
+  /// Adds a cell. Coincident corners (a profile that touches the axis of its arc) make a triangle, or no cell.
   void add(CellShape shape, std::vector<int> corners) const {
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
@@ -248,7 +248,7 @@ void open_entity(PatchMesh& mesh, int dimension, const std::string& name) {
   mesh.cells.entities.push_back({dimension, 0, name, mesh.cells.cells[dimension].size(), 0});
 }
 
-/// Edges of the same name ("start" of each segment of a profile) become one entity.
+/// Appends a patch; edges of the same name ("start" of each segment of a profile) become one entity.
 void append_patch(PatchMesh& mesh, const formats::ShellPatch& patch, const Grids& grids) {
   std::vector<GridWriter> writers;
   for (std::size_t k = 0; k < grids.grids.size(); ++k) writers.emplace_back(mesh, patch, k, grids.grids[k]);

@@ -1,4 +1,4 @@
-// Plates, discs, cylinders and extrusions of part.yaml as cells: mapped meshes whose nodes join where they coincide.
+// Plates, discs, cylinders and extrusions of part.yaml as cells: mapped meshes whose coincident nodes are merged.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@ namespace tisserand::reducer {
 
 struct PatchMesh {
   CellMesh cells;                  ///< entities: each patch as a face with its name, then its edges ("deck/edge1")
-  MergedNodes nodes{1.0};          ///< nodes at the same place (within 1e-6 of the shortest edge) are one
-  std::vector<std::string> label;  ///< of each node: "deck[2,5]"
+  MergedNodes nodes{1.0};          ///< nodes at the same place (within 1e-6 of the shortest edge) are merged
+  std::vector<std::string> label;  ///< label of each node: "deck[2,5]"
 };
 
 PatchMesh mesh_patches(const formats::Part& part);
 
-/// What check_conformity looks at: the nodes of all patches and beams, and the beams as node after node.
+/// Input of check_conformity: the nodes of all patches and beams, and the node sequences of beams.
 struct OwnLines {
   const std::vector<Eigen::Vector3d>& position;
   const std::vector<std::string>& label;
@@ -26,7 +26,7 @@ struct OwnLines {
 };
 
 /// Throws Error if a node of a patch or beam lies on the edge of an element of another patch, or a node of a patch on a
-/// beam, without being its node: what touches needs the same divisions. The cells' nodes are rows of `lines`.
+/// beam, but is not its node: touching objects need equal divisions. The cells' nodes are rows of `lines`.
 void check_conformity(const formats::Part& part, const CellMesh& patches, const OwnLines& lines);
 
 }  // namespace tisserand::reducer

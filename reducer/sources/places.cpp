@@ -1,4 +1,4 @@
-// Points, numbers, positions and centroids resolved to nodes.
+// Nodes from points, numbers, positions and centroids.
 #include "reducer/sources/places.hpp"
 
 #include <algorithm>

@@ -9,24 +9,24 @@
 
 namespace tisserand::reducer {
 
-/// Who asks, for messages: "boundary node 'tip'" at file:line.
+/// User of a place, for messages: "boundary node 'tip'" at file:line.
 struct User {
   std::string name;
   std::string where;
 };
 
-/// The node of a place; positions and centroids make a new one. Throws Error naming the user.
+/// Node of a place; positions and centroids make a new one. Throws Error naming the user.
 int find_place(MeshBuilder& builder, const formats::Place& place, const User& user);
 
-/// The node with this number in the mesh file. Throws Error with the range of numbers.
+/// Node with this number in the mesh file. Throws Error with the range of numbers.
 int find_file_node(const MeshBuilder& builder, long number, const User& user);
 
-/// The node of the mesh file nearest to x, of those that elements use. Throws Error if it is farther than the tolerance
+/// Node of the mesh file nearest to x among those of elements. Throws Error if it is farther than the tolerance
 /// (absent: 1e-3 of the extent of the file's nodes), or if two are equally near.
 int nearest_file_node(const MeshBuilder& builder, const Eigen::Vector3d& x, std::optional<double> tolerance,
                       const User& user);
 
-/// The nearest of some things, and the next one: a choice between two that are equally near would be arbitrary.
+/// The nearest of some things, and the next one; a choice between two that are equally near would be arbitrary.
 struct NearestTwo {
   int best = -1, second = -1;
   double distance = std::numeric_limits<double>::infinity(), next = distance;

@@ -1,4 +1,4 @@
-// Names of groups resolved.
+// Resolution of the names of groups.
 #include "reducer/sources/selection.hpp"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ void make_unique(std::vector<T>& values) {
   values.erase(rest.begin(), rest.end());
 }
 
-/// The entity of a geometry with this number, or -1.
+/// Entity of a geometry with this number, or -1.
 int entity_of_number(const CellMesh& cells, int dimension, long number) {
   for (int e = 0; e < std::ssize(cells.entities); ++e)
     if (cells.entities[e].dimension == dimension && cells.entities[e].number == number && number > 0) return e;
@@ -63,7 +63,7 @@ int entity_of_number(const CellMesh& cells, int dimension, long number) {
                           : fmt::format("there are no {}s with numbers", word));
 }
 
-/// "face 12" and the like.
+/// Selection by a number such as "face 12".
 Selection by_number(const MeshBuilder& builder, const std::string& name, const User& user) {
   for (int dimension = 1; dimension <= 3; ++dimension) {
     const std::string word = std::string(dimension_word(dimension)) + " ";
@@ -79,7 +79,7 @@ Selection by_number(const MeshBuilder& builder, const std::string& name, const U
   return {};
 }
 
-/// Labels of CAD files are paths of assembly, part and face; the last name serves too if it is the only one.
+/// Selection by label. Labels of CAD files are paths of assembly, part and face; a unique last name suffices.
 Selection by_label(const MeshBuilder& builder, const std::string& name, int dimension, const User& user) {
   Selection whole, last;
   for (int e = 0; e < std::ssize(builder.cells.entities); ++e) {
@@ -96,7 +96,7 @@ Selection by_label(const MeshBuilder& builder, const std::string& name, int dime
               "name one of them by its number");
 }
 
-/// Physical groups; the same name may stand for several dimensions, of which the wanted or the highest one counts.
+/// Selection by physical group. A name may occur in several dimensions; the requested or the highest one counts.
 Selection by_physical_group(const MeshBuilder& builder, const std::string& name, int dimension) {
   const EntityGroup* best = nullptr;
   for (const EntityGroup& group : builder.cells.groups) {
@@ -115,7 +115,7 @@ Selection by_set(const MeshBuilder& builder, const std::string& name) {
   return selection;
 }
 
-/// Everything of the dimension that comes from the mesh file, and patches that need a layout.
+/// All of this dimension from the mesh file, and patches that need a layout.
 Selection all_of(const MeshBuilder& builder, int dimension) {
   Selection selection;
   for (int e = 0; e < std::ssize(builder.cells.entities); ++e) {
@@ -131,7 +131,7 @@ Selection all_of(const MeshBuilder& builder, int dimension) {
 
 Selection by_name(const MeshBuilder& builder, const std::string& name, int dimension, const User& user, int depth);
 
-/// The union of what the definition's keys select.
+/// Union of the selections by the definition's keys.
 Selection by_definition(const MeshBuilder& builder, const formats::GroupDefinition& group, int depth) {
   const User user{fmt::format("group '{}'", group.name), group.where};
   if (depth > 20) throw Error(user.name + " contains itself", group.where, "remove the circle of groups");
@@ -202,7 +202,7 @@ std::vector<std::string> group_names(const MeshBuilder& builder) {
 
 Selection select(const MeshBuilder& builder, const std::string& name, int dimension, const User& user) {
   Selection selection = by_name(builder, name, dimension, user, 0);
-  if (is_empty(selection) && dimension > 0) selection = by_name(builder, name, -1, user, 0);  // of another kind
+  if (is_empty(selection) && dimension > 0) selection = by_name(builder, name, -1, user, 0);  // of another dimension
   make_unique(selection.entities);
   make_unique(selection.nodes);
   make_unique(selection.elements.beams);

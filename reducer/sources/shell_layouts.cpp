@@ -1,4 +1,4 @@
-// Plies by the names of their materials.
+// Plies from the names of their materials.
 #include "reducer/sources/shell_layouts.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Layouts and materials of part.yaml as sections of shells and materials of solids.
+// Sections of shells and materials of solids from layouts and materials of part.yaml.
 #pragma once
 
 #include "formats/part/part.hpp"

@@ -1,4 +1,4 @@
-// What touches without a node in common: told, because it is not joined there.
+// Warnings about elements that touch without a common node, because they are not connected there.
 #include <algorithm>
 #include <limits>
 #include <set>
@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double touching = 1e-6;  ///< of an element's length
+constexpr double touching = 1e-6;  ///< relative to an element's length
 constexpr std::size_t most_told = 10;
 
 double longest_element(const MeshBuilder& builder) {
@@ -27,7 +27,7 @@ double longest_element(const MeshBuilder& builder) {
   return longest;
 }
 
-/// Nodes of other beams on the elements of one, by node.
+/// Line of a beam, which finds nodes of other beams on its elements.
 class Line {
  public:
   Line(const MeshBuilder& builder, std::size_t number, const NodePairs& tied)
@@ -58,7 +58,7 @@ class Line {
   const NodePairs& tied_;
 };
 
-/// Nodes of the mesh file that carry elements: 1.
+/// Marks nodes of the mesh file that have elements by 1.
 std::vector<char> carrying_nodes(const MeshBuilder& builder) {
   const Mesh& mesh = builder.mesh;
   std::vector<char> carries(builder.cells.position.size(), 0);
@@ -71,7 +71,7 @@ std::vector<char> carrying_nodes(const MeshBuilder& builder) {
   return carries;
 }
 
-/// The diagonal of the box around the nodes that count.
+/// Diagonal of the box around the marked nodes.
 double extent(const MeshBuilder& builder, const std::vector<char>& counts) {
   Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (std::size_t n = 0; n < counts.size(); ++n)
@@ -93,7 +93,7 @@ void tell_unjoined_beams(MeshBuilder& builder) {
     for (const int node : nodes)
       if (added.insert(node).second) grid.add(builder.position(node), node);
   const NodePairs tied = tied_pairs(builder.mesh);
-  NodePairs met;  // nodes at the same place are met from both beams
+  NodePairs met;  // nodes at the same place are found from both beams
   std::vector<std::string> texts;
   for (std::size_t b = 0; b < builder.beam_nodes.size(); ++b)
     for (const int node : Line(builder, b, tied).touched(grid)) {
@@ -120,7 +120,7 @@ void join_coincident_nodes(MeshBuilder& builder) {
   const double tolerance = touching * extent(builder, carries);
   if (!(tolerance > 0.0)) return;
   const ApartOnPurpose apart(builder.mesh);
-  NodeGrid grid(1e3 * tolerance);  // below most elements
+  NodeGrid grid(1e3 * tolerance);  // smaller than most elements
   std::vector<int> twin(carries.size(), -1);
   int count = 0, first = -1;
   for (int node = builder.first_file_node; node < builder.last_file_node; ++node) {
