@@ -337,8 +337,7 @@ int follow(const Arguments& arguments) {
     const formats::Part part = part_of(arguments);
     return arguments.command == Command::solve ? build_mesh_to_solve(part) : build_mesh(part);
   });
-  mesh();  // what fails here fails for the first process too, which tells it; if not, it is told when the mesh is
-           // needed
+  mesh();  // an error here also occurs in the first process, which reports it, or later when the mesh is needed
   const SolverSession session;
   follow_leader(mesh.get_future());
   return 0;

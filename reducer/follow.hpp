@@ -1,4 +1,4 @@
-// Work of the processes that mpirun starts besides the first: they follow the calls of the leader.
+// Work of the processes that mpirun starts in addition to the first: they follow the calls of the leader.
 #pragma once
 
 #include <future>
@@ -7,8 +7,8 @@
 
 namespace tisserand::reducer {
 
-/// Works until the leader ends. Needs a SolverSession. `made` is the mesh of the leader's part. All processes end if
-/// the leader asks for its elements and it holds an error or differs from the leader's.
+/// Works until the leader ends. Needs a SolverSession. `made` is the mesh of the leader's part. If it holds an error or
+/// differs from the leader's, all processes end when the leader needs its elements.
 void follow_leader(std::future<Mesh> made);
 
 }  // namespace tisserand::reducer

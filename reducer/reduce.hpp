@@ -18,12 +18,12 @@ struct Reduction {
   formats::Superelement superelement;
   FileCertificate file;
   ModelCertificate model;
-  std::optional<formats::Companion> companion;   ///< companion of the superelement, if the part asks for one
-  std::optional<formats::ModalBody> modal_body;  ///< floating-frame body of the same part, if it asks for one
+  std::optional<formats::Companion> companion;   ///< companion of the superelement, if the part requests one
+  std::optional<formats::ModalBody> modal_body;  ///< floating-frame body of this part, if it requests one
 };
 
-/// Reduces a part. `recover` receives the sources of recovery files, for superelement and modal body, if the part asks
-/// for them. Needs a SolverSession. Throws Error for any fault of the part.
+/// Reduces a part. `recover` receives the sources of recovery files, for superelement and modal body, if the part
+/// requests them. Needs a SolverSession. Throws Error for any fault of the part.
 Reduction reduce(const formats::Part& part, const PhaseListener& begin, const RecoveryListener& recover);
 inline Reduction reduce(const formats::Part& part, const PhaseListener& begin) { return reduce(part, begin, nullptr); }
 

@@ -9,7 +9,7 @@ namespace tisserand::reducer {
 std::string program_folder();
 
 /// Whether an MPI launcher (mpirun, srun) started this process as a follower. A follower prints and writes nothing and
-/// does the work that the leader asks for.
+/// does the work that the leader requests.
 bool is_follower();
 
 /// Sets variables for this processor; those that the user has set stay. OpenBLAS 0.3.21 treats unknown processors as

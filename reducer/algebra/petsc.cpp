@@ -34,8 +34,8 @@ PetscErrorCode collect(MPI_Comm, int line, const char* function, const char* fil
   return code;
 }
 
-/// Sets one thread. OpenBLAS sums in an order that depends on the number of threads. CHOLMOD asks OpenMP for four on
-/// any machine, which wait by spinning.
+/// Sets one thread. OpenBLAS sums in an order that depends on the number of threads. CHOLMOD starts four OpenMP threads
+/// on any machine, which wait by spinning.
 void use_one_thread() {
   using SetThreads = void (*)(int);
   if (void* const set = dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) reinterpret_cast<SetThreads>(set)(1);

@@ -66,9 +66,9 @@ struct FarSpiders {
   }
 };
 
-/// Warns of spiders with unlikely positions of their own node. Either it is away from the part by more than a fifth of
-/// its size and the extent of the held nodes, or away from three or more held nodes by a fifth of the part and twice
-/// their extent. Long arms on purpose look the same as positions in other units.
+/// Warns of spiders whose own node is far away, which may be a long arm or a position in other units. Away from the
+/// part: by more than a fifth of its size and the extent of the held nodes. Away from three or more held nodes: by a
+/// fifth of the part and twice their extent.
 void warn_far_spiders(const Mesh& mesh, const Units& units, std::vector<std::string>& warnings) {
   const Eigen::AlignedBox3d part = box_of_elements(mesh);
   if (part.isEmpty()) return;

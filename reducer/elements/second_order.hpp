@@ -4,8 +4,8 @@
 // the quadratic part of their strains: a fixed sum of products of few gradients of d, the same for all elements of a
 // kind. K_G[w] = ∂²V3/∂d² = Σ σ_s(w) c (g_aᵀ g_b + g_bᵀ g_a).
 //
-// Every kind is invariant under a superposed rotation θ of the element to first order in θ, whatever its size: V3 of w
-// and w + θ × X together with the linear energy of the second-order displacements (θ × u, ½ θ × ψ) vanishes.
+// Every kind is invariant under a superposed rotation θ of the element to first order in θ. This holds for any size: V3
+// of w and w + θ × X together with the linear energy of the second-order displacements (θ × u, ½ θ × ψ) vanishes.
 #pragma once
 
 #include <vector>

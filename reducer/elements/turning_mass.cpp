@@ -71,9 +71,9 @@ struct PointRows {
   MatrixXd load;    ///< 6 p x 12
 };
 
-/// Sets the rows of `turned` of all loads: f·(ω × u) + m·½ (ω × θ) = ω·(−f~ u − ½ m~ θ) of the points with u = U + ½ x~
-/// ω, minus that of the nodes, where U and θ are coordinates. It is one product: [−f~, −½ m~] of all points and the
-/// rows before ω, times [U; Θ] of all points and ω.
+/// Sets the rows of `turned` of all loads, f·(ω × u) + m·½ (ω × θ) = ω·(−f~ u − ½ m~ θ). Points have u = U + ½ x~ ω.
+/// Nodes, whose u and θ are coordinates, are subtracted. It is one product: [−f~, −½ m~] of all points and the rows
+/// before ω, times [U; Θ] of all points and ω.
 void set_turned(const MovingMass& mass, const PointRows& rows, const Vector3d& reference, TurningMass& out) {
   const Index points = static_cast<Index>(mass.points.size()), at_turn = 6 * points;
   MatrixXd factors(3 * inertial_loads, at_turn + 3);

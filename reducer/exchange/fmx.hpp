@@ -15,8 +15,8 @@ ReducedMatrices read_fmx(const TabledFiles& files);
 
 enum class FmxKind { stiffness, mass, gravity };
 
-/// Bytes of a file: tag of 30 characters "#FEDEM stiffness matrix", the 16-bit number 0x1234 that shows the byte order,
-/// two 32-bit numbers 0 and `checksum`, the line ";1.0;", then the values column by column.
+/// Bytes of a file: tag of 30 characters "#FEDEM stiffness matrix", and the 16-bit number 0x1234 that shows the byte
+/// order. Then two 32-bit numbers 0 and `checksum`, the line ";1.0;", and the values column by column.
 std::string fmx_bytes(FmxKind kind, std::uint32_t checksum, const Eigen::MatrixXd& values);
 
 }  // namespace tisserand::reducer::exchange

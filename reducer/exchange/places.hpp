@@ -11,8 +11,8 @@ struct NastranModel;
 
 namespace tisserand::reducer::exchange {
 
-/// Places from Abaqus or CalculiX input with *NODE, Nastran bulk data with GRID, else a table of lines "number, x, y,
-/// z" or "number, x, y, z, name" (# begins a comment; a first line of words is skipped). Throws Error.
+/// Places from Abaqus or CalculiX input with *NODE, or Nastran bulk data with GRID. Any other file is a table of lines
+/// "number, x, y, z" or "number, x, y, z, name" (# begins a comment; a first line of words is skipped). Throws Error.
 Places read_places(const std::string& path);
 
 /// Reads the cards of a deck and sorts them by name. Throws Error for faults of single lines.

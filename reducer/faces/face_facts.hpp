@@ -31,9 +31,9 @@ struct FaceFacts {
 
 /// Facts from the points of `exact`, if there are any, to 1e-6 of the size of the face. Otherwise from the corners of
 /// the cells to 1e-4 of it (and 1e-6 of the largest coordinate, for files that round). Then curved forms need at least
-/// three different normals and no cell that turns by more than 52 degrees (seven cells around a circle), so that flat
-/// faces at right angles are no cylinder. The largest component of an axis is positive, except for cones: their axis
-/// leads inwards from the apex.
+/// three different normals, and no cell may turn by more than 52 degrees (seven cells around a circle). So flat faces
+/// at right angles are no cylinder. The largest component of an axis is positive, except for cones: their axis leads
+/// inwards from the apex.
 FaceFacts face_facts(const FaceCells& face, const std::vector<Eigen::Vector3d>& position, const EntityGeometry& exact);
 
 }  // namespace tisserand::reducer

@@ -7,10 +7,10 @@
 
 namespace tisserand::reducer {
 
-/// Sign of each cell of dimension 2: +1 if its corners are counter-clockwise seen from outside of the one volume that
-/// it bounds, -1 if clockwise, 0 if it bounds none or two or the volume is open. Volumes are cells of dimension 3 if
-/// there are any, else those of CellMesh::geometry, else all faces together if they are closed. The part of a boundary
-/// with the largest box is the outer one, all others are holes.
+/// Sign of each cell of dimension 2. Seen from outside of the one volume that it bounds, its corners are
+/// counter-clockwise (+1) or clockwise (-1). It is 0 if the cell bounds none or two or the volume is open. Volumes are
+/// cells of dimension 3, else those of CellMesh::geometry, else all faces together if they are closed. The part of a
+/// boundary with the largest box is the outer one, all others are holes.
 std::vector<int> outward_signs(const CellMesh& mesh);
 
 }  // namespace tisserand::reducer

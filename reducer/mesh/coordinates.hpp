@@ -12,8 +12,8 @@
 namespace tisserand::reducer {
 
 /// Coordinates node by node, translations before rotations, part axes. A node has three (translations), or six if
-/// something uses its rotations: a beam, a shell, a spring, a mass with inertia or offset, a spider with this
-/// reference, an equation with its rotation, or a rigid spider that moves a node without elements.
+/// something uses its rotations. This is a beam, shell, spring, mass with inertia or offset, spider with this
+/// reference, equation with its rotation, or rigid spider that moves a node without elements.
 struct Coordinates {
   std::vector<int> first;      ///< nodes + 1: first coordinate of each node
   std::vector<int> node;       ///< of each coordinate

@@ -20,8 +20,8 @@ struct ImportRequest {
 
 /// Cells of all dimensions up to the request's, each once, with entities, labels and physical groups; coordinates in
 /// units of the part. Second-order cells have no nodes inside faces and volumes. Throws Error for files that gmsh does
-/// not accept, that crash it, reach a limit or do forbidden things, for cells of an unknown kind, entities that could
-/// not be meshed, and an empty mesh. Costs the start of a process that loads gmsh (DECISIONS.md).
+/// not accept, that crash it, reach a limit or do forbidden things. Throws it also for cells of an unknown kind,
+/// entities that could not be meshed, and an empty mesh. Costs the start of a process that loads gmsh (DECISIONS.md).
 CellMesh import_with_gmsh(const ImportRequest& request);
 
 }  // namespace tisserand::reducer

@@ -49,8 +49,8 @@ struct ModeComparison {
   Eigen::MatrixXd assurance;      ///< (vᵢᵀ M u_k)²: one row per frequency, one column per mode u
 };
 
-/// Compares modes v of the full part with the modes `u` (coordinates q, uᵀ M u = 1) by the modal assurance criterion
-/// weighted with the mass, 1 for equal modes. Empty if a rigid motion moves no mass or round-off hides the frequencies.
+/// Modal assurance criterion, weighted with the mass, of modes v of the full part and the modes `u` (coordinates q, uᵀ
+/// M u = 1). It is 1 for equal modes. Empty if a rigid motion moves no mass or round-off hides the frequencies.
 ModeComparison compare_free_modes(const System& system, const FreeSearch& sought, const formats::ModeSelection& asked,
                                   const Eigen::MatrixXd& u);
 

@@ -30,11 +30,11 @@ struct LoadFactors {
   double residual = 0.0;  ///< largest ‖φ + λ S⁻¹ K_g φ‖_S / ‖φ‖_S
 };
 
-/// The `count` lowest factors, or all if fewer exist; a small group of equal ones is completed. Krylov-Schur iteration
-/// on K_g φ = μ S φ, μ = −1/λ, in the inner product of S, by shift and inversion from just below the lowest factor,
-/// where S + λ K_g is still positive definite. Counts of the negative eigenvalues of S + λ K_g at a few λ, one
-/// factorisation each, give this point and show that no factor is missing (Sylvester's law of inertia). Throws Error if
-/// factors are still missing after repeated searches, or if the residual is above 1e-6.
+/// The `count` lowest factors, or all if fewer exist; a small group of equal ones is completed. They come from
+/// Krylov-Schur iteration on K_g φ = μ S φ, μ = −1/λ, in the inner product of S. It uses shift and inversion from just
+/// below the lowest factor, where S + λ K_g is still positive definite. Counts of the negative eigenvalues of S + λ K_g
+/// at a few λ, one factorisation each, give this point. They also show that no factor is missing (Sylvester's law of
+/// inertia). Throws Error if factors are still missing after repeated searches, or if the residual is above 1e-6.
 LoadFactors load_factors(const StressPencil& pencil, int count);
 
 }  // namespace tisserand::reducer

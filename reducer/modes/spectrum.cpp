@@ -60,8 +60,8 @@ Spectrum lapack_spectrum(const Pencil& pencil, int count, int available) {
   return s;
 }
 
-/// Whether one more factorisation costs less than a tenth of the solutions with the columns that block Lanczos
-/// iteration needs for `count` pairs. The processor does a third as many operations per second in solutions.
+/// Whether one more factorisation costs less than a tenth of the solutions. Block Lanczos iteration solves for
+/// `columns` columns. The processor does a third as many operations per second in solutions.
 bool counting_is_cheap(const Factor& factor, int count) {
   const double columns = 3.0 * count + 60.0;
   return factor.cost().operations < 0.1 * 3.0 * columns * 4.0 * factor.cost().entries;

@@ -58,9 +58,9 @@ ReducedModes reduced_modes(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, d
   return modes;
 }
 
-/// Number of eigenvalues below `s` of the reduced part with modes (μ, u on the boundary) after `taken` = C Cᵀ (n_B x
-/// n_B) is subtracted from its dynamic stiffness. It is the number of negative eigenvalues of diag(μ − s) plus that of
-/// 1 − Cᵀ u (μ − s)⁻¹ uᵀ C, as for diag(μ − s) − uᵀ C Cᵀ u (Haynsworth).
+/// Number of eigenvalues below `s` of the reduced part after `taken` = C Cᵀ (n_B x n_B) is subtracted from its dynamic
+/// stiffness. The modes have (μ, u on the boundary). The number of negative eigenvalues of diag(μ − s) − uᵀ C Cᵀ u is
+/// that of diag(μ − s) plus that of 1 − Cᵀ u (μ − s)⁻¹ uᵀ C (Haynsworth).
 Eigen::Index count_with(const ReducedModes& modes, const Eigen::MatrixXd& taken, double s) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(taken);
   const Eigen::MatrixXd C = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();

@@ -57,9 +57,9 @@ struct BoundaryView {
   const Eigen::MatrixXd& coupling;  ///< n_B x modes
 };
 
-/// Largest relative error, THEORY (90), (91), that omitted modes cause in a frequency of ω² ≤ `lambda` of the part
-/// attached to anything with stiffness K ≥ 0 and mass ≥ 0, including other bodies. In such a mode of unit mass, the
-/// boundary motion u shares strain and mass with the attached bodies. So with m_k and λ_k of the kept vectors,
+/// Largest relative error, THEORY (90), (91), that omitted modes cause in a frequency of ω² ≤ `lambda`. The part may be
+/// attached to anything with stiffness K ≥ 0 and mass ≥ 0. In such a mode of unit mass, the boundary motion u shares
+/// strain and mass with the attached bodies. So with m_k and λ_k of the kept vectors,
 ///
 ///     uᵀ W u ≤ 1,  W(λ) = M̄_BB + Σ (λ_k²/(λ_k − λ)² − 1) m_k m_kᵀ     (mass of the part),
 ///     uᵀ E u ≤ 1,  E(λ) = S̄_BB/λ + Σ λ λ_k/(λ_k − λ)² m_k m_kᵀ         (its strain energy over λ),

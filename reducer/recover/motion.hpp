@@ -47,8 +47,8 @@ struct BodyRow {
 class MotionReader {
  public:
   /// Reads everything once. Throws Error for a body that is missing or has no coordinates of its own (rigid), for
-  /// another superelement or modal body, for coordinates that are not stored, not finite or of another number, and for
-  /// no instants. The arguments must outlive this object.
+  /// another superelement or modal body, and for no instants. Throws it also for coordinates that are not stored, not
+  /// finite or of another number. The arguments must outlive this object.
   MotionReader(const formats::Recovery& recovery, const formats::ResultsReader& results, const RecoverRequest& request);
 
   Eigen::Index instants() const { return static_cast<Eigen::Index>(rows_.size()); }

@@ -7,8 +7,8 @@
 
 namespace tisserand::reducer {
 
-/// Receives the name of each phase when it begins, the share of it that is done, begin and end of substitutions with
-/// the factor of the inside, and lines for immediate output. The caller measures time and shows progress.
+/// Receives phases by name when they begin, the share that is done, begin and end of substitutions with the factor of
+/// the inside, and lines for immediate output. The caller measures time and shows progress.
 struct PhaseListener {
   template <class Begin>
   PhaseListener(Begin heard) : begin(std::move(heard)) {}

@@ -19,11 +19,11 @@ bool wants_second_order(const formats::Part& part, const formats::Superelement& 
 void describe_companion(const Mesh& mesh, const formats::Part& part, const formats::Superelement& element,
                         ModelCertificate& model);
 
-/// H, C, E, N, T of THEORY (81), (82), and S0, S1. Costs one pass over the masses of the elements, twelve solutions
-/// with the factor of S_II and one per load case, and one pass over the stresses of n + 12 + cases displacements.
-/// Memory: copies of all displacements (coordinates of the mesh x their number) and blocks of elements. `weights`: one
-/// per boundary node. `shapes`: for trapped_stress(), 0: no Λ. `displacement`: if given, receives the second-order part
-/// of the recovery file, which costs more solutions and one more pass (displacement.hpp).
+/// H, C, E, N, T of THEORY (81), (82), and S0, S1. Cost: one pass over the masses, 12 + cases solutions with the factor
+/// of S_II, and one pass over the stresses of n + 12 + cases displacements. Memory: copies of all displacements
+/// (coordinates of the mesh x their number) and blocks of elements. `weights`: one per boundary node. `shapes`: for
+/// trapped_stress(), 0: no Λ. `displacement`: if given, receives the second-order part of the recovery file, which
+/// costs more solutions and one more pass (displacement.hpp).
 formats::Companion make_companion(const ReducedPart& part, const Eigen::VectorXd& weights, int shapes = 0,
                                   std::optional<SecondOrderDisplacement>* displacement = nullptr);
 

@@ -23,8 +23,7 @@ using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
 constexpr double beside_face = 1e-4;    ///< of the longest edge of a face: nodes within this distance lie on it
-constexpr double beside_corner = 1e-3;  ///< of the same: nodes within this distance of the element's nodes coincide
-                                        ///< with them
+constexpr double beside_corner = 1e-3;  ///< of that edge: nodes this near to the element's nodes coincide
 
 /// Tree of points, halved repeatedly along their longest extent; finds the points in a box.
 class PointTree {

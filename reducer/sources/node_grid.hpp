@@ -20,7 +20,7 @@ class NodeGrid {
   void near(const Eigen::Vector3d& x, Visit visit) const {
     near(x, step_, visit);
   }
-  /// Calls visit(number) for points within `distance`. If it is much less than the step, one cube is mostly searched.
+  /// Calls visit(number) for points within `distance`. For distances far below the step, it mostly searches one cube.
   template <class Visit>
   void near(const Eigen::Vector3d& x, double distance, Visit visit) const {
     const Cube low = cube(x.array() - distance), high = cube(x.array() + distance);

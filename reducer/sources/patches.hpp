@@ -25,8 +25,8 @@ struct OwnLines {
   const std::vector<std::vector<int>>& beams;
 };
 
-/// Throws Error if a node of a patch or beam lies on the edge of an element of another patch, or a node of a patch on a
-/// beam, but is not its node: touching objects need equal divisions. The cells' nodes are rows of `lines`.
+/// Throws Error if a node lies on a foreign edge without being its node: a node of a patch or beam on another patch's
+/// element, or one of a patch on a beam. Objects that touch need equal divisions. Cells' nodes are rows of `lines`.
 void check_conformity(const formats::Part& part, const CellMesh& patches, const OwnLines& lines);
 
 }  // namespace tisserand::reducer

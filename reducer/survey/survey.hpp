@@ -27,14 +27,14 @@ struct Survey {
   Mesh deck;                              ///< elements of a deck, whose nodes are rows of `position`
 };
 
-/// Surveys a part. Geometry is meshed coarsely unless the part says how. Areas and middles of faces are OpenCASCADE's
-/// if it made the geometry, otherwise those of the mesh.
+/// Surveys a part. Geometry is meshed coarsely unless the part defines the sizes. Areas and middles of faces are
+/// OpenCASCADE's if it made the geometry, otherwise those of the mesh.
 Survey survey(const formats::Part& part);
 
 /// Part that consists of a mesh or geometry file only, in its own units.
 formats::Part part_of_file(const std::string& file);
 
-/// Part with a mesh of its geometry that follows curved faces, unless it says how to mesh it.
+/// Part with a mesh of its geometry that follows curved faces, unless it defines the sizes itself.
 formats::Part finely_meshed(const formats::Part& part);
 
 /// Form of a face in words: "cylinder, concave, radius 4 mm".

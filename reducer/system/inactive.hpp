@@ -7,10 +7,10 @@
 
 namespace tisserand::reducer {
 
-/// Removes such coordinates from the translations and the rotations of each node. A direction with less than 1e-14 of
-/// the largest entry of their block of S and M has no stiffness and mass at all, since S and M are positive
-/// semidefinite. One coordinate per direction is fixed to zero, and the rigid motions of the block's others are
-/// adapted, which changes no force. Throws Error if only coordinates of the boundary could be fixed.
+/// Removes such coordinates from the translations and the rotations of each node. Their block of S and M has null
+/// directions, below 1e-14 of its largest entry. As S and M are positive semidefinite, these have no stiffness and mass
+/// at all. One coordinate per direction is fixed to zero. The rigid motions of the block's others are adapted, which
+/// changes no force. Throws Error if only coordinates of the boundary could be fixed.
 void remove_inactive(const Mesh& mesh, const std::vector<int>& boundary, const std::string& where, int threads,
                      System& system);
 

@@ -60,8 +60,8 @@ struct RigidFit {
   Vector3d center, t, omega;
 };
 
-/// Finds the rigid motion that all moving nodes follow; returns whether there is one. Rotations at rest, as of nodes
-/// without rotations, are omitted.
+/// Finds the rigid motion that all moving nodes follow; returns whether there is one. Rotations at rest are omitted,
+/// such as those of nodes without rotations.
 bool fit_rigid(const Mesh& mesh, const System& system, const Movement& m, RigidFit& fit) {
   fit.center.setZero();
   for (const int node : m.nodes) fit.center += mesh.position.col(node) / static_cast<double>(m.nodes.size());

@@ -29,8 +29,8 @@ struct HeldState {
 /// Words for a part with its boundary held.
 HeldState boundary_held();
 
-/// Throws Error if the stiffness has a null space (the message names its motions), is indefinite, or has a motion so
-/// soft that `factor` holds round-off in place of its stiffness.
+/// Throws Error if the stiffness has a null space (the message names its motions) or is indefinite. Throws it also for
+/// a motion so soft that `factor` holds round-off in place of its stiffness.
 void require_stiffness(const NullSpace& null, const Factor& factor, const PartitionedPart& part, const HeldState& state,
                        const std::string& where);
 

@@ -8,10 +8,10 @@
 
 namespace tisserand::reducer {
 
-/// Ties the rotations of nodes without rotations (of solids, references of averages of translations, followers of a
-/// rigid spider in translations) to the motion around them if a spring there has axes that matter. These are unequal
-/// stiffnesses between coincident nodes, or across the line between distant ones. First order does not change, since
-/// such springs resist no rotation. At second order their axes turn with the part.
+/// Ties the rotations of nodes without rotations to the motion around them, if a spring there has axes that matter. The
+/// nodes are those of solids, references of averages of translations, and followers of a rigid spider in translations.
+/// The springs have unequal stiffnesses between coincident nodes, or across the line between distant ones. First order
+/// does not change; at second order their axes turn with the part.
 void turn_springs(Mesh& mesh);
 
 /// Names of springs whose axes matter but do not turn with the part, because nothing defines a rotation of their nodes.

@@ -24,7 +24,7 @@ const NastranMaterial* plane_material(NastranModel& model, CardFields& f, int in
   return f.ok() ? m : nullptr;
 }
 
-/// Reads PSHELL: N = T G1 ε + T² G4 χ, M = T² G4 ε + I G2 χ, Q = TS G3 γ with ε(z) = ε − z χ, so κ = −χ and B = −T² G4.
+/// Reads PSHELL: N = T G1 ε + T² G4 χ, M = T² G4 ε + I G2 χ, Q = TS G3 γ. Since ε(z) = ε − z χ, κ = −χ and B = −T² G4.
 std::optional<ShellSection> pshell_section(NastranModel& model, CardFields& f, double own_thickness) {
   if (f.integer(3, "MID2", 0) == -1) f.fault("MID2 -1 (plane strain) is not understood", "give a material");
   const double T = own_thickness > 0.0 ? own_thickness : f.real(2, "T");

@@ -66,8 +66,8 @@ std::array<ShellMassPoint<3>, 6> shell_mass_points(const ShellGeometry<3>& geome
   return points;
 }
 
-/// v = Σ N_i u_i + a_i × θ_i with the arm a_i = g_i − z N_i ẑ, so the blocks of corners i, j are
-/// ∫ρ [N_i N_j, N_i a_j×; (N_j a_i×)ᵀ, (a_i·a_j) 1 − a_j a_iᵀ].
+/// v = Σ N_i u_i + a_i × θ_i with the arm a_i = g_i − z N_i ẑ. So the blocks of corners i, j are ∫ρ [N_i N_j, N_i a_j×;
+/// (N_j a_i×)ᵀ, (a_i·a_j) 1 − a_j a_iᵀ].
 template <int Corners>
 Eigen::Matrix<double, 6 * Corners, 6 * Corners> consistent_shell_mass(const ShellGeometry<Corners>& geometry,
                                                                       const ShellSection& section) {

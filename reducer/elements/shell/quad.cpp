@@ -96,9 +96,10 @@ Eigen::Matrix<double, 24, 1> mean_drilling(const ShellGeometry<4>& geometry) {
 }
 
 /// Covariant shear strains of MITC4 at the middles of the edges, (w_j − w_i)/2 + d/4 · Σ [θy, −θx], along ξ at η = −1
-/// and 1, along η at ξ = −1 and 1 ([DB84]), times √(φ/(φ + 0.35)) with φ = 12 D_ss/(As_ss ℓ²), ℓ the shortest edge. So
-/// the sheet's shear stiffness is in series with a residual flexibility of bending ([LSV93]: t²/(t² + α ℓ²); 0.35 is α
-/// = 0.1 for isotropic sheets). The change vanishes with the element size, and constant bending has no shear.
+/// and 1, along η at ξ = −1 and 1 ([DB84]). They have the factor √(φ/(φ + 0.35)) with φ = 12 D_ss/(As_ss ℓ²), ℓ the
+/// shortest edge. So the sheet's shear stiffness is in series with a residual flexibility of bending ([LSV93]: t²/(t² +
+/// α ℓ²); 0.35 is α = 0.1 for isotropic sheets). The change vanishes with the element size, and constant bending has no
+/// shear.
 Eigen::Matrix<double, 4, 12> edge_shear(const Eigen::Matrix<double, 2, 4>& corner, const Eigen::Matrix3d& D,
                                         const Eigen::Matrix2d& As) {
   constexpr double residual = 0.35;
