@@ -116,7 +116,7 @@ std::string times_text(const Phases& phases) {
   return text;
 }
 
-/// "companion.h5 (1.2 MB: second order of 24 coordinates, 9 rows of trapped stress, load cases gust, weight)".
+/// Text "companion.h5 (1.2 MB: second order of 24 coordinates, 9 rows of trapped stress, load cases gust, weight)".
 std::string companion_text(const formats::Companion& companion, const std::string& path) {
   std::vector<std::string> holds, cases;
   if (companion.has_second_order()) holds.push_back(fmt::format("second order of {} coordinates", companion.S1.cols()));

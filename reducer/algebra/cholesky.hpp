@@ -32,7 +32,7 @@ class Cholesky {
   /// positive definite (no factor exists then) and negative if the memory does not suffice.
   double factor();
 
-  /// A⁻¹ B. Each column of the result is independent of the other columns, to the last bit.
+  /// Solution A⁻¹ B. Each column of the result is independent of the other columns, to the last bit.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
 
  private:

@@ -38,7 +38,7 @@ class Factor {
 
   /// Sets a function that receives the number of columns when a solution begins, and 0 when it ends (for timing).
   void tell_solutions(std::function<void(int)> heard) { heard_ = std::move(heard); }
-  /// A⁻¹ B. Only if null() is 0.
+  /// Solution A⁻¹ B. Only if null() is 0.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
   /// A basis of the null space (n x null()).
   Eigen::MatrixXd null_vectors() const;

@@ -26,7 +26,7 @@ class Mumps {
   int negative() const { return negative_; }
   int null() const { return null_; }
 
-  /// A⁻¹ B. Only if null() is 0.
+  /// Solution A⁻¹ B. Only if null() is 0.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
   /// Vector k of a basis of the null space, k < null().
   Eigen::VectorXd null_vector(int k) const;

@@ -58,19 +58,19 @@ SymmetricRows symmetric_rows(const Matrix& A);
 /// View of columns as a dense PETSc matrix, spread by rows like the square matrix `A`. The values must outlive it.
 Matrix dense_view(_p_Mat* A, Eigen::Index columns, const double* values);
 
-/// A X for symmetric A (n x n) and dense X (n x k).
+/// Product A X for symmetric A (n x n) and dense X (n x k).
 Eigen::MatrixXd multiply(const Matrix& A, const Eigen::MatrixXd& X);
 
-/// diag(A).
+/// Diagonal of A.
 Eigen::VectorXd diagonal(const Matrix& A);
 
-/// A as a dense matrix, both triangles.
+/// Copy of A as a dense matrix, both triangles.
 Eigen::MatrixXd dense(const Matrix& A);
 
-/// diag(d) A diag(d).
+/// Product diag(d) A diag(d).
 Matrix scaled(const Matrix& A, const Eigen::VectorXd& d);
 
-/// A + factor B. The pattern of B lies within that of A or is added to it.
+/// Sum A + factor B. The pattern of B lies within that of A or is added to it.
 Matrix combine(const Matrix& A, double factor, const Matrix& B);
 
 }  // namespace tisserand::reducer

@@ -47,7 +47,7 @@ Eigen::MatrixXd gather_rows(const Eigen::MatrixXd& part, int rows);
 /// Collective: the leader's symmetric matrix, spread by rows. Followers pass an empty one.
 Matrix spread(const SymmetricRows& A);
 
-/// Collective: A X for a matrix from spread(). X and the result hold the rows of this rank.
+/// Collective: product A X for a matrix from spread(). X and the result hold the rows of this rank.
 Eigen::MatrixXd multiply_rows(const Matrix& A, const Eigen::MatrixXd& X);
 
 /// Sends values from a follower to the leader, in as many messages as necessary.

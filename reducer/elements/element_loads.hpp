@@ -21,13 +21,13 @@ Eigen::Matrix<double, 12, 1> beam_end_load(const Mesh& mesh, const BeamElement& 
 /// Load on the nodes in part axes; otherwise as beam_end_load().
 Eigen::Matrix<double, 12, 1> beam_node_load(const Mesh& mesh, const BeamElement& beam, const BeamLoad& load);
 
-/// −p ∫ N_i n dA for each corner of a shell, on the surface through its nodes: 3 x corners, part axes. N_i are linear
-/// or bilinear and give no moments, so plates deflect like a sheet between the nodes (DECISIONS.md discusses moments of
-/// curved edges).
+/// Pressure forces −p ∫ N_i n dA on each corner of a shell, on the surface through its nodes: 3 x corners, part axes.
+/// N_i are linear or bilinear and give no moments, so plates deflect like a sheet between the nodes (DECISIONS.md
+/// discusses moments of curved edges).
 Eigen::Matrix3Xd shell_pressure_load(const Mesh& mesh, const ShellElement& shell, double pressure);
 
-/// −p ∫ N_i n dA on a face of three, four, six or eight nodes, n outward (FacePressure): 3 x count. The integral is
-/// exact because n dA is a polynomial.
+/// Pressure forces −p ∫ N_i n dA on a face of three, four, six or eight nodes, n outward (FacePressure): 3 x count. The
+/// integral is exact because n dA is a polynomial.
 Eigen::Matrix3Xd face_pressure_load(const Mesh& mesh, const FacePressure& face);
 
 /// Forces on the nodes of an edge with linear or quadratic shape functions: 3 x count.

@@ -16,7 +16,7 @@
 
 namespace tisserand::reducer {
 
-/// E2[stress] += coefficient g[first] g[second].
+/// Term of E2: E2[stress] += coefficient g[first] g[second].
 struct QuadraticTerm {
   int stress = 0;
   int first = 0;
@@ -42,9 +42,9 @@ const QuadraticPattern& turned_point();
 /// Green's strain of a point: stress [xx yy zz xy yz zx], gradients ∂u_i/∂x_k at 3 k + i; E2_kl = ½ Σ_i u_i,k u_i,l.
 const QuadraticPattern& green_strain();
 
-/// Beam at a point of its axis, element axes: stress [n; m; W], gradients u', ψ, ψ'. Second order of Rᵀ x' − e₁ and of the
-/// material curvature for the rotation vector ψ: E2_n = u' × ψ + ½ (ψ ψ₁ − e₁ |ψ|²), E2_m = ½ ψ' × ψ. W = ∫σ |r − s|² dA on
-/// the elongation of fibres by twist, E2_W = ½ ψ₁'² (Wagner).
+/// Beam at a point of its axis, element axes: stress [n; m; W], gradients u', rotation vector ψ, and ψ'. Second order
+/// of Rᵀ x' − e₁ and of the material curvature: E2_n = u' × ψ + ½ (ψ ψ₁ − e₁ |ψ|²), E2_m = ½ ψ' × ψ. W = ∫σ |r − s|² dA
+/// on the elongation of fibres by twist, E2_W = ½ ψ₁'² (Wagner).
 const QuadraticPattern& beam_point();
 
 /// Mean membrane forces [xx yy xy] of a shell on the variation of its rotations over the element at `points` points.

@@ -34,7 +34,7 @@ struct BushingPlace {
 /// symmetric, and may have couplings. Rigid motions are exact if both arms end at the same point.
 Eigen::Matrix<double, 12, 12> bushing(const Eigen::Matrix<double, 6, 6>& K_B, const BushingPlace& place);
 
-/// max |K R| / max |K| with R the six rigid motions of two nodes at this distance, rotations about their middle.
+/// Ratio max |K R| / max |K| with R the six rigid motions of two nodes at this distance, rotations about their middle.
 /// Lengths are in units of the distance (1 if it is 0), so the number has no unit. About 0 (round-off): the spring lets
 /// the part float. About 1: it holds the part against the ground, which a superelement must not contain.
 double rigid_motion_defect(const Eigen::Matrix<double, 12, 12>& K, const Eigen::Vector3d& first_to_second);

@@ -101,7 +101,7 @@ void turning_mass(const MovingMass& mass, const Eigen::Vector3d& reference, Turn
 /// holds the rows of its coordinates. No mass moves while the nodes are held.
 void turning_mass(const Eigen::MatrixXd& M, const Eigen::MatrixXd& D, TurningMass& out);
 
-/// Second derivative by θ of f·½ θ × (θ × c).
+/// Matrix of second derivatives by θ of f·½ θ × (θ × c).
 Eigen::Matrix3d arm_form(const Eigen::Vector3d& f, const Eigen::Vector3d& c);
 
 }  // namespace tisserand::reducer

@@ -16,7 +16,7 @@ class FullShapes {
   explicit FullShapes(const ReducedPart& part);
 
   Eigen::Index coordinates() const { return n_B_ + internal_.Phi.cols(); }
-  /// [translation; rotation] of each node in part axes: (6 nodes) x coordinates; zero rotations where it has none.
+  /// [translation; rotation] of each node in part axes: (6 nodes) x coordinates; zero for missing rotations.
   Eigen::MatrixXd motions(const std::vector<int>& nodes) const;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace tisserand::reducer {
 
-/// `p` with the internal coordinates `pins` after those of the boundary: the remaining inside is stiff.
+/// Partition `p` with the internal coordinates `pins` after those of the boundary: the remaining inside is stiff.
 Partition pinned(const Partition& p, const std::vector<int>& pins);
 
 /// Converts a reduction of the pinned part (n_B + k boundary coordinates, the last k of them pins) to that of the part
@@ -18,8 +18,8 @@ Partition pinned(const Partition& p, const std::vector<int>& pins);
 void release_pins(const InternalProblem& problem, const std::vector<int>& pins, BoundaryModes& boundary,
                   InternalModes& internal);
 
-/// x = S_II⁺ f with xᵀ M_II N = 0 for forces f − M_II N Nᵀ f, which do no work on N. `problem.S_II` is the factor of
-/// the pinned part. Without a mechanism x is S_II⁻¹ f.
+/// Static answer x = S_II⁺ f with xᵀ M_II N = 0 for forces f − M_II N Nᵀ f, which do no work on N. `problem.S_II` is
+/// the factor of the pinned part. Without a mechanism x is S_II⁻¹ f.
 Eigen::MatrixXd static_answers(const InternalProblem& problem, const InternalModes& internal, const Eigen::MatrixXd& f);
 
 }  // namespace tisserand::reducer

@@ -1,4 +1,4 @@
-// Lowest eigenpairs of S x = λ M x, S positive definite after a shift, M positive semidefinite; none missed.
+// Lowest eigenpairs of S x = λ M x without a gap, S positive definite after a shift, M positive semidefinite.
 #pragma once
 
 #include <optional>

@@ -20,7 +20,7 @@ struct LeftOut {
   Eigen::MatrixXd second;      ///< n_B x p: Uᵀ M_II W
   Eigen::MatrixXd third;       ///< p x p: Wᵀ M_II S_II⁻¹ M_II W
 
-  /// R(λ) of truncation_errors(), which is G without Ritz vectors.
+  /// Residual flexibility R(λ) of truncation_errors(), which is G without Ritz vectors.
   Eigen::MatrixXd residual(double lambda) const;
 };
 

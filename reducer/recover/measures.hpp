@@ -37,10 +37,10 @@ bool has_stress(const formats::Recovery& recovery, int beam);
 /// Larger and smaller principal stress of [xx yy xy] in the plane.
 Eigen::Vector2d plane_principal(const Eigen::Vector3d& stress);
 
-/// √(s_xx² − s_xx s_yy + s_yy² + 3 s_xy²) of [xx yy xy].
+/// Von Mises stress √(s_xx² − s_xx s_yy + s_yy² + 3 s_xy²) of [xx yy xy].
 double plane_von_mises(const Eigen::Vector3d& stress);
 
-/// √(½[(s_xx−s_yy)² + (s_yy−s_zz)² + (s_zz−s_xx)²] + 3(s_xy² + s_yz² + s_zx²)) of [xx yy zz xy yz zx].
+/// Von Mises stress √(½[(xx−yy)² + (yy−zz)² + (zz−xx)²] + 3(xy² + yz² + zx²)) of [xx yy zz xy yz zx].
 double von_mises(const Eigen::Matrix<double, 6, 1>& stress);
 
 /// Normal stresses on the outline of a section for [N Vy Vz Mx My Mz] about the axis (RECOVERY.md); 0 without an area.

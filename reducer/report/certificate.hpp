@@ -125,7 +125,7 @@ Eigen::Vector3d shown_centre(const formats::RigidProperties& rigid, double lengt
 std::string certificate_text(const formats::Superelement& element, const FileCertificate& file,
                              const std::optional<ModelCertificate>& model);
 
-/// Frequency [1/time] of an eigenvalue ω²; 0 where round-off has made it negative.
+/// Frequency [1/time] of an eigenvalue ω²; 0 if round-off has made it negative.
 double frequency(double lambda);
 
 }  // namespace tisserand::reducer

@@ -7,7 +7,7 @@
 
 namespace tisserand::reducer {
 
-/// z = P y, y = Z z: shapes with the strain energy ½ zᵀz, the lowest last.
+/// Shapes with the strain energy ½ zᵀz, the lowest last: z = P y, y = Z z.
 struct FreeShapes {
   Eigen::MatrixXd Z;      ///< n x p
   Eigen::MatrixXd P;      ///< p x n, P R = 0

@@ -1,4 +1,4 @@
-// `reducer solve`: statics and modes of the unreduced part on its supports.
+// `reducer solve`: statics, modes and buckling of the unreduced part on its supports.
 #pragma once
 
 #include <optional>
@@ -38,7 +38,7 @@ Solution solve(const formats::Part& part, const SolveRequest& request, const Pha
 /// Solves a mesh with its supports and load cases; `part` gives name, units and the file for messages.
 Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& request, const PhaseListener& begin);
 
-/// [translation; rotation] of every node for states q of the system: (6 nodes) x columns, part axes.
+/// Motions [translation; rotation] of every node for states q of the system: (6 nodes) x columns, part axes.
 Eigen::MatrixXd node_motions(const System& system, const Eigen::MatrixXd& q);
 
 /// First of the columns of largest norm within `round_off` of it: by symmetry there may be several.

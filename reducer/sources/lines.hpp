@@ -9,7 +9,7 @@
 
 namespace tisserand::reducer {
 
-/// X(s), s in [0, 1] at constant speed: a straight line, or a circular arc center + r (cos(s angle) e1 + sin(s angle)
+/// Curve X(s), s in [0, 1] at constant speed: a straight line, or an arc center + r (cos(s angle) e1 + sin(s angle)
 /// e2).
 struct Curve {
   Eigen::Vector3d from, to;

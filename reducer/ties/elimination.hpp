@@ -9,7 +9,7 @@
 
 namespace tisserand::reducer {
 
-/// x = T q: a coordinate x is one of q, or a sum over q.
+/// Transformation x = T q: a coordinate x is one of q, or a sum over q.
 struct Transformation {
   int independent = 0;                       ///< number of q; ascending with x
   std::vector<int> row;                      ///< of each x: its q, or −1 − (row of `dependent`)
@@ -35,10 +35,10 @@ using CoordinateNames = std::function<std::string(int coordinate)>;
 Elimination eliminate(const TieSystem& ties, const std::vector<int>& boundary, const CoordinateNames& name,
                       const std::string& where);
 
-/// T q: values of x (one column per column of q).
+/// Values x = T q (one column per column of q).
 Eigen::MatrixXd expand(const Transformation& T, const Eigen::MatrixXd& q);
 
-/// Tᵀ f: forces on q that do the work of forces on x (missing last rows of f are 0).
+/// Forces Tᵀ f on q that do the work of forces f on x (missing last rows of f are 0).
 Eigen::MatrixXd gather(const Transformation& T, const Eigen::MatrixXd& f);
 
 }  // namespace tisserand::reducer

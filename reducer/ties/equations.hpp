@@ -17,7 +17,7 @@ struct Term {
   double coefficient = 0.0;
 };
 
-/// Σ coefficient x(coordinate) = 0.
+/// Equation Σ coefficient x(coordinate) = 0.
 struct LinearEquation {
   std::vector<Term> terms;
   int preferred = -1;    ///< made dependent unless its coefficient is small relative to another one

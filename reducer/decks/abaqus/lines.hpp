@@ -17,7 +17,7 @@ struct Line {
   std::uint32_t number = 0;
 };
 
-/// REF NODE=7 is {"REFNODE", "7"}.
+/// Parameter of a keyword line; REF NODE=7 is {"REFNODE", "7"}.
 struct Parameter {
   std::string name;   ///< upper case without blanks
   std::string value;  ///< as written, without quotes and surrounding blanks
@@ -32,7 +32,7 @@ struct Block {
   std::uint32_t file = 0;
   std::uint32_t line = 0;
 
-  /// Value of a parameter ("" if it stands alone), nullptr if absent.
+  /// Value of a parameter ("" if it has none), nullptr if absent.
   const std::string* find(std::string_view name) const;
   /// Value in lower case, "" if absent: for names of sets, materials, parts.
   std::string name_of(std::string_view parameter) const;

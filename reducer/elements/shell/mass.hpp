@@ -10,18 +10,18 @@
 
 namespace tisserand::reducer {
 
-/// ∫ρ|v|² with v = u + z θ × ẑ. u is bilinear (linear in a triangle) plus a bulge of each edge, ½ s(1−s) d × (θ_j −
-/// θ_i), by the difference of the rotations at its ends. In the plane these are Allman's edges ([All84]), which give
-/// the drilling rotations the inertia of the material that they move. Across it they make the deflection of constant
-/// curvature exact. Equal rotations make no bulge, so mass, first moments and inertia of rigid motions are exact. M is
-/// positive semidefinite: a field of equal drilling rotations alone has no inertia. Coordinates [u v w θx θy θz] per
-/// corner at the node (offset 0: the middle surface).
+/// Consistent mass by ∫ρ|v|² with v = u + z θ × ẑ. u is bilinear (linear in a triangle) plus a bulge of each edge, ½
+/// s(1−s) d × (θ_j − θ_i), by the difference of the rotations at its ends. In the plane these are Allman's edges
+/// ([All84]), which give the drilling rotations the inertia of the material that they move. Across it they make the
+/// deflection of constant curvature exact. Equal rotations make no bulge, so mass, first moments and inertia of rigid
+/// motions are exact. M is positive semidefinite: a field of equal drilling rotations alone has no inertia. Coordinates
+/// [u v w θx θy θz] per corner at the node (offset 0: the middle surface).
 template <int Corners>
 Eigen::Matrix<double, 6 * Corners, 6 * Corners> consistent_shell_mass(const ShellGeometry<Corners>& geometry,
                                                                       const ShellSection& section);
 
-/// Mass of ∫ N_i dA at each corner, and rotary inertia ∫ρz²dz ∫ N_i dA about all three axes. That about the normal
-/// keeps M positive definite, and diagonal in any axes. Its share of the body's inertia is below (t/size)².
+/// Lumped mass of ∫ N_i dA at each corner, and rotary inertia ∫ρz²dz ∫ N_i dA about all three axes. That about the
+/// normal keeps M positive definite, and diagonal in any axes. Its share of the body's inertia is below (t/size)².
 template <int Corners>
 Eigen::Matrix<double, 6 * Corners, 6 * Corners> lumped_shell_mass(const ShellGeometry<Corners>& geometry,
                                                                   const ShellSection& section);

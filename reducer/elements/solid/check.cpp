@@ -13,7 +13,7 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr double collapsed_volume = 1e-9;  ///< volume / (longest edge)³ below which an element has no inside
+constexpr double collapsed_volume = 1e-9;  ///< volume / (longest edge)³ below which an element has no volume
 constexpr double sliver_quality = 0.02;    ///< 6√2 volume / (longest edge)³ of a tetrahedron; 1 if regular
 constexpr double long_aspect = 100.0;      ///< longest edge / shortest edge
 constexpr double uneven_jacobian = 0.1;    ///< smallest Jacobian / mean Jacobian
