@@ -45,7 +45,7 @@ struct BeamField {
   double weight = 0.0;                    ///< weight of the integral along the beam
   Eigen::Matrix<double, 6, 12> motion;    ///< [u; θ] of the axis
   Eigen::Matrix<double, 6, 12> gradient;  ///< derivative of `motion` along the axis
-  /// ∫σ |r − s|² dA, s the shear centre: work of the normal stress on the elongation of fibres by twist (Wagner).
+  /// ∫σ |r − s|² dA, s the shear centre: resultant of the normal stress that works on elongation by twist (Wagner).
   Eigen::Matrix<double, 1, 12> wagner;
   Eigen::Matrix<double, 6, 12> force;     ///< F = [N Qy Qz Mx My Mz] about the axis, in equilibrium with the ends
 };
