@@ -90,8 +90,9 @@ std::string plot(const std::vector<Series>& series, const PlotOptions& options) 
   check_something_is_seen(series, options);
   (void)canvas_of(options.output, options.size, options.font, 1,
                   0);  // throws Error for another ending before anything else happens
-  write_text_file(options.output, with_producer(gnuplot_picture(gnuplot_script(series, options), options.output),
-                                                producer("mechanism")));
+  write_text_file(
+      options.output,
+      formats::with_producer(gnuplot_picture(gnuplot_script(series, options), options.output), producer("mechanism")));
   return told(series, options);
 }
 
