@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every library of the project as a dep::<name> target. The packages are listed in packages.txt.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)

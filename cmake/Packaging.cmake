@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What `cmake --install` puts where, and the Debian packages of it: tisserand-mechanism, tisserand-reducer, and tisserand with
 # both. Each is a component. Below share/doc/tisserand and share/tisserand the folders are those of the sources, so that links
 # between pages and the paths of examples hold where all three are installed.

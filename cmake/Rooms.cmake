@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # tisserand_rooms(target): one translation unit per folder ("room"). Headers of templates are then parsed and instances made
 # once per room, not once per file: a first build takes three quarters of the time and less. While you edit, -DTISSERAND_UNITY=OFF compiles
 # only the files that changed. Folders named after the target compile file by file.

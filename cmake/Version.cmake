@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What `--version` prints: the version of the project, the commit, and what a program is built with.
 
 # header_version(variable header regex...): for a library that tells its version to neither CMake nor pkg-config, the captures

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Flags of every target of the project (tisserand_options). The processor flags are
 # here too: Eigen's alignment follows from them, so they must be the same in every translation unit.
 add_library(tisserand_options INTERFACE)

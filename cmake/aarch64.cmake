@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Toolchain file: programs for 64-bit ARM Linux, compiled by clang on another machine.
 # SYSROOT is a folder with Debian's arm64 libraries and headers, as scripts/cross_aarch64 makes it.
 set(CMAKE_SYSTEM_NAME Linux)

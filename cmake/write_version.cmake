@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -Doutput= -Dfirst= -Dcompiler= -Dlibraries= -P write_version.cmake: writes the source of version_text(), if it changes.
 # The commit comes from git, else from commit.txt, into which `git archive` writes it.
 execute_process(COMMAND git describe --always --abbrev=12 --dirty=\ and\ changes --exclude=* OUTPUT_VARIABLE commit

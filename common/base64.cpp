@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Encoder and decoder of Base64: three bytes become four letters of six bits each.
 #include "common/base64.hpp"
 

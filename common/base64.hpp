@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Base64: bytes written as text (RFC 4648).
 #pragma once
 

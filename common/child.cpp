@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Starts a child process (fork, exec), waits for it and reads its output.
 #include "common/child.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs another program as a child process without a shell, limits its time, and returns its output and processor time.
 #pragma once
 

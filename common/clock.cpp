@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads the steady clock of the library and the processor time of the system.
 #include "common/clock.hpp"
 

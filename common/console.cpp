@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Output and error messages on the terminal.
 #include "common/console.hpp"
 

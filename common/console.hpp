@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Standard output that may be closed or full, messages on the terminal, and messages about unknown words.
 #pragma once
 

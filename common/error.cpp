@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Text of single and merged errors.
 #include "common/error.hpp"
 

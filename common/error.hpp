@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The exception type of Tisserand: a fault of the input or the system, which main() reports once.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sends a script to the standard input of gnuplot and reads the picture from its standard output.
 #include "common/gnuplot.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures that gnuplot draws as a child process.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The signal handler wakes a thread through a pipe. That thread may take locks and write, a handler may not.
 #include "common/interrupts.hpp"
 

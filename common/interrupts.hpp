@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Clean end of a program on Ctrl-C: no file is left incomplete, and a line reports it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks the path of an output before the work for it begins.
 #include "common/output_path.hpp"
 

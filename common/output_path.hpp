@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of output paths from the command line, made before anything is computed or lost.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loops over a range in consecutive shares, one share per thread.
 #pragma once
 

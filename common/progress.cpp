@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Progress lines for terminals and log files.
 #include "common/progress.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A progress line on standard error for work that takes longer than a second.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // SHA-256 by OpenSSL's functions for this digest. The EVP interface would initialise the whole library (all algorithms,
 // a configuration file), which costs 2 ms per run.
 #include "common/sha256.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // SHA-256 of byte sequences, which identifies superelements (content_id) and inputs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stable sorting of objects of any alignment.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Temporary files that are renamed together.
 #include "common/staged_files.hpp"
 

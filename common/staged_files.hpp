@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Publishes the files of one result together: all are written under temporary names, then renamed.
 #pragma once
 

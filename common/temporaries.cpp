@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The set of temporary files of this process.
 #include "common/temporaries.hpp"
 

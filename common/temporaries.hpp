@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // List of temporary files, which an interrupt removes.
 #pragma once
 

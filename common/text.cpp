@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Edit distance, wildcards, printable text, and files that are written under a temporary name and renamed.
 #include "common/text.hpp"
 

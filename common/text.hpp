@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Text helpers of readers and writers: nearest key, lists, printable text, files that appear complete or not at all.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Known units, conversion factors, and labels such as "N" or "kg mm s^-2".
 #include "common/units.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Units of length, mass and time of a file or scene, as factors to SI with a label.
 #pragma once
 

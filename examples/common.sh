@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What the `run` scripts of the examples share: arguments, runs with their cost, rows of tables. Sourced by them.
 
 fail() {

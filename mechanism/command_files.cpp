@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Default file names from the stems of given names; results file of a restarted run.
 #include "mechanism/command_files.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Texts of `mechanism --help` and of the help of each command.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Options and actions of the commands channels, export, plot and compare.
 #include "mechanism/history_commands.hpp"
 

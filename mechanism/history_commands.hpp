@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Commands that read results files and draw, compare or list channels: channels, export, plot, compare.
 #pragma once
 

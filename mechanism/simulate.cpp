@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sequence of calls of one run: scene -> model -> start -> steps -> results.
 #include "mechanism/simulate.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Replacement of mmap that ends the program if OpenBLAS repeats its request for 128 MB for ever when memory is short.
 // OpenBLAS finds it first, since the program precedes the C library in the search for symbols.
 #include <sys/mman.h>

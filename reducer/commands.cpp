@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Commands of stage 1: read, work, write, report.
 #include "reducer/commands.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Arguments of the command line, passed from main() to the commands.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loop of a follower over the calls of the leader.
 #include "reducer/follow.hpp"
 

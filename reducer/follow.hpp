@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Work of the processes that mpirun starts in addition to the first: they follow the calls of the leader.
 #pragma once
 

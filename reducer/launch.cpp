@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fast front program: sets the environment that the solver's libraries read while they are loaded, then replaces itself
 // by the solver.
 #include <unistd.h>

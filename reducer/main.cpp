@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The command line of stage 1: reducer run, solve, show, mesh, groups, import, export. It is linked into both the fast
 // front program and the solver.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stage 1 in the order of the data: part -> mesh -> S, M -> modes -> superelement.
 #include "reducer/reduce.hpp"
 

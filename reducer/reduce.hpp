@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stage 1: from a part to its superelement and certificate.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Environment variables for OpenBLAS and Open MPI, and the folder of the program.
 #include "reducer/startup.hpp"
 

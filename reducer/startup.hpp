@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Environment of the process, prepared before the solver's libraries are loaded.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The unit of scripts/build_minutes: the time to compile this file counts as 1. It uses the standard library and Eigen
 // alone, with fixed flags and no precompiled header, and is in no program. Do not change it: every figure of the
 // budget is a multiple of its time.

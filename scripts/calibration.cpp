@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A fixed piece of work for scripts/readme_times: products of small matrices and walks through 8 MB, as in a run of a
 // mechanism. Prints its processor seconds, the median of five. Nothing here changes with the project.
 #include <algorithm>

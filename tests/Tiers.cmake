@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Tests by tiers: entries of ctest from the table tests/tiers.txt. The label of an entry is its tier.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/tiers.txt)
 set(tisserand_tiers quick check faults verification)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The main function of all test programs. It keeps a journal: a line when a test starts, and one when it ends, with its
 // result, its seconds of processor and of wall time, and why it was skipped. scripts/run_tests counts tests by it and
 // names the test in which a program crashed; scripts/test_times takes the seconds from it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Builds the viewer into one HTML file: script, style and licences inlined, both named in the policy of the page by their hashes.
 // Arguments: file to write (dist/view.html), and beside it LICENSES. scripts/bundle_viewer calls it.
 import { createHash } from "node:crypto";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Translates the rules to instructions of the kernel's packet filter, which reads struct seccomp_data.
 #include "common/confined/call_filter.hpp"
 

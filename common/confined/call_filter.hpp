@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Restricts the system calls of this process by seccomp, without a library.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Serialises data for another process on this machine. The reader checks everything, since a harmful file may have
 // taken control of the process that sent the bytes.
 #pragma once

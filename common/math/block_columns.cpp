@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Finds the blocks of columns of a matrix that are not zero.
 #include "common/math/block_columns.hpp"
 

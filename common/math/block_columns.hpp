@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sparse storage of a constant matrix by columns, and its products with vectors of any scalar.
 #pragma once
 

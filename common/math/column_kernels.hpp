@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Column operations on small dense matrices with a fixed or free number of rows, used by the superelement tangent.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Size of a container as `int`, the type of all indices of nodes, elements and coordinates.
 #pragma once
 

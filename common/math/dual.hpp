@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Forward dual number with one derivative, and the scalar functions that kernels need for double, Dual and complex.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Expressions of Eigen that most files use. The precompiled header of clang includes this file, so that they are
 // instantiated once. No file needs to include it.
 #pragma once

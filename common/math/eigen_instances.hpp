@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Explicit instances of Eigen's costly templates for real matrices of any size: products, factorisations.
 //
 // No file needs to include this. The precompiled headers bring it to every file (tisserand_precompile in

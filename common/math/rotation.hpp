@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rotations: skew matrices, exponential, logarithm and their tangents on SO(3), for every scalar that kernels use.
 //
 // Conventions (CONVENTIONS.md): R maps body axes to world axes; increments are material (right): δR = R skew(δΘ),

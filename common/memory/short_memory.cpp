@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A reserve of memory, and signal handlers that check whether memory is left.
 #include "common/memory/short_memory.hpp"
 

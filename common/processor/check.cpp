@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The first code of each program: if the processor lacks a feature that the program was compiled for, it prints a
 // message instead of crashing by an illegal instruction. It is compiled for plain x86-64 without the standard library,
 // so that it shares no function with units that need more.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Processor features that the flags of the program let the compiler use. Compiled with these flags; data only, no code.
 #include "common/processor/requirements.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Processor features that the compiler was allowed to use. check.cpp reads them before anything else runs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Program name and version, as `--version` prints and every written file stores them.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Motions of examples/inertia_options: their beams, scenes and what is measured of them. Sourced by `run` and `one_against_pieces`.
 
 # Beam of each motion: length, radius, Young's modulus, density.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What run and tables share: the files of the chassis, and one run of the car.
 part="$root/examples/chassis/chassis.part.yaml"
 [ -f "$part" ] || part="$example/../chassis/chassis.part.yaml"  # installed

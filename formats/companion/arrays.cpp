@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Symmetric matrices to and from HDF5. Sizes are checked before memory is allocated.
 #include "formats/companion/arrays.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Conversion of the arrays of companion files to and from HDF5: symmetric ones as upper triangles or whole.
 #pragma once
 

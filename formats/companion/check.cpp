@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // check(): all rules of COMPANION.md for the contents of a companion, in the order of that page.
 #include <cmath>
 

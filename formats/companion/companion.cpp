@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads and writes *.companion.h5 files, and computes the identity of their content.
 #include "formats/companion/companion.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The companion file *.companion.h5: terms beyond S̄ and M̄ in the equations of motion of a superelement. It names the
 // superelement by content_id (formats/COMPANION.md).
 #pragma once

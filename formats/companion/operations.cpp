@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Operations on companions, by identities between their arrays.
 #include "formats/companion/operations.hpp"
 

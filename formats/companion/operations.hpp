@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Operations on a companion after reading: selection of modes, form, reference point, units, mirror image.
 //
 // They use the definitions of the arrays only (formats/COMPANION.md, "Operations") and do not read the file. Rows are

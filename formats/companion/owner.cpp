@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads the attributes that identify a companion file.
 #include "formats/companion/owner.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Identification of a companion file, before its data are used.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sums of H over rigid motions, and their removal from H.
 #include "formats/companion/rigid_stress.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stress of rigid motions in the array H of a companion, which is zero except for round-off.
 #pragma once
 

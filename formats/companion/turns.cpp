@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Second order of rotary inertia that companion files of former versions lack.
 #include <vector>
 

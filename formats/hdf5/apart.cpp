@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The reading child: fork, sandbox, requests. Small messages use a socket, answers use shared memory.
 #include "formats/hdf5/apart.hpp"
 

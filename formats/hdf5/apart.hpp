@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The sandboxed process that reads a file with HDF5 and may only compute: no paths, no network, no programs. A damaged
 // or crafted file can make HDF5 crash, loop or run foreign code; here that harms nothing.
 #pragma once

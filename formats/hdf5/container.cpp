@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads untrusted HDF5 files: inspects and checks each object before memory is allocated for its data.
 #include "formats/hdf5/container.hpp"
 

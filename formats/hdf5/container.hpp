@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A file as HDF5 reads it. A damaged or crafted file can exploit HDF5 1.10, so only the process of apart.hpp uses this.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A driver of HDF5's virtual file layer that reads by pread() and writes into memory.
 #include "formats/hdf5/descriptor_driver.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // HDF5 access to a file that is already open, for a sandbox in which no file can be opened.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Requests and answers between a program and its reading process.
 #include "formats/hdf5/entry.hpp"
 

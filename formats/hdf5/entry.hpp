@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plain descriptions of the objects of a file, sent from the process that reads with HDF5.
 #pragma once
 

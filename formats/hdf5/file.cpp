@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads untrusted HDF5 files: asks for descriptions and checks them before memory is allocated.
 #include "formats/hdf5/file.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reading and writing of HDF5 files. Every read is limited, typed and checked before memory is allocated. Every failure
 // throws Error.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads, checks and writes format, version and units of a file.
 #include "formats/hdf5/head.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The head of every binary file of this project: format, version and units.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Chunks of rows with shuffle, deflate and Fletcher's checksum over the compressed bytes.
 #include "formats/hdf5/packed.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Large arrays of 32-bit numbers in files on disk: chunked, compressed, with checksums, read and written by rows.
 #pragma once
 

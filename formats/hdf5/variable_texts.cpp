@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads references by a registered type conversion, and the global heap by its specification (HDF5 File Format, III.E).
 #include "formats/hdf5/variable_texts.hpp"
 

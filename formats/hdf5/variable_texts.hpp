@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads texts of variable length without HDF5. HDF5 1.10.8 (H5HG_read) copies as many bytes as the heap states into
 // a buffer of the length that the reference states, so a crafted file can overflow it.
 #pragma once

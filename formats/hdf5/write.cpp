@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes HDF5 objects, and composes files in memory so that they appear on disk complete or not at all.
 #include <hdf5.h>
 

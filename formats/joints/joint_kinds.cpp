@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Table of the kinds of joints and of the keys that a scene may give for each.
 #include "formats/joints/joint_kinds.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The kinds of joints in scene.yaml: one row with all that a scene may give for a kind. The equations of a kind are in
 // the mechanism. mechanism/MAP.md explains where to add a new kind.
 #pragma once

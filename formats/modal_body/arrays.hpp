@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // List of the numerical arrays of a modal body file, shared by its reader, writer and checks.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // check(): all rules of MODAL_BODY.md for the contents of a modal body, in the order of that page.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads and writes *.modal.h5 files.
 #include "formats/modal_body/modal_body.hpp"
 

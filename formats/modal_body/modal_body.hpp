@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The modal body file *.modal.h5: lumped masses, modes and inertia integrals of a floating-frame body
 // (formats/MODAL_BODY.md, [GA00] (1)-(16)).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Computes singular vectors from the two Gram matrices, which are as small as the number of coordinates.
 #include "formats/page/deformation.hpp"
 

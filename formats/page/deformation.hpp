@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Deformation of a shape over time as few modes and amplitudes: singular vectors of the states of the run.
 #pragma once
 

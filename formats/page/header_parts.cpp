@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes surfaces and units as objects of the header.
 #include "formats/page/header_parts.hpp"
 

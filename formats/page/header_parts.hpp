@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Objects of the header that pages of runs and pages of parts share (formats/PAGE.md).
 #pragma once
 

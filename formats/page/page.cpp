@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Composes the HTML page from header and blocks.
 #include "formats/page/page.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The HTML page: the bundle of the viewer with header and blocks inserted.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Packs numbers as differences between rows in byte planes, compressed by zlib.
 #include "formats/page/page_blocks.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers of a page, quantised and compressed into blocks, and their references in the header (formats/PAGE.md).
 #pragma once
 

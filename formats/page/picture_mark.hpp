@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes the name of the producing program into picture files.
 #pragma once
 

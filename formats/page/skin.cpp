@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Visible surface of a mesh: faces of shells and solids, and beams drawn by their end sections.
 #include "formats/page/skin.hpp"
 

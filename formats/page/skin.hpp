@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Visible surface of the mesh in a recovery file, and its motion by the coordinates of the superelement.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Triangulates the solids of a scene.
 #include "formats/page/surface.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Triangles and lines in body axes: solids of a scene, tubes, swept sections, thinning.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Vertex clustering on a cubic grid.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads beams, point masses, springs, spiders and boundary nodes of part.yaml.
 
 #include "formats/part/reader.hpp"

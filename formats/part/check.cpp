@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks a part: names, references, signs, and geometry of lines.
 #include "formats/part/check.hpp"
 

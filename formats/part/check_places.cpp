@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks a part's mesh file, groups, places, masses, springs and spiders.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks a part's materials, plates, discs, cylinders, extrusions, shells and solids.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // All lists of fields of part.yaml, and the types that they refer to.
 #include "formats/part/fields.hpp"
 

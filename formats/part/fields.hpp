@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The fields of part.yaml, for its readers, schema/part.schema.json and PART.md.
 #pragma once
 

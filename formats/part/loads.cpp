@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads supports and load cases of part.yaml.
 #include "formats/part/loads.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loads and supports of part.yaml, which `reducer solve` uses.
 #pragma once
 

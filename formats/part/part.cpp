@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads part.yaml into the struct Part.
 #include "formats/part/part.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // part.yaml: input of the reducer for meshing and reduction (formats/PART.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Attachment of items of part.yaml: places that become one node, and groups of faces, edges, volumes and nodes.
 #pragma once
 

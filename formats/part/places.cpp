@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads points, places, groups and the mesh file of part.yaml.
 #include <algorithm>
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Functions by which part.cpp reads part.yaml, one for each kind of entry.
 #pragma once
 

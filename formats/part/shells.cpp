@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads materials, plates, discs, cylinders, extrusions, shells and solids of part.yaml.
 #include "formats/part/shells.hpp"
 

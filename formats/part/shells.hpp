@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shells and solids of part.yaml: materials, layouts, groups, and geometry defined in the part file.
 #pragma once
 

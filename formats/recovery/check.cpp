@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks the rules of RECOVERY.md: every index is valid, every number is finite.
 #include <algorithm>
 #include <limits>

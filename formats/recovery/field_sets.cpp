@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names and shapes of the fields of a recovery file.
 #include "formats/recovery/field_sets.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The datasets of a recovery file whose length is that of the mesh: names, shapes, chunks.
 #pragma once
 

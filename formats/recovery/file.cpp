@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads recovery files: tables at once, fields in blocks.
 #include <algorithm>
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Computes the loads that the basis of a superelement misses, from the frames in the results.
 #include "formats/recovery/load_factors.hpp"
 

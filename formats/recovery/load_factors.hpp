@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Factors of the loads of a recovery file at stored instants. Inertia loads follow from the motion of the floating
 // frame; load cases and forces on nodes of modal bodies are read from the results.
 #pragma once

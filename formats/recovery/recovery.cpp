@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sizes of the fields of a recovery file, its name, and its superelement.
 #include "formats/recovery/recovery.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The recovery file *.recovery.h5: mesh, shapes and stresses of a part, which turn the motion of its superelement into
 // displacement and stress everywhere (formats/RECOVERY.md). Equations of motion never use it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Evaluates quadratic forms at instants.
 #include "formats/recovery/second_order.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Second-order displacement in a recovery file: a quadratic form of the coordinates for each shape
 // (formats/RECOVERY.md, second-order displacement).
 #pragma once

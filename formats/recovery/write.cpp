@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes recovery files: tables at once, fields in blocks.
 #include <algorithm>
 

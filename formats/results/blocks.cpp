@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Table of datasets, units and channel names of results files, and the selection from them.
 #include "formats/results/blocks.hpp"
 

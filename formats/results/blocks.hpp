@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Table of the data that a results file stores over time: the only place with datasets, shapes, units and channel
 // names.
 #pragma once

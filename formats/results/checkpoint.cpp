@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes and reads checkpoints.
 #include "formats/results/checkpoint.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checkpoint file *.checkpoint.h5: the state from which a run continues (formats/RESULTS.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exports results as comma-separated text.
 #include <algorithm>
 

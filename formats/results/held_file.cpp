@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Locks results that are being written.
 #include "formats/results/held_file.hpp"
 

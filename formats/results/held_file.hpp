@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The lock on the results of a running program, which protects them from other writers of the same name.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names and offsets of the groups of a results file.
 #include "formats/results/layout_file.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names and offsets of the columns of a results file, written to and read from the file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads channels over time from *.results.h5 files that are complete, partial or still being written.
 #include <algorithm>
 #include <cmath>

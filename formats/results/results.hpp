@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Results file *.results.h5: blocks over time (formats/RESULTS.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sizes of the values of one instant, in memory and in the file.
 #include <algorithm>
 

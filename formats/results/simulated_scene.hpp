@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The simulated scene, as far as pictures of a run need it: its text, its bodies, and the positions of joints and
 // springs.
 #pragma once

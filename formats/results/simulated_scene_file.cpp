@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes and reads the simulated scene in a results file.
 #include "formats/results/simulated_scene_file.hpp"
 

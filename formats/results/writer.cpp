@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes the rows of a running analysis to *.results.h5 so that a killed run leaves a readable file.
 //
 // The file appears as <path>.part when its head is complete. HDF5's single-writer mode then keeps it consistent on

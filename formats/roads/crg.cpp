@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Computes the reference line and the heights from the records of an OpenCRG file.
 #include "formats/roads/crg.hpp"
 

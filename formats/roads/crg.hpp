@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Roads from OpenCRG files in clear text: a grid of heights along a curved reference line.
 #pragma once
 

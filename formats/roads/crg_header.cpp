@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads the sections and keywords of the head of an OpenCRG file.
 #include "formats/roads/crg_header.hpp"
 

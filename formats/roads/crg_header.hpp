@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The head of an OpenCRG file: its parameters, and the meaning of the columns of its data.
 #pragma once
 

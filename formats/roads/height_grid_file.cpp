@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads axes and heights from the lines of a table.
 #include "formats/roads/height_grid_file.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Heights over a rectangular grid from a text table.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks and file access that the readers of roads share.
 #include "formats/roads/road_heights.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Heights of a road on a grid of two coordinates.
 #pragma once
 

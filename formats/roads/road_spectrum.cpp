@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sums the waves of stochastic roads by the recurrence of cosines.
 #include "formats/roads/road_spectrum.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stochastic roads by class and seed, as height tables.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads `analysis` or `analyses` of a scene, with the settings of each one and those that they share.
 #include <algorithm>
 

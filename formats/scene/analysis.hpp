@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Kinds of analyses of a scene and their settings.
 #pragma once
 

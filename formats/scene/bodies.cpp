@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads `bodies` of scene.yaml: superelements, modal bodies, rigid bodies, beams, virtual bodies.
 
 #include "formats/scene/reader.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Entries of `bodies` of a scene: superelements, rigid, virtual and modal bodies, beams.
 #pragma once
 

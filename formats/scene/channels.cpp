@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads and checks `channels` and `inputs` of scene.yaml.
 
 #include "formats/scene/check_parts.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks a scene: names, references to bodies and nodes, ranges of settings.
 #include "formats/scene/check.hpp"
 

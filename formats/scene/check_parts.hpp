@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of the checks of a scene: markers and coordinates that many entries use, and force elements.
 #pragma once
 

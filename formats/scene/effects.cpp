@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads `effects` of scene.yaml: switches of the scene, and of single bodies, joints and springs.
 #include "formats/scene/effects.hpp"
 

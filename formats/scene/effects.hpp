@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Effects of a mechanism, and their switches in a scene (`effects` of scene.yaml).
 #pragma once
 

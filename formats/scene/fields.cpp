@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // All lists of fields of scene.yaml, assemblies and instances, and the types that they refer to.
 #include "formats/scene/fields.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The fields of scene.yaml, for its readers, schema/scene.schema.json and SCENE.md.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads `motions`, `initial`, `springs`, `bushings` and `loads` of scene.yaml.
 #include "formats/scene/reader.hpp"
 #include "formats/scene/time_function_reader.hpp"

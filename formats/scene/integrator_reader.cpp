@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads `integrator`. Keys without effect for the method are errors, and `step: auto` becomes a number.
 #include "formats/scene/integrator_reader.hpp"
 

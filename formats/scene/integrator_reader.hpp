@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads `integrator` of scene.yaml into the struct IntegratorSpec.
 #pragma once
 

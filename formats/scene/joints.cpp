@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads `joints` of scene.yaml, and the markers of joints and forces.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Readers of the parts of scene.yaml, one per key (`bodies`, `joints`, ..., `analyses`).
 #pragma once
 

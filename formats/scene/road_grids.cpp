@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads roads with heights over a grid: their keys and their files.
 
 #include "formats/roads/crg.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads scene.yaml into the struct Scene.
 #include "formats/scene/scene.hpp"
 

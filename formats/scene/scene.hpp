@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // scene.yaml: bodies, joints, loads, analysis and output of a mechanism (formats/SCENE.md).
 #pragma once
 

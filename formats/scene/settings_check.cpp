@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks ranges of the settings of integrator, statics and output.
 #include "formats/scene/check_parts.hpp"
 

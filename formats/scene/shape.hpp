@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Visible shape of a body: solids and mesh files for pictures, without influence on equations.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads `shape` of a body in scene.yaml: one solid or a list.
 #include <filesystem>
 

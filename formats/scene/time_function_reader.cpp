@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads functions of time: numbers, expressions and tables.
 #include "formats/scene/time_function_reader.hpp"
 

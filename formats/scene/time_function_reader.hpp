@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Readers of functions of time (components of loads) and of tables (laws of springs).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads and checks `roads` and `tyres` of scene.yaml.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Text of off_axis_text().
 #include "formats/sections/axis.hpp"
 

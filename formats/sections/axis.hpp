@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Check for principal axes through centroid and shear centre, which some beams need.
 #pragma once
 

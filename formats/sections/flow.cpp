@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Solves the boundary integral equations of torsion and shear: panels, closed integrals, solution, section constants.
 #include "formats/sections/flow.hpp"
 

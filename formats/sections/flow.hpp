@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Torsion and shear of a section by Saint-Venant's theory: boundary integral equations on the polygon's sides.
 #pragma once
 

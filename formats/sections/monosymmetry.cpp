@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Integrates polynomials of third degree over triangles of a polygon.
 #include "formats/sections/monosymmetry.hpp"
 

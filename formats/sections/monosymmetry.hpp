@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Wagner's constants of unsymmetric sections, by which bending stress changes torsional stiffness.
 #pragma once
 

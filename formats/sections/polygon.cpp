@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Area moments and faults of polygons, and the Section of a polygon.
 #include "formats/sections/polygon.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sections bounded by straight lines: area moments of polygons, and their Section by Saint-Venant's theory.
 #pragma once
 

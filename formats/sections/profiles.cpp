@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Corners and limits of the shapes of sections/profiles.hpp.
 #include "formats/sections/profiles.hpp"
 

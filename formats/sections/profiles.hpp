@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rolled and welded shapes: their polygon and constants from the sizes in a part.
 #pragma once
 

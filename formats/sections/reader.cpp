@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads sections by constants and materials, and checks both.
 #include "formats/sections/reader.hpp"
 

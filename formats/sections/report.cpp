@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Text of section_report().
 #include "formats/sections/report.hpp"
 

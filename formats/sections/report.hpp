@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Constants of sections as a text table, which `reducer section part.yaml` prints.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Materials and beam sections, shared by part.yaml and scene.yaml.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads sizes, corners and walls of the shapes of sections.
 #include "formats/sections/shape_reader.hpp"
 

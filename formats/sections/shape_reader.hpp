@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads sections given by `shape` and computes their constants.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Formulas of sections/shapes.hpp.
 #include "formats/sections/shapes.hpp"
 

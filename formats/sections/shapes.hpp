@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Section constants of simple shapes, by closed formulas.
 #pragma once
 

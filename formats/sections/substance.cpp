@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Usual ranges of structural materials, and the units in which a number would lie in them.
 #include "formats/sections/substance.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Check whether stiffness and density belong to one material, in the units of the file.
 #pragma once
 

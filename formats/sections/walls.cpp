@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Networks of walls: potentials of torsion and shear at the nodes, and integrals along the walls.
 #include "formats/sections/walls.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Thin-walled sections given by the middle lines of their walls: open or closed, with any number of cells.
 #pragma once
 

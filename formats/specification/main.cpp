@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // specification FOLDER: writes schema/*.json and the tables of PART.md and SCENE.md below the root of the tree.
 #include <cstdio>
 #include <fstream>

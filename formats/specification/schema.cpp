@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Generates JSON Schemas from lists of fields.
 #include <cctype>
 #include <set>

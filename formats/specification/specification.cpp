@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Generates the tables of the pages.
 #include "formats/specification/specification.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Generates JSON Schemas and the tables of PART.md and SCENE.md from the lists of fields. User programs do not call it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks names and references of a study.
 #include "formats/study/check.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Replaces names of axes by their values.
 #include "formats/scene/expand/parameters.hpp"
 #include "formats/study/study.hpp"

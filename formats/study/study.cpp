@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads study.yaml into the struct Study.
 #include "formats/study/study.hpp"
 

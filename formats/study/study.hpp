@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // study.yaml: runs that compare accuracy with cost, and the measures of their errors (formats/STUDY.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Congruence to the canonical form, and the cut of modes without splitting clusters of frequencies.
 #include "formats/superelement/canonical.hpp"
 

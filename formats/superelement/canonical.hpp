@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Canonical form of reduced matrices by congruence, applied to superelements of any form before use.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // check(): all rules of SUPERELEMENT.md for the contents of a superelement, in the order of that page.
 #include <algorithm>
 #include <array>

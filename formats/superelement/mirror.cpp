@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Changes signs of rows, vectors and tensors.
 #include "formats/superelement/mirror.hpp"
 

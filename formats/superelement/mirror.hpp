@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mirror images of parts from files, for bodies with `mirror` and for mirrored assemblies.
 //
 // x -> D x with D = diag(axes), each 1 or −1, mirrors at the coordinate planes of the part frame normal to the axes of

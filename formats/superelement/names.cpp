@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Check of names.
 #include "formats/superelement/names.hpp"
 

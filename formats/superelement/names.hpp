@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names in files of superelements: boundary nodes, load cases.
 #pragma once
 

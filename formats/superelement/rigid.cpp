@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rigid motions of a superelement, the rigid body of its mass matrix, and the scales of its coordinates.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Compares rigid motions with the softest deformations of scaled stiffness matrices, and counts digits of entries.
 #include "formats/superelement/rigid_strain.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Strain that rigid motions cause in a superelement, relative to its softest deformations, and the part that rounding
 // of entries explains. check() finds wrong positions, signs and units by it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scales that make the entries of S̄ and M̄ comparable, shared by the checks of superelements.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The superelement file *.superelement.h5, the interface between the two programs (formats/SUPERELEMENT.md).
 #pragma once
 

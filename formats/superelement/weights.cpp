@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Computes weights of least norm and sum one by a truncated singular value decomposition.
 #include "formats/superelement/weights.hpp"
 

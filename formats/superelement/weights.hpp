@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Weights α of the floating frame, for superelement bodies and for their companions.
 #pragma once
 

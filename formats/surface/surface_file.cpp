@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Readers that check every number of a file before use.
 #include "formats/surface/surface_file.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Surface triangles from STL and OBJ files of CAD and drawing programs.
 #pragma once
 

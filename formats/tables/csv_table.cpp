@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads times and values from the lines of a CSV file.
 #include "formats/tables/csv_table.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Function of time from a text table of two columns.
 #pragma once
 

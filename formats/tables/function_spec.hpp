@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Functions of time and laws between two quantities, as given in a scene.
 #pragma once
 

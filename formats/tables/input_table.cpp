@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads times and values from columns or datasets.
 #include "formats/tables/input_table.hpp"
 

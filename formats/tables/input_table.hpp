@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // History over time from two columns of a text table or two datasets of an HDF5 file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Splits text tables into cells and reads their numbers.
 #include "formats/tables/text_cells.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lines of text tables split into cells, for the readers of tables.
 #pragma once
 

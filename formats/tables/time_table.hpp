@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Points of a function of time, from columns of a file or a list in a scene.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names of the coefficients, by sections of a file.
 #include "formats/tyres/coefficients.hpp"
 

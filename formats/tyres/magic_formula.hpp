@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Coefficients of the Magic Formula, with the names of tyre property files (.tir) and [Pac12].
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads coefficients of the Magic Formula from the lines of a tyre property file.
 #include "formats/tyres/tyre_property_file.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tyre property files (.tir) of the Magic Formula.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes VTU by the description of the VTK file formats ("Serial XML, UnstructuredGrid").
 #include "formats/vtk/vtu.hpp"
 

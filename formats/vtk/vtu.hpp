@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes meshes with values as VTU files and series of them as .pvd, for ParaView.
 #pragma once
 

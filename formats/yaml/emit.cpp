@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes trees by yaml-cpp, which quotes texts as needed.
 #include "formats/yaml/emit.hpp"
 

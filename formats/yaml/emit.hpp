@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes a tree as text: values of a study as --set options, and scenes that a study writes.
 #pragma once
 

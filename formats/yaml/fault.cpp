@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Texts of findings about numbers.
 #include "formats/yaml/fault.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Findings of checks of a part or scene, independent of whether it was read from a file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fields with a shared meaning, and types and lists of both kinds of files.
 #include "formats/yaml/field.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lists of the fields of maps in part.yaml and scene.yaml, the source of readers, legal keys, JSON Schemas and pages.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads values of plain fields.
 #include "formats/yaml/fields.hpp"
 

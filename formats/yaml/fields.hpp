@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fields that are read directly into a member: numbers, counts, texts, vectors, words.
 #pragma once
 

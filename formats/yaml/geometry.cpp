@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads three-vectors, 3 x 3 matrices and the four forms of an orientation.
 #include "formats/yaml/geometry.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Readers of vectors, orientations and inertia tensors in the notations of part.yaml and scene.yaml.
 #pragma once
 

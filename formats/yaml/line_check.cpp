@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks the geometry of lines, and whether a real body can have an inertia tensor.
 #include "formats/yaml/line_check.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of beams, masses and directions that parts and scenes share.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks spelling of names and references, with suggestions.
 #include "formats/yaml/name_check.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of names: their spelling, uniqueness, and references to them.
 #pragma once
 

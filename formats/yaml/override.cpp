@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Applies overrides, whose paths lead through maps and lists of the tree.
 #include "formats/yaml/override.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values from the command line (--set path=value) that change the tree of a part or scene before it is read.
 #pragma once
 

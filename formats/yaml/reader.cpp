@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads keys, scalars and choices, with errors that give place and remedy.
 #include "formats/yaml/reader.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Strict reading of a tree into structs: legal keys, types, and all errors of a file at once.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Builds a bounded tree from the events of yaml-cpp, and reports everything wrong with a text file except its keys.
 #include "formats/yaml/tree.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Text of part.yaml and scene.yaml as a plain tree with lines and columns.
 #pragma once
 

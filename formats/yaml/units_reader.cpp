@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads units by their labels.
 #include "formats/yaml/units_reader.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Levenberg-Marquardt over the rigid motions of bodies.
 #include "mechanism/analyses/assembly.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Assembly: from rough guesses of poses and velocities to a scene whose joints are closed.
 #pragma once
 

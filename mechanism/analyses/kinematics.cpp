@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Newton's iteration on the constraints, and the linear systems for rates and multipliers.
 #include "mechanism/analyses/kinematics.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Motion of a scene whose degrees of freedom are all driven: the constraints alone give positions, velocities,
 // accelerations and reactions.
 #pragma once

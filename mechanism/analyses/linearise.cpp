@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exact tangents of a state as dense matrices, in axes that may rotate.
 #include "mechanism/analyses/linearise.hpp"
 

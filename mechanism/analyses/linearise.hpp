@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linearisation of a mechanism about a state: mass, damping and stiffness with all coordinates, and the constraints.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modes of a linearised mechanism: eigenproblem on its constraints, rigid and growing modes, printed shapes.
 #include "mechanism/analyses/modes.hpp"
 

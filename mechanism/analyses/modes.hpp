@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modes of the linearised mechanism: frequencies, damping ratios and shapes about any state.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of numbers of a scene. The limits lie far beyond usual designs; a unit error is mostly a factor of 1000.
 #include "mechanism/analyses/number_doubts.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers of a scene that suggest typing errors or wrong units (table "Numbers that are doubted" in SCENE.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Gaps, groups, null vectors and doubtful masses.
 #include "mechanism/analyses/preflight.hpp"
 

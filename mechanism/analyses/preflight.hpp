@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of a scene before it moves: open joints, connected groups, undetermined motions, doubtful masses.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Eigenvalues of a shifted inverse in first-order form by LAPACK; single ones by inverse iteration.
 #include "mechanism/analyses/quadratic_eigenproblem.hpp"
 

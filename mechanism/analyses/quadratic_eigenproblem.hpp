@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The quadratic eigenproblem (λ²M + λC + K) η = 0 of dense unstructured matrices, with low modes to full accuracy.
 #pragma once
 

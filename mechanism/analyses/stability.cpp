@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Inertia of the saddle matrix, and a Newton-type iteration that goes downhill where the stiffness is negative.
 #include "mechanism/analyses/stability.hpp"
 

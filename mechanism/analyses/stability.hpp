@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stability of static equilibria: directions of negative stiffness on the constraints, and the search for an
 // equilibrium without them.
 #pragma once

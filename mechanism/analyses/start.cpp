@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Preflight, initial values, projection and consistent start.
 #include "mechanism/analyses/start.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Start of an analysis: preflight, initial values, free velocities, projection, consistent accelerations.
 #pragma once
 

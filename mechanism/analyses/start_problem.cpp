@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts, rows and matrices of the start.
 #include "mechanism/analyses/start_problem.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The start of a scene as a system of rigid motions of parts and rows of constraints, scaled to order one.
 #pragma once
 

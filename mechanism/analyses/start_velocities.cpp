@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One proximal iteration: first for rigid motions, then with deformations if no rigid motion fits.
 #include "mechanism/analyses/start_velocities.hpp"
 

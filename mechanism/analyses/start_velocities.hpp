@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Velocities at the start: the given ones are kept, the others follow from joints, drives and entries of `initial`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Load steps around Newton's iteration.
 #include "mechanism/analyses/statics.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Static equilibrium of a scene: Newton's iteration with exact tangents and load steps.
 #pragma once
 

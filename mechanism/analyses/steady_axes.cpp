@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The state a moment later if it is steady, and the rotation of internal coordinates by the nodes they move with.
 #include "mechanism/analyses/steady_axes.hpp"
 

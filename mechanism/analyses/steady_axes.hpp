@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linearisation of a state with spinning bodies: internal coordinates in the axes of the linearisation, and a check
 // that its coefficients stay constant.
 #pragma once

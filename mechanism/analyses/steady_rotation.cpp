@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Newton's iteration in rotating axes.
 #include "mechanism/analyses/steady_rotation.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Relative equilibrium: the scene at rest in axes that rotate steadily.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Backward differentiation of variable order and step (SUNDIALS CVODE) for the index-1 equations, the method of [GA00].
 #pragma once
 

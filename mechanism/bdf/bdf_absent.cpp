@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // method: bdf in a build without CVODE: reports an error.
 #include "common/error.hpp"
 #include "mechanism/bdf/bdf.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // method: bdf by CVODE: vectors, callbacks, statistics.
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Accelerations from [M Bᵀ; B 0], projection in the mass norm.
 #include "mechanism/bdf/index1.hpp"
 

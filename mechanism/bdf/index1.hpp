@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The equations of motion as an ordinary differential equation for a flat vector of positions and velocities.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rigid body: a node at the centre of mass that carries mass and inertia.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Construction of bodies, one function per type.
 #include "mechanism/build/bodies.hpp"
 

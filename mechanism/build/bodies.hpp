@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nodes, positions and pools from the bodies of a scene; virtual bodies are kept or eliminated.
 #pragma once
 

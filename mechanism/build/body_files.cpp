@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reading of the files from which bodies are built.
 #include <filesystem>
 #include <set>

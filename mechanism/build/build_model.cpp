@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sequence of calls: scene -> bodies -> joints -> forces -> model.
 #include "mechanism/build/build_model.hpp"
 

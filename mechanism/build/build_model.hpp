@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The constant model and the state before projection, from the scene and its superelement files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contribution of each type of body to each effect, joints with friction and springs with stops, and specifications
 // without an effect.
 #include "mechanism/build/effects.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Application of effect switches: the resulting scene has no switches, and its model has only active effects.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Springs, bushings, inputs and channels between the markers of a scene.
 #include <algorithm>
 

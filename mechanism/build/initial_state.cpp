@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Poses at the start, and one evaluation of them.
 #include "mechanism/build/initial_state.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The state of a scene before projection, and the constants of a model that are measured at the start.
 #pragma once
 

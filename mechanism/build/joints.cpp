@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Joints between markers, their coordinates, and the elements that act along these.
 #include "mechanism/build/joints.hpp"
 

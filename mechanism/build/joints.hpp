@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Joints, gears, motions, springs and bushings of a model from those of a scene.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of loads, and the functions of time of their components.
 #include "mechanism/build/loads.hpp"
 

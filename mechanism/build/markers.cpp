@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Search of places by name.
 #include "mechanism/build/markers.hpp"
 

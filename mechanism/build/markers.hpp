@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Named places of a scene, with the motion of their nodes at the start.
 #pragma once
 

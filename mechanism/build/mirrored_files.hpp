@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files as bodies use them: unchanged, or mirrored once for all bodies that need the same image.
 #pragma once
 

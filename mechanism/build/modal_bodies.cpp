@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Constants of modal bodies in the units of the scene.
 #include "mechanism/build/modal_bodies.hpp"
 

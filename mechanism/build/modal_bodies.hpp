@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Constants of a body and its nodes from a modal body file: units, choice of modes, damping.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Load cases by name, resultants on rigid bodies, and the functions of time of part loads.
 #include "mechanism/build/part_loads.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loads of a model from load cases of companion files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks that each item stays in the plane, then new numbers of the coordinates.
 #include "mechanism/build/planar.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Planar model from a model in space (`effects: {planar: on}`), if nothing in it can leave the plane.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Normal of the plane from joints, and rotation of every vector of the model.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Options of a use, and the search of a body that has them.
 #include "mechanism/build/superelements.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies from the uses of superelement files: one for all uses of a file with the same options.
 #pragma once
 

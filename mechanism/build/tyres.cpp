@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names, axles, and positions of wheels at the start.
 #include "mechanism/build/tyres.hpp"
 

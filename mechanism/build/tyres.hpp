@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Roads and tyres of a scene on nodes that have the coordinates for them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Breadth-first search from the carrier of each group along its fixed joints.
 #include "mechanism/build/virtual_bodies.hpp"
 

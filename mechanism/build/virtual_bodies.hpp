@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elimination of virtual bodies: all that fixed joints tie to one follows one carrier at constant offsets.
 #pragma once
 

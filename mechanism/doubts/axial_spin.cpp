@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Validity check: spin of slender superelements that can turn about their own axis.
 #include <algorithm>
 #include <cmath>

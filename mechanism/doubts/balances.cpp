@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Largest balances, and trends.
 #include "mechanism/doubts/balances.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Validity checks of balances: energy of a run at the stored rows, angular momentum of free bodies, and tumbling, which
 // follows from energy and angular momentum.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Damping ratio of the lowest vibration.
 #include "mechanism/doubts/damping_reach.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Validity check: whether the damping of superelements acts on their lowest modes.
 #pragma once
 

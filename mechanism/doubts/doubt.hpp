@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A validity check of a run: it measures a quantity at the states of the run, and warns if it exceeds a limit that has
 // a source.
 #pragma once

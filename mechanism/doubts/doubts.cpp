@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The validity checks of a run, called one after the other.
 #include "mechanism/doubts/doubts.hpp"
 

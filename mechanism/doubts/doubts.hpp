@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Validity checks of a run: measured quantities beyond limits that have a source, one line each.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Conditions of B and of the iteration matrix, and growth of the motion.
 #include "mechanism/doubts/failure_cause.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cause of the end of a run: a decision on measured numbers, and the setting that would help.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Held coordinates, matrices of the free ones, lowest vibration.
 #include "mechanism/doubts/held_body.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A superelement with the boundary conditions of its neighbours: free coordinates and lowest vibration.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Validity check of the inertia option of a linear superelement: the deflection that the other options would add.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Validity check: whether nonlinear beams, bushings, springs, drives and angles stay in the range of their laws.
 #include <algorithm>
 #include <cmath>

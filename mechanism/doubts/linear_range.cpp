@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Validity check of the linear strain of superelements and modal bodies: deflection, axial force, displaced forces,
 // spin.
 #include <algorithm>

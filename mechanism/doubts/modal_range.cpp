@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Range of a modal body from its modes, and its axial force from the forces on its nodes.
 #include "mechanism/doubts/modal_range.hpp"
 

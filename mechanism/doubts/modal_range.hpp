@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linear range of a modal body: its length, buckling load, axial force, deflection, first frequency.
 #pragma once
 

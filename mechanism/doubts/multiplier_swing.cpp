@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Validity checks of reactions: multipliers that oscillate from step to step, and undamped vibrations.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Validity check: whether steps of a given size resolve the motion.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Axes of superelements from their nodes, and rows of joints that act on rotations about them.
 #include "mechanism/doubts/straight_beam.hpp"
 

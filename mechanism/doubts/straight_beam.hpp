@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Superelements whose boundary nodes lie on a line: their axes, and what holds their rotation about them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Validity check of the torsional stiffness of straight superelements that spin, for their inertia option.
 #include <cmath>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Validity check: whether tyres stay in the ranges for which the coefficients of their files were fitted.
 #include <array>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Forces, derivatives and energies of bodies, type by type.
 #include "mechanism/equations/bodies.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contributions of bodies to an evaluation: the functions of a type of body T (model/bodies.hpp lists the types).
 #pragma once
 

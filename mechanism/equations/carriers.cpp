@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Products with the kinematics of nodes of modal bodies.
 #include "mechanism/equations/carriers.hpp"
 

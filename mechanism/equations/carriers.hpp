@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Carriers: forces and relations on nodes of modal bodies, expressed in the coordinates of these bodies, because such
 // nodes own no coordinates.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Channels and the terms that depend on them.
 #include "mechanism/equations/terms.hpp"
 #include "mechanism/model/element_map.hpp"

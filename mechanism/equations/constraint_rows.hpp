@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of the constraint Jacobian one by one, for uses outside of the iteration matrix.
 #pragma once
 

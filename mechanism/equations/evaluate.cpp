@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Evaluation of a model at a state in order: motion, constraints, forces.
 #include "mechanism/equations/evaluate.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Interface between integration and mechanics: evaluates a model at a state in three stages. tangent.hpp has the
 // derivatives.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sizes of an evaluation, and the check of its stages.
 #include "mechanism/equations/evaluation.hpp"
 

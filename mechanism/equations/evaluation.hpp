@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Evaluation: all results of a model at one state, in stages. It is allocated once, so no stage allocates memory.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Force elements between two markers with laws of their own, and friction in joints.
 #include "mechanism/equations/forces.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contributions of forces to an evaluation: the overloads of a type of force T (model/forces.hpp lists the types).
 #pragma once
 

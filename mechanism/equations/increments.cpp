@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exponential of rotation vectors, and products with the rows of constraints.
 #include "mechanism/equations/increments.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Effect of increments of the coordinates on positions and constraints.
 #pragma once
 

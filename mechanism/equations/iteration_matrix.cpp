@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Condensation and expansion around the global solution.
 #include "mechanism/equations/iteration_matrix.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Matrix of a Newton iteration: a saddle system with condensed internal coordinates, and the request to which its
 // factors belong.
 #pragma once

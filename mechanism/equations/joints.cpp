@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Joints, couplings and springs: all forces and relations between two markers.
 
 #include "common/math/rotation.hpp"

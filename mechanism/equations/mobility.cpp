@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ranks of the constraint Jacobian, free motions and locked joints.
 #include "mechanism/equations/mobility.hpp"
 

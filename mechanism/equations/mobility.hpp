@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Counts of a model at a state: coordinates, constraints, the rank of their Jacobian, degrees of freedom.
 #pragma once
 

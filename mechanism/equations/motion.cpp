@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stage motion: motion of nodes and modes at a state.
 #include "mechanism/equations/terms.hpp"
 

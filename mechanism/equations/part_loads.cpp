@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Part loads: factors for superelements, whose bodies compute the forces, and resultants on rigid bodies.
 #include "mechanism/equations/forces.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Round-off of positions and rotations, and its effect through the generalised strains.
 #include "mechanism/equations/round_off.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Distance of forces and constraints from balance, and the round-off that no iteration removes.
 #pragma once
 

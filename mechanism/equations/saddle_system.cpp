@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scaling of the saddle system around the solver.
 #include "mechanism/equations/saddle_system.hpp"
 

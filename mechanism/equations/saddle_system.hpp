@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The linear system [A Bᵀ; C 0][d; μ] = [f; g], scaled so that pivots do not depend on units.
 #pragma once
 

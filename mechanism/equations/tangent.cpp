@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives of the terms of evaluate(), pool by pool.
 #include "mechanism/equations/tangent.hpp"
 

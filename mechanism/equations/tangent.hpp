@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives of evaluate(): the values of [A/s Bᵀ; B 0] at the state of the last evaluate().
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of evaluate(): scattering of local vectors and matrices, and the loops over joints, their coordinates and
 // elements between two markers.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Wrenches that the vanished fixed joints of eliminated virtual bodies transmit.
 #include "mechanism/equations/terms.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Deflection, wrench and tangent of bushings; translations are the relations `along` the axes of A.
 #include "mechanism/forces/bushing.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bushing: elastic and damped connection of two markers in all directions, for rotations of any size.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Slopes and pieces of tables.
 #include "mechanism/forces/curve.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A law between two quantities: proportional, or a table with its slope and integral.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names that expressions may use besides t: input channels, which are functions of time, and channels of the mechanism.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Virtual work of applied forces and moments.
 #include "mechanism/forces/load.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Forces and moments applied at a marker, as functions of time, in world axes or following the marker.
 #pragma once
 

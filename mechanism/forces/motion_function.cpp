@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Finite differences of expressions.
 #include "mechanism/forces/motion_function.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Prescribed motion of a coordinate: value, rate and acceleration over time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rates and accelerations at the points of a table, and the polynomials between them.
 #include "mechanism/forces/motion_table.hpp"
 

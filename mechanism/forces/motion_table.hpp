@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The curve of a prescribed motion through the points of a table.
 #pragma once
 

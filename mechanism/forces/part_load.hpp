@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loads of companion files: a load case of a superelement times a function of time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rotation vectors by T(ψ)⁻¹ and its closed gradient; swing and twist by dual numbers on the quaternion.
 #include "mechanism/forces/relative_turn.hpp"
 

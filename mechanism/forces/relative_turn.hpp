@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rotation of one marker relative to another in three angles by two laws, with the gradients that bushings need.
 #pragma once
 

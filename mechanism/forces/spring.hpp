@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Spring, damper and stops along one coordinate.
 #pragma once
 

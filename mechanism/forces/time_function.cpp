@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tables by bisection, expressions by muParser.
 #include "mechanism/forces/time_function.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Functions of time for loads: a constant, a table or an expression, which may use inputs and channels.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Marker: a place and an orientation carried by a node (or by ground), which is all that joints and loads see of a
 // body.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Kinematics of one node at one instant, as every body, joint and load sees it, and the coefficients of tangents.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The space in which carriers move, as a type: kernels with a parameter D are written once for three dimensions and for
 // the x-y plane of planar models, where two translations and one rotation per carrier are left.
 #pragma once

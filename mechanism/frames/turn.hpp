@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cosine and sine of a turn in the plane.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Differences at the instants of the coarser history.
 #include "mechanism/histories/difference.hpp"
 

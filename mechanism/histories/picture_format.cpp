@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // File endings and sizes as terminals of gnuplot.
 #include "mechanism/histories/picture_format.hpp"
 

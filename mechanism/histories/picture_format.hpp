@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Kind, size and font of a picture, in the form of gnuplot's terminals.
 #pragma once
 

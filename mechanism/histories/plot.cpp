@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of the series to draw, and a run of gnuplot on the script.
 #include "mechanism/histories/plot.hpp"
 

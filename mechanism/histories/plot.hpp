@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures of histories, the end of the data flow, drawn by gnuplot as a child process.
 #pragma once
 

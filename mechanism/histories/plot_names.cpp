@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names that distinguish the curves of a picture, and labels of its axes.
 #include "mechanism/histories/plot_names.hpp"
 

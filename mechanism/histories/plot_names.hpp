@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Texts of a picture: legends and labels of axes.
 #pragma once
 

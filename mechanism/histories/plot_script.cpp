@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Panels, curves, marks and legends as gnuplot's commands.
 #include "mechanism/histories/plot_script.hpp"
 

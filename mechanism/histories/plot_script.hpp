@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Script for gnuplot that draws a picture of histories.
 #pragma once
 

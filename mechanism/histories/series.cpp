@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Histories from results files and CSV files, selected by channel names and columns.
 #include "mechanism/histories/series.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Named histories from results files and CSV files for `plot` and `compare`.
 #pragma once
 

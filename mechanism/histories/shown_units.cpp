@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Products of powers of unit symbols, their factors, and conversion of series.
 #include "mechanism/histories/shown_units.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Units that a user requests: "mm", "MPa", "deg", "km/h" instead of those of the files.
 #pragma once
 

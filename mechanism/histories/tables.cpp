@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lists and exports channels, and compares runs with reference histories.
 #include "mechanism/histories/tables.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Printed tables: the channels of a results file, its export as CSV, and comparisons of runs with a reference.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Products of axes in relations, shared by their formulas in space and in the plane.
 #pragma once
 

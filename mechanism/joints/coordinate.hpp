@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Joint coordinates: relations that are measured, driven, coupled or loaded, with angles unwrapped over turns.
 #pragma once
 

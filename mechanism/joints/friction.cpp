@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sliding velocities and normal forces of joints, with their derivatives.
 #include "mechanism/joints/friction.hpp"
 

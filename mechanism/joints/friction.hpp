@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Coulomb friction in a joint, driven by its own reactions and smooth in the sliding velocity.
 #pragma once
 

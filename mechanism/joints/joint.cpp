@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sums over the relations of a joint.
 #include "mechanism/joints/joint.hpp"
 

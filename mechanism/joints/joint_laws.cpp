@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Table of the relations, coordinates and sliding surfaces of each kind of joint.
 #include "mechanism/joints/joint_laws.hpp"
 

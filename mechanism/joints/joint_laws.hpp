@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Kinds of joints in the equations. Each kind has one row: the relations that it keeps at zero, the coordinates that it
 // leaves free, and how its surfaces slide. mechanism/MAP.md explains how to add a kind.
 #pragma once

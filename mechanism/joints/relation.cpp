@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values and derivatives of the relations: products of unit vectors, displacements along axes, distance, and angles as
 // functions of products; in space and in the plane of planar models.
 #include "mechanism/joints/relation.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scalar relations between two markers, which joints keep at zero or joint coordinates measure.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Activities from residuals at stored states.
 #include "mechanism/ledger/activity.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Activity of an effect: the absolute power that flows through it, integrated over the windows of a ledger.
 #pragma once
 

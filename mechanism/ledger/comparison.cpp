@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Comparison of rows at equal instants, measure by measure.
 #include "mechanism/ledger/comparison.hpp"
 

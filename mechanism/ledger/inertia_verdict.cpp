@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Comparison of inertia options with F, or with one another.
 #include "mechanism/ledger/inertia_verdict.hpp"
 

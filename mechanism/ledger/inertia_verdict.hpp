@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Recommendation of an inertia option for each superelement, from replayed motions.
 #pragma once
 

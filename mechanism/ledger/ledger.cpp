@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Makes a ledger: windows, activities, replays, lines.
 #include "mechanism/ledger/ledger.hpp"
 

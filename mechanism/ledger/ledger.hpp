@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `mechanism ledger`: how much each optional effect of a scene changes its motion, and what it costs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names, columns and sizes of the measures of a ledger.
 #include "mechanism/ledger/measures.hpp"
 

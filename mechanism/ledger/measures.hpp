@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Quantities that the ledger compares: positions, deflections and reactions, or channels that the user names.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Analyses before a ledger, and the choice of its analysis.
 #include "mechanism/ledger/perform.hpp"
 

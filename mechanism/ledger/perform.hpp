@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The command `mechanism ledger`: runs the preceding analyses, reads the files and makes the ledger.
 #pragma once
 

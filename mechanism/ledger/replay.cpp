@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs without files, whose rows and states go to listeners.
 #include "mechanism/ledger/replay.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Windows of a run, and their repetition with a scene that may differ in one effect.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Text and JSON of a ledger.
 #include "mechanism/ledger/table.hpp"
 

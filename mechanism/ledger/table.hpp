@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A ledger as lines of text and as JSON.
 #pragma once
 

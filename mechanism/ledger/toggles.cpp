@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Inverted switches, and superelement specifications with other options of the second order.
 #include "mechanism/ledger/toggles.hpp"
 

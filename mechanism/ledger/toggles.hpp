@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Variants that a ledger runs: the scene with one effect of one body, joint or spring switched, or with another inertia
 // option.
 #pragma once

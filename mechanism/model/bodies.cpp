@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hooks of the body types.
 #include "mechanism/model/bodies.hpp"
 

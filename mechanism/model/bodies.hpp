@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // List of body types, and the functions that each type provides. A new body type needs a pool of Model, its line in
 // for_each_body_pool(), the hooks below, and those of equations/bodies.hpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values and gradients of channels.
 #include "mechanism/model/channel.hpp"
 

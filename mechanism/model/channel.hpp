@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Channels: named quantities of the mechanism that expressions of loads and springs may use.
 #pragma once
 

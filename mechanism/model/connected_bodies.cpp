@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts as unions of nodes by elements, and groups as unions of parts by joints.
 #include "mechanism/model/connected_bodies.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of a model: sets of nodes that would move together if every flexible body were rigid.
 #pragma once
 

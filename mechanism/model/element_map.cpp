@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Maps of elements from the coordinates of their nodes.
 #include "mechanism/model/element_map.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Coordinates of an element, joint or load on given nodes: the positions of its rows and columns.
 #pragma once
 

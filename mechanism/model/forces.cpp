@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Maps of forces that have more rows than those of their nodes.
 #include "mechanism/model/forces.hpp"
 

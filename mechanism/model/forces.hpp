@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // List of force types that act on nodes, and what each type provides. A new force type needs a pool of Model, its line
 // in for_each_force_pool(), its traits, and its overloads in equations/forces.hpp. Springs belong to joint coordinates,
 // and friction belongs to joints.

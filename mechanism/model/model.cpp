@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sparsity pattern and scatter slots of a model; names of its equations.
 #include "mechanism/model/model.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Model: all that stays constant while a mechanism moves, with one pool per type of body, joint and force.
 #pragma once
 

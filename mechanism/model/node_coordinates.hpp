@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Coordinates of a node in velocity vectors: three translations and three rotations; in planar models two and one.
 // Missing components are zero.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pool: all items of one type, and the positions of their rows and columns.
 #pragma once
 

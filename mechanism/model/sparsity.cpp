@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Zero entries by kinds of relations. Markers at the origin of their node (p = 0) do not feel its rotation.
 #include "mechanism/model/sparsity.hpp"
 

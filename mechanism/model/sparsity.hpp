@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Entries of the local matrices of rigid bodies and joints that are zero in every state. The iteration matrix does not
 // store them.
 #pragma once

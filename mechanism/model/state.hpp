@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // State: all that changes during a run and influences later steps, in one contiguous block with a table of its fields.
 #pragma once
 

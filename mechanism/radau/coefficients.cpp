@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values of the coefficients.
 #include "mechanism/radau/coefficients.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Radau IIA of three stages: coefficients, and the transformation that decouples its Newton iteration.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Newton's iteration: residuals of the stages, increments, tests that end it.
 #include "mechanism/radau/newton.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Simplified Newton iteration of the three stages with two factorisations.
 #pragma once
 

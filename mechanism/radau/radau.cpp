@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One step: predict, iterate, estimate, close, accept. Formula numbers are those of docs/THEORY.md.
 #include "mechanism/radau/radau.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Radau IIA of three stages on the equations of motion with velocities on the constraints: order 5.
 //
 // Numbers are those of docs/THEORY.md, section 11. Stages c_1, c_2, c_3 = 1; w_ij: A⁻¹; d_i: displacements from the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Combination of the parts, condensation, scaling.
 #include "mechanism/radau/stage_matrix.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Matrix of the simplified Newton iteration: real for γ/h, complex for (α + iβ)/h.
 #pragma once
 

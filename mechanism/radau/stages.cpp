@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Collocation polynomials and rotation vectors.
 #include "mechanism/radau/stages.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The three stages of a step: displacements from its start, and their rates by collocation.
 #pragma once
 

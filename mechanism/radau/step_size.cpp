@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Predictive control of steps, [HW96] IV.8 (8.21) to (8.25).
 #include "mechanism/radau/step_size.hpp"
 

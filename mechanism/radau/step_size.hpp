@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Size of the next step of Radau IIA from the errors of this step and of the previous one (Gustafsson).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // M, C and K from three tangents with one unit coefficient each.
 #include "mechanism/radau/tangent_parts.hpp"
 

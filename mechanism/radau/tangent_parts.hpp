@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // M, C, K and the constraint rows at one state, stored separately. They serve all steps until they are renewed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Order of the analyses of a scene, and names of their files.
 #include "mechanism/run/analyses.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plan of the analyses of a scene: which of them a command runs, in which order, and the paths of their results.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Start, analysis and end of a run, and its repetition with more effects.
 #include "mechanism/run/attempt.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A run of a scene from its start to its report, and repeated runs of a scene with automatic effects.
 #pragma once
 

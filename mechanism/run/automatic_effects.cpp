@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Choice of automatic effects, its monitoring during a run, and its report.
 #include "mechanism/run/automatic_effects.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Effects that a run chooses by itself (`auto`). It begins with as few as possible, estimates what the others would do,
 // and begins again with those that matter.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Steps by CVODE, rows between them, and a restart after every breakpoint.
 #include "mechanism/run/bdf_run.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loop of method: bdf: steps, rows, jumps of loads.
 #pragma once
 

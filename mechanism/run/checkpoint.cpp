@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checkpoint files, and runs that continue from files.
 #include "mechanism/run/checkpoint.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checkpoints of a running analysis, and runs that continue from a checkpoint or a results file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs of dynamics, by the steps of a schedule, and of statics.
 #include <algorithm>
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Limits of angles and their messages, and the ends and holes of roads.
 #include "mechanism/run/limits.hpp"
 

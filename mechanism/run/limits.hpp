@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Limits at which a run must end: large rotations of nodes against floating frames, and tyres at the ends of their
 // roads.
 #pragma once

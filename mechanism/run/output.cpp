@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Motion of places in the world frame, reactions, boundary forces and energies of one instant.
 #include "mechanism/run/output.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Conversion of an accepted state to one row of the results file.
 #pragma once
 

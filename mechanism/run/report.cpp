@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Report of a run, as JSON and as text.
 #include "mechanism/run/report.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Report of a run: counts, balance, warnings; as JSON and as text.
 #pragma once
 

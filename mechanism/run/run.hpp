@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Data of one run of an analysis, and what all analyses share: start, and rows of results.
 #pragma once
 

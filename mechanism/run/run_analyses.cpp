@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Analyses without time integration, from start to rows: assembly, kinematics, inverse dynamics, modes.
 #include <algorithm>
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Grid of steps and output instants.
 #include "mechanism/run/schedule.hpp"
 

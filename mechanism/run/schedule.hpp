@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ends of steps and instants of rows: the grid of steps, breakpoints of loads, halving after a failure. bdf_run.cpp
 // schedules the rows of method: bdf.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies with their masses, and markers of joints, springs and loads on stored nodes.
 #include "mechanism/run/simulated_scene.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Description of scene and model in a results file, for pictures of the run.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Dispatch to the method, which is chosen once.
 #include "mechanism/run/stepper.hpp"
 

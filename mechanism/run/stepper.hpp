@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One step of the method of a scene: generalised alpha and HHT, or Radau IIA.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Conversion of a stored row to nodes, internal coordinates, frames and angles.
 #include "mechanism/run/stored_state.hpp"
 

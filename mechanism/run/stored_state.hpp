@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // State of a scene from one instant of its results file.
 #pragma once
 

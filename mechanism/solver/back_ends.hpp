@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Back ends of LinearSolver and ComplexSolver with a common interface, each in a file of its own.
 #pragma once
 

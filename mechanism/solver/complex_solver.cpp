@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Dispatch to the complex back ends.
 #include "mechanism/solver/complex_solver.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linear systems with complex values on the pattern of the real ones.
 #pragma once
 

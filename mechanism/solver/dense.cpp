@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Dense LU as back ends: an own one for small systems, and LAPACK's.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // KLU as a back end.
 #include <klu.h>
 

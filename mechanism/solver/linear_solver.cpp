@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Dispatch to a back end, backward errors, refinement, estimates of the condition.
 #include "mechanism/solver/linear_solver.hpp"
 

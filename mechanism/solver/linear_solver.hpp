@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linear systems with one pattern and many values: one symbolic factorisation, a numeric one for each matrix.
 #pragma once
 

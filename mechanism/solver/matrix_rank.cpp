@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rank-revealing sparse QR; pseudo-inverse by a complete orthogonal decomposition or conjugate gradients.
 #include "mechanism/solver/matrix_rank.hpp"
 

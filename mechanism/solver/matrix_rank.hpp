@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rank and dependent columns of a sparse matrix, and vectors without their component in its null space.
 #pragma once
 

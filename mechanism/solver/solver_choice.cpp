@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Estimate of the time of one factorisation from counts on the pattern.
 #include "mechanism/solver/solver_choice.hpp"
 

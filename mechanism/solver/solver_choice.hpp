@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Choice of the solver for a pattern: the one that the scene names, or the one with the least estimated time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Compressed columns from positions, and the search for slots.
 #include "mechanism/solver/sparse_pattern.hpp"
 

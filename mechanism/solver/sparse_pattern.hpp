@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Positions of the values of a matrix: compressed columns, fixed when the model is built.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // SuiteSparseQR as a back end: A P = Q R.
 #include <SuiteSparseQR.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Work before and after Newton's iteration of a step: factors of the projection, local error, data of an accepted
 // state, and the choice of other constraint rows.
 #pragma once

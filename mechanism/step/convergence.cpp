@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Residuals and violations of one Newton iteration relative to their limits.
 #include "mechanism/step/convergence.hpp"
 

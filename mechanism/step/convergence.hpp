@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Convergence test of Newton's iteration: forces relative to those of the motion, constraints relative to the motion of
 // a step.
 #pragma once

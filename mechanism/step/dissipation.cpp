@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Damping power from mean rates of a step instead of those at its ends.
 #include "mechanism/step/dissipation.hpp"
 

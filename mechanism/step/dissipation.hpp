@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Energy that the damping of superelements dissipates in a step, from the mean rates of the step.
 //
 // Orientations of nodes advance by Ω h, velocities by Newmark's rule. In a body that turns steadily they differ by

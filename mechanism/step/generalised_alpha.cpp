@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parameters and updates of the scheme.
 #include "mechanism/step/generalised_alpha.hpp"
 

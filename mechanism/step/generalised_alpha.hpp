@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Generalised alpha on SO(3): parameters, prediction and correction of one step.
 #pragma once
 

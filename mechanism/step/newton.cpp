@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Convergence, factors and solutions of one iteration.
 #include "mechanism/step/newton.hpp"
 

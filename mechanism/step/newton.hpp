@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Operations of Newton's iteration of a step, which step.cpp calls.
 #pragma once
 

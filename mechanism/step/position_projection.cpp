@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Weight of the projection, its factors and their age.
 #include "mechanism/step/position_projection.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Projection of positions in stabilised index 2: the smallest change, weighted with mass and stiffness of the bodies,
 // that satisfies the constraints; THEORY (67), after [GGL85]. B of Bᵀμ belongs to the middle of the step. A direction
 // of another instant would feed energy into the motion.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Prediction of the next change from the last two.
 #include "mechanism/step/predictor.hpp"
 

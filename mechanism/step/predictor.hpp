@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Prediction of the next acceleration in smooth motion, better than the last acceleration.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Weighted constraint Jacobian and its pseudoinverse; examination of the active rows.
 #include "mechanism/step/redundancy.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Redundant constraints: choice of active rows, and reactions of least norm among those of the same motion.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Marks of roads, and the time of wheels to them.
 #include "mechanism/step/road_ahead.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Short pieces of road ahead of wheels, over which a step must not pass.
 #pragma once
 

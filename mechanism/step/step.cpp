@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Time step: predict, evaluate, check, factor, solve, correct, accept. Formula numbers are those of docs/THEORY.md.
 #include "mechanism/step/step.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Time step of the constrained equations on SO(3): generalised alpha and HHT, index 3 and stabilised index 2.
 //
 // The numbers are those of docs/THEORY.md, section 10. The calls in step.cpp cite them. ∘ exp: retract(), on

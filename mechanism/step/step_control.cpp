@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Local error of a step, and the size of the next one.
 #include "mechanism/step/step_control.hpp"
 

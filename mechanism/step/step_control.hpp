@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Local error of a step of generalised alpha or HHT, and the size of the next one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Text of a step report.
 #include "mechanism/step/step_report.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Report of one step as a structure and as text.
 #pragma once
 

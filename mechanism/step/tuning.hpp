@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parameters of a step that do not follow from its equations, each with the reason or the benchmark that set it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Work space of a run besides model and state: evaluation, iteration matrix, memory of previous steps.
 #pragma once
 

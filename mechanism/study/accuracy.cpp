@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Trial runs, and conclusions from their differences: the remaining error, the next tolerance, the modes.
 #include "mechanism/study/accuracy.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Run whose tolerance and modes follow from the requested error (`accuracy` of the integrator).
 #pragma once
 

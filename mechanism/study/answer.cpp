@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files and messages at the end of a study.
 #include "mechanism/study/answer.hpp"
 

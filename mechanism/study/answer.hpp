@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // End of a study: files, a summary, and the cheapest setting for a tolerance.
 #pragma once
 

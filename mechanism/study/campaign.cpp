@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Calls of `mechanism run` as child processes, and their results.
 #include "mechanism/study/campaign.hpp"
 

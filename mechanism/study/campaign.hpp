@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs of a study: each is a child process. Its errors are measured and recorded before the next begins.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cells as products of axes, with keys from the content of files.
 #include "mechanism/study/cells.hpp"
 

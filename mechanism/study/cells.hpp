@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs that study.yaml defines: every combination of axes as a scene with settings.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Job script, and sbatch as a child process.
 #include "mechanism/study/cluster.hpp"
 

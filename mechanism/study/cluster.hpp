@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs of a study as a job array of Slurm with one task per setting. Slurm does the scheduling.
 #pragma once
 

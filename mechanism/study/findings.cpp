@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lines of settings, observed orders, Pareto fronts.
 #include "mechanism/study/findings.hpp"
 

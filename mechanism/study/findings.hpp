@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Findings of a study: the cheapest settings for an error, and the decrease of errors.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Journal as JSON, one object per line. The first line identifies the study.
 #include "mechanism/study/journal.hpp"
 

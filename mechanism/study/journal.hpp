@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Journal of a study on the disk: a line per run, so that none is repeated after an interruption.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Norms of histories and of their differences.
 #include "mechanism/study/measure.hpp"
 

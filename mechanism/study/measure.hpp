@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Errors of a run: its channels compared with the reference histories, in the norms of the study.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Series for the plotter, and HTML around its pictures.
 #include "mechanism/study/page.hpp"
 

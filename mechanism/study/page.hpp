@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Page of a study, self-contained, with its pictures also as files.
 #pragma once
 

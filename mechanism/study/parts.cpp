@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Call of `reducer run` as a child process.
 #include "mechanism/study/parts.hpp"
 

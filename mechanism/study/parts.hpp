@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Superelement files that a study makes with `reducer`. Only this file names that program.
 #pragma once
 

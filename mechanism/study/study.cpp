@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sequence of calls of a study.
 #include "mechanism/study/study.hpp"
 

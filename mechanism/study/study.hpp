@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A study: study.yaml -> runs -> tables, page, and the cheapest setting for an error.
 #pragma once
 

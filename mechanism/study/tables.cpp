@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tables of a study as CSV, JSON and text.
 #include "mechanism/study/tables.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stiffness under initial stress in elastic coordinates.
 #include "mechanism/switching/buckling.hpp"
 

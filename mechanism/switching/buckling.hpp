@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nearness to buckling of a body under the loads that deform it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Least kinetic energy of the carried motion, divided among the deforming bodies.
 #include "mechanism/switching/carried_inertia.hpp"
 

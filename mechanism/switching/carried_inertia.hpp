@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Inertia that the joints of a deforming body carry along, which its own frequencies do not contain.
 #pragma once
 

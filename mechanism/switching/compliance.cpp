@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pseudo-inverse of S̄ in coordinates scaled to one size; products with S̄ and M̄.
 #include "mechanism/switching/compliance.hpp"
 

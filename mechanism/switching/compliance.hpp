@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Compliance of a body: its quasi-static deformation under loads, and measures of a deformation.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Constraint Jacobian on motions of rigid bodies, and reactions that do no work on them.
 #include "mechanism/switching/constraint_stress.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies that constraints can stress without loads. Their flexibility decides reactions.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Indices, deformations and welded parts of the deforming bodies.
 #include "mechanism/switching/deformation.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies of a model that deform, and their deformation relative to the floating frame.
 #pragma once
 

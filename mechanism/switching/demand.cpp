@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Demands from loads and deformations at the samples of a window.
 #include "mechanism/switching/demand.hpp"
 

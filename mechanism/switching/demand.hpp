@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Demand D of an effect that is off: its estimated change of positions and forces relative to the tolerance.
 //
 // Load. The motion of the running model is taken as a motion of the whole one, in which all effects are on. There the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mass of the frame and of the modes at rest; displacements and rotations of the nodes.
 #include "mechanism/switching/modal_compliance.hpp"
 

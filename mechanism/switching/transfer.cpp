@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Correspondence of bodies by name, and of places of one model with nodes of the other.
 #include "mechanism/switching/transfer.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Transfer of a state to another model of the same scene, in which a body is flexible instead of rigid, or the reverse.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Forces of the contact patch from its slip, for contacts found in space or in the plane; dual numbers for tangents.
 #pragma once
 

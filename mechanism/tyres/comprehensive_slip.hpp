@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Force of a tyre in its contact patch by comprehensive slip: longitudinal slip, slip angle and camber together.
 #pragma once
 

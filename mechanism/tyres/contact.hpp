@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contact of a disc with a road: its place, axes and depth.
 //
 // The road under the wheel is replaced by the plane through four points of it, before, behind and beside the lowest

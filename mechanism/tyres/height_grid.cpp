@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Slopes at the points of a grid, and the cubics between them.
 #include "mechanism/tyres/height_grid.hpp"
 

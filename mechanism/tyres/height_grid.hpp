@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Heights on a grid of two coordinates: a surface without kinks through its points.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tyres of planar models. The axle is along the normal of the plane, so of the four points of contact.hpp the two
 // beside the wheel coincide. All forces have two components.
 #include "mechanism/tyres/in_plane.hpp"

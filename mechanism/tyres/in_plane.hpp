@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tyres of planar models: functions of tyre.hpp for axle, road and node in the plane (build/planar.hpp).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Force of a tyre in its contact patch by the Magic Formula, versions 5.2 and 6.1, steady state without turn slip.
 //
 // Equation numbers are those of [Pac12] section 4.3.2. Property files are fitted for MF-Tyre. Where it differs from

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Longitudinal and lateral force by the Magic Formula, pure and combined: [Pac12] (4.E1) to (4.E30) and (4.E50) to
 // (4.E67). Interpretation, axes and signs are those of magic_formula.hpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Slip of the contact patch of a tyre and its force: the interface between the motion of a wheel and the laws of slip.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reference line: spline, search by boxes, Newton's method.
 #include "mechanism/tyres/reference_line.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reference line of a curved road, and the coordinates of points along it and beside it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Heights of pieces, tracks and roads.
 #include "mechanism/tyres/road.hpp"
 

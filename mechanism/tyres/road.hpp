@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Road: height of the ground under tyres with its gradient, in axes of the road, which are at rest.
 #pragma once
 

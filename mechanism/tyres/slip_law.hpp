@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Constants of the laws by which tyres slip; the formulas are in the headers named after the laws.
 #pragma once
 

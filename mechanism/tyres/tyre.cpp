@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tyres in space: slips from the motion of the wheel, the wrench on the wheel from forces in the patch; dual numbers
 // for tangents.
 #include "mechanism/tyres/tyre.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tyre: forces of a disc on a road on the wheel that carries it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shapes of bodies, one function per kind.
 #include "mechanism/view/body_shape.hpp"
 

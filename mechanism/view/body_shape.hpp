@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Drawn shape of a body, in the axes of its frame, and its deformation.
 #pragma once
 

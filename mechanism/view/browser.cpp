@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Protocol of Chromium's developer tools over its debugging pipe: JSON messages, each ended by a zero byte.
 #include "mechanism/view/browser.hpp"
 

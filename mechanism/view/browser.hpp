@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Evaluation of JavaScript in a page, opened in headless Chromium.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Largest stress from products of stress per amplitude and amplitudes, a few instants at once.
 #include "mechanism/view/largest_stress.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Largest stress of a body over a run, which pages show at their colour scale.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Boxes of moving objects over time.
 #include "mechanism/view/motion_extent.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Size of the moving objects, and the body that a camera follows.
 #pragma once
 

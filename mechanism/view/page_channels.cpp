@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Curves of a page from channels of a results file.
 #include "mechanism/view/page_channels.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces in motion as grids of points and cells, one per instant.
 #include "mechanism/view/paraview.hpp"
 

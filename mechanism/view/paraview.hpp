@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies in motion for ParaView: one unstructured grid (.vtu) per instant, listed in a collection (.pvd).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Conversion of a request to the call of the page that draws it.
 #include "mechanism/view/picture.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `mechanism picture`: states of runs as one PNG, drawn by the page of `mechanism view` in a browser without a window.
 #pragma once
 

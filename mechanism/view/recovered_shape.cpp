@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces from meshes and shapes of recovery files.
 #include "mechanism/view/recovered_shape.hpp"
 

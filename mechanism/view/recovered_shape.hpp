@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Surface of a part from its recovery file, deformed by the coordinates of its superelement.
 #pragma once
 

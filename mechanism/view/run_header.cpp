@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies, nodes, joints, springs, arrows and report of a run, with their numbers in blocks.
 #include "mechanism/view/run_header.hpp"
 

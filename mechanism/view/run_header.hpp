@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One run as an object of the page's header (formats/PAGE.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modes as small motions: x = x_0 + Re(shape e^(i phase)).
 #include "mechanism/view/run_modes.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modes of a linearised scene as small motions of bodies and their shapes.
 #pragma once
 

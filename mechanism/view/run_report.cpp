@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lists of texts from the stored report.
 #include "mechanism/view/run_report.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tyres as rings, and roads as strips.
 #include "mechanism/view/scenery.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Objects drawn besides bodies: tyres, and the roads on which they roll.
 #pragma once
 

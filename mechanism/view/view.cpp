@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sequence of calls of a page: results -> bodies in motion -> shapes -> blocks -> page.
 #include "mechanism/view/view.hpp"
 
@@ -11,6 +12,12 @@
 namespace tisserand::mechanism {
 namespace {
 
+using formats::Json;
+using formats::page_text;
+using formats::PageBlocks;
+using formats::PageRows;
+using formats::viewer_bundle;
+
 void require_stress(const Json& header, const std::string& where) {
   const auto has_stress = [](const Json& shape) { return !shape["stress"].is_null(); };
   for (const Json& run : header["runs"])
@@ -20,11 +27,6 @@ void require_stress(const Json& header, const std::string& where) {
       "write it with `recovery: yes` in the part, beside the superelement or the results, or name it with --recovery");
 }
 
-using formats::Json;
-using formats::page_text;
-using formats::PageBlocks;
-using formats::PageRows;
-using formats::viewer_bundle;
 Json header_of(const ViewRequest& request, PageBlocks& blocks) {
   Json header{{"format", "tisserand-page"},
               {"version", 1},

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `mechanism view`: one page from results files that any browser opens.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reading of the motion of nodes and bodies from a results file.
 #include "mechanism/view/viewed_run.hpp"
 

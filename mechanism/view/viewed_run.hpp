@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Results file for pictures: instants, nodes in motion, bodies with a frame each.
 #pragma once
 

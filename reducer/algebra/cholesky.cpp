@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Supernodal factor by CHOLMOD, and substitution for a few right-hand sides at a time. They are stored row by row: L is
 // read once for all of them, and a row of them fills one cache line.
 #include "reducer/algebra/cholesky.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Factor L Lᵀ of a large sparse symmetric positive definite matrix (CHOLMOD, supernodal), with solutions for blocks of
 // right-hand sides.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Choice of the solver: CHOLMOD first, MUMPS if CHOLMOD fails or several ranks share the work.
 #include "reducer/algebra/factor.hpp"
 

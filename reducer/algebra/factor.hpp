@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Factorisation of a sparse symmetric matrix: L Lᵀ if it is clearly positive definite, otherwise L D Lᵀ, which counts
 // signs and finds null vectors. If there are several ranks, all of them compute L D Lᵀ together.
 #pragma once

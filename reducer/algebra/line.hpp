@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A row of eight right-hand sides stored side by side, on which products and substitutions with sparse matrices work.
 #pragma once
 

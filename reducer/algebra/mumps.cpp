@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // MUMPS through PETSc's Cholesky interface.
 #include "reducer/algebra/mumps.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Factor L D Lᵀ of a sparse symmetric matrix by MUMPS through PETSc. It counts signs and finds null vectors, in one
 // process or in all ranks together.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Subspace iteration for the lowest eigenvectors of S in the inner product of its diagonal.
 #include "reducer/algebra/null_space.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Null space of a sparse symmetric stiffness matrix, checked before anything divides by its factor.
 #pragma once
 

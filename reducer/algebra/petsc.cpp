@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Start, end and errors of PETSc and SLEPc; products of their matrices with dense blocks.
 #include "reducer/algebra/petsc.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Thin layer over PETSc and SLEPc: start and end, owned matrices, errors as exceptions. Their headers are included in
 // .cpp files only.
 #pragma once

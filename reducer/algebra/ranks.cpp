@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Messages between the ranks: calls, sums, rows of matrices.
 #include "reducer/algebra/ranks.hpp"
 

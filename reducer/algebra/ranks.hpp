@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Communication between the processes (MPI ranks) that share one reduction. Rank 0 leads: it reads, decides, reports,
 // writes, and calls the others for assembly, factors, solutions, eigenvalues. All ranks call collective functions.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Work on a shared factor: leader and followers make the same collective calls in the same order.
 #include "reducer/algebra/shared_factor.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Factor L D Lᵀ spread over all ranks: the leader's handle and the followers' work.
 #pragma once
 

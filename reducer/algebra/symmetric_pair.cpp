@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Products with pairs of symmetric matrices, and their conversion to PETSc.
 #include "reducer/algebra/symmetric_pair.hpp"
 

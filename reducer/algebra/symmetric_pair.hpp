@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stiffness and mass with one common sparsity pattern, as assembly passes them to the solvers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Products of sparse symmetric matrices with blocks of vectors.
 #include "reducer/algebra/symmetric_rows.hpp"
 

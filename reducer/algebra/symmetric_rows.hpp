@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A view of a sparse symmetric matrix: its upper triangle, row by row.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Both products work on a few rows at a time. Rows of the block are stored as lines, and each line meets four columns
 // of A.
 #include "reducer/algebra/tall.hpp"

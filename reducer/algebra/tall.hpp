@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Products of a tall matrix with a block of a few columns. BLAS copies the tall matrix into its own order at each call,
 // which takes as long as the product.
 #pragma once

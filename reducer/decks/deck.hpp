@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contents of a deck of another program: the mesh, and the names of its nodes and elements for part.yaml.
 #pragma once
 

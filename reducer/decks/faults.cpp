@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Collection of the faults of a deck for one Error.
 #include "reducer/decks/faults.hpp"
 

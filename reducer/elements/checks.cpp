@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of the shapes of elements.
 #include "reducer/elements/checks.hpp"
 

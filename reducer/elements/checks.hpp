@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of the mesh before assembly: shapes of elements, and springs too stiff for floating-point accuracy.
 #pragma once
 

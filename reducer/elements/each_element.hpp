@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Common numbering of all elements of a mesh (beams, shells, solids, springs).
 #pragma once
 

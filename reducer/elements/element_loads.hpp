@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Consistent loads of elements: nodal forces that do the work of a distributed load on the element's displacements.
 #pragma once
 

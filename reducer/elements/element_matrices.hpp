@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Interface of all elements for assembly (matrices) and for checks (faults of shape).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Section forces and stresses of elements as matrices of the motion of their nodes, for recovery files.
 #pragma once
 

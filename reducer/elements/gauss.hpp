@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Gauss-Legendre rules on [-1, 1], the factors of the rules of quadrilaterals, bricks and prisms.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contribution of elements to the discretisation error: stresses at their most accurate points, and the excess of the
 // element's energy over that of smooth stresses.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mass matrix of a point mass whose centre of mass may be away from its node.
 #include "common/math/rotation.hpp"
 #include "reducer/elements/element_matrices.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plausibility checks. Limits lie far beyond usual designs, because a mistake of units is mostly a factor of 1000.
 #include "reducer/elements/plausibility.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Warnings about implausible numbers of a part (PART.md, "Numbers that are doubted").
 #pragma once
 

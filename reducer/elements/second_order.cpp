@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Patterns of second-order strains, and rows of corotated elements and springs.
 #include "reducer/elements/second_order.hpp"
 

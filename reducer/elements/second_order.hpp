@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Second-order strain of elements: common interface to their geometric stiffness, for the companion file and tests.
 //
 // V3(w; d) = Σ σ(w) E2(d, d). The stresses σ are linear in the displacements w and include integration weights. E2 is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stiffness of springs and bushings between two nodes, and the test whether they let a part float.
 #include "reducer/elements/spring.hpp"
 

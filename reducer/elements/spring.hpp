@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Springs and bushings between two nodes: 12 x 12 stiffness of a mesh's Spring from constants, axes and places.
 //
 // Coordinates [u θ] of the first node, then of the second, in part axes.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Warnings about springs so stiff that their round-off hides the stiffness of the part.
 #include <algorithm>
 #include <vector>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sums over the mass points of an element, minus the motion of its nodes.
 #include "reducer/elements/turning_mass.hpp"
 

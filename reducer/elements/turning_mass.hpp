@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Inertia of elements in a turning frame: motion of their mass at first and at second order, and the resulting
 // quadratic forms (formats/COMPANION.md).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Matrices from linear user elements and node-component lists.
 #include "reducer/exchange/abaqus_matrix.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Matrix text of Abaqus and, if it is the same, of CalculiX: linear user elements, and node-component lists.
 #pragma once
 

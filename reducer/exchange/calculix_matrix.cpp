@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Matrices from the lines of .sti, .mas and .dof files.
 #include "reducer/exchange/calculix_matrix.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Matrices that CalculiX stores with *FREQUENCY, SOLVER=MATRIXSTORAGE: job.sti, job.mas and job.dof.
 #pragma once
 

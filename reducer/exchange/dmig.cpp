@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Matrices from DMIG header and column cards, and the reverse.
 #include "reducer/exchange/dmig.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nastran DMIG cards, the punch form of reduced matrices: import and export.
 #pragma once
 

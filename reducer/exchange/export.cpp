@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `reducer export`: files of another program from a superelement file.
 #include <algorithm>
 #include <list>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tags and values of fmx files, as openfedem/fedem-solvers reads and writes them (vpmUtilities/binaryDB.c) with the
 // tags of openfedem/fedem-foundation (FFaLib/FFaOS/FFaTag.C).
 #include "reducer/exchange/fmx.hpp"

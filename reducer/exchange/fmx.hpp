@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // FEDEM's binary files of reduced matrices (*.fmx): import and export, bit for bit.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `reducer import`: a superelement file with certificate from files of another program.
 #include <algorithm>
 #include <filesystem>

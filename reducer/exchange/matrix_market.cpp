@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Header, sizes and entries of Matrix Market files.
 #include "reducer/exchange/matrix_market.hpp"
 

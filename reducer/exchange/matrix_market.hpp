@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Matrix Market files (*.mtx) with a table of rows: import and export, bit for bit.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Free elastic modes, and the record groups of MBDyn's FEM data file.
 #include "reducer/exchange/mbdyn.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Export of the FEM data file of MBDyn's modal joint.
 #pragma once
 

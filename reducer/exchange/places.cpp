@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Positions of nodes from GRID cards, from *NODE blocks, or from a table.
 #include "reducer/exchange/places.hpp"
 

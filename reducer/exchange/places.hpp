@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Positions of nodes from a file of their own: a deck of another program or a small table.
 #pragma once
 

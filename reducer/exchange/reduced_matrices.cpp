@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // S and M over one list of rows from the entries of foreign matrices.
 #include "reducer/exchange/reduced_matrices.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Common result of all readers of foreign matrices: rows with their nodes, places of nodes, S and M. It becomes a
 // superelement.
 #pragma once

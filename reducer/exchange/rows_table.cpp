@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Keys and places from the lines of the table of rows, and the reverse.
 #include "reducer/exchange/rows_table.hpp"
 

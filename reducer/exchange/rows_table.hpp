@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Table of rows for matrix formats without row names: Matrix Market and fmx.
 #pragma once
 

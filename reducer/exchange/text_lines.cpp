@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lines, fields and numbers of foreign text files.
 #include "reducer/exchange/text_lines.hpp"
 

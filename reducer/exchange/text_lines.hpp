@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Text of foreign files by lines and fields, with places for messages, independent of the format.
 #pragma once
 

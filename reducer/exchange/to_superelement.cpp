@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Superelement from imported matrices: axes, names, checks, canonical form and rigid-motion filter.
 #include "reducer/exchange/to_superelement.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Superelement from reduced matrices of another program: axes, names, checks, canonical form, rigid-motion filter.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Form, side, area and middle of faces from cells and samples.
 #include "reducer/faces/face_facts.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Facts about a face or a group of faces: its form, the side of the solid, area and middle.
 #pragma once
 

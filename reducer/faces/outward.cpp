@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Orientation of closed boundaries: cells are turned one by one across edges, then all by the sign of the volume.
 #include "reducer/faces/outward.hpp"
 

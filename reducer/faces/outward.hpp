@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Outward direction of faces that bound volumes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fit of surface forms: first guesses by linear algebra, then Gauss-Newton on distances.
 #include "reducer/faces/surface_form.hpp"
 

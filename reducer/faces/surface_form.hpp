@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fit of planes, cylinders, cones, spheres and tori through points of a face, for `reducer groups`.
 #pragma once
 

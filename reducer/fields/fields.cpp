@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Displacements and stresses of the mesh for every coordinate, block by block.
 #include "reducer/fields/fields.hpp"
 

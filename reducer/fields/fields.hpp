@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contents of a recovery file: its tables, and its fields block by block.
 #pragma once
 

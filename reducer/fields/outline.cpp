@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Outer contours of beam sections in the axes of the element.
 #include <cmath>
 #include <numbers>

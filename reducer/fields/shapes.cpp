@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of T [1 0; Ψ Φ], THEORY (79).
 #include "reducer/fields/shapes.hpp"
 

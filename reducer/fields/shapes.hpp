@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Motion of every node of the full mesh for every coordinate of the superelement.
 #pragma once
 

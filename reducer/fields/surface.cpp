@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Faces that belong to one solid only, and their triangles.
 #include "reducer/fields/surface.hpp"
 

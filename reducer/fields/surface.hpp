@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Visible surface of a mesh: triangles of shells and of the outer faces of solids, outlines of beam sections.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tables of a recovery file from mesh and properties.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Jacobians of curved cells by gmsh, and its optimisation of second-order nodes.
 #include "reducer/gmsh/curved.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Second-order cells that curved faces have folded: detection in the current model of gmsh, and unfolding.
 #pragma once
 

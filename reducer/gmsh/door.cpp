@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sandbox: rlimits, Landlock and the filter of system calls.
 #include "reducer/gmsh/door.hpp"
 

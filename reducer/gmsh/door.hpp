@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sandbox of this process for untrusted files: limits, no paths except the file's, and no system calls except those
 // that computing needs.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Queries to gmsh's kernels, some of which may have no answer.
 #include "reducer/gmsh/geometry.hpp"
 

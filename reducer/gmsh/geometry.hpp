@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Kernel data of edges and faces in addition to their mesh: lengths, areas, and points of surfaces with normals.
 #pragma once
 

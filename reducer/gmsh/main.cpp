@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The program reducer-mesher, started by reducer-solver: loads gmsh, enters the sandbox, reads a geometry or mesh file
 // and answers with its cells. The request and the answer use descriptors that are open when it starts.
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cells of a file: opened, meshed if it is a geometry, and read out of gmsh.
 #include "reducer/gmsh/read.hpp"
 

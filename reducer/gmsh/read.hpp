@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A geometry or mesh file as cells, read inside the sandbox.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Start and messages of gmsh.
 #include "reducer/gmsh/session.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The library gmsh, a global state of this process: start and messages.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modes of the inside. Pins hold its mechanisms during the computation.
 #include "reducer/inside/inside.hpp"
 

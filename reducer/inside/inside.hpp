@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reduction of the inside of a part: boundary modes and internal modes from its matrices. Motions without stiffness are
 // refused or kept.
 #pragma once

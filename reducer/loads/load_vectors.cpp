@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sums of the elements' consistent loads.
 #include "reducer/loads/load_vectors.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Load cases as forces on the coordinates of the system, for statics and for projection by a reduction.
 #pragma once
 

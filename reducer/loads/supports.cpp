@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Components of supported nodes.
 #include "reducer/loads/supports.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Supports of a part as held coordinates of its mesh.
 #pragma once
 

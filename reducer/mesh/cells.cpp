@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Forms, sizes and nodal shares of cells.
 #include "reducer/mesh/cells.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cells: output of meshers, before anything has a section or a material. part.yaml refers to cells by entities (edges,
 // faces, volumes) and groups of them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Coordinates of the nodes and their names.
 #include "reducer/mesh/coordinates.hpp"
 

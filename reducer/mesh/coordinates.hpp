@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Coordinates of the nodes of a mesh, the basis of assembly.
 #pragma once
 

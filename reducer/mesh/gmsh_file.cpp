@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elements as discrete entities of a .msh file, one for each property (gmsh's documentation, "MSH file format").
 #include "reducer/mesh/gmsh_file.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A mesh as a gmsh file, for viewing.
 #pragma once
 

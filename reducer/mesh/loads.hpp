@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Supports and load cases of a part, resolved to nodes and elements of its mesh.
 #pragma once
 

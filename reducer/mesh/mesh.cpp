@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of the mesh before the solution: its rigid motions, whether it is one piece, whether it is held.
 #include "reducer/mesh/mesh.hpp"
 

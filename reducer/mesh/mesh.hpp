@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Finite element model of a part: nodes, elements, masses and ties. All input formats (part.yaml, gmsh, decks of other
 // programs) produce it for assembly.
 #pragma once

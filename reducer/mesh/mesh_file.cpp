@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // First check of mesh and geometry files: kind, beginning and end.
 #include "reducer/mesh/mesh_file.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Kind of a mesh or geometry file, and a check that it is complete, before a library reads it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measures of elements, their limits, and the warnings for the modes.
 #include "reducer/mesh_error/doubts.hpp"
 

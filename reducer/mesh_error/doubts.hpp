@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whether the estimate of the discretisation error is reliable within a factor of two: measures of the distance between
 // the smooth stresses and those of the part, and checks for meshes on which smooth stresses cannot be found.
 #pragma once

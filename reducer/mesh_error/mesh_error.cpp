@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sums of the elements' errors for the modes of the reduced part on the mesh.
 #include "reducer/mesh_error/mesh_error.hpp"
 

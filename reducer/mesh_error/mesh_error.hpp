@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Discretisation error, which more modes cannot reduce: estimate for the lowest frequencies, from stresses that jump
 // between elements.
 #pragma once

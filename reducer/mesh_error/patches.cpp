@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Patches of elements around corners.
 #include "reducer/mesh_error/patches.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Patches of smooth stresses: the elements around each corner that share a property and, for shells, a tangent plane.
 #pragma once
 

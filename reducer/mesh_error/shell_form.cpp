@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Angles between shells and between free edges.
 #include "reducer/mesh_error/shell_form.hpp"
 

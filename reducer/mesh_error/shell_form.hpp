@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes of shells on which smooth stresses cannot be found: coarse curves, and folds too close to each other.
 #pragma once
 

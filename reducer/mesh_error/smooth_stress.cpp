@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Superconvergent patch recovery.
 #include "reducer/mesh_error/smooth_stress.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Smooth stresses by superconvergent patch recovery: one polynomial around each corner, by least squares through the
 // elements' stresses at their most accurate points.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Slopes of the curved surface and bows of free edges.
 #include "reducer/mesh_error/surround.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Curved surface and edges on which the nodes of shells lie, from the turns between neighbours.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Start, supervision and end of the child process.
 #include "reducer/mesher/child.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Child process that runs gmsh: started with a request, and supervised until it has answered or must end.
 #pragma once
 

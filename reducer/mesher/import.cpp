@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Request from the settings of a part file, and a mesh or an error from the end of the process.
 #include "reducer/mesher/import.hpp"
 

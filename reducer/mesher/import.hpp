@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Geometry (.geo, STEP, IGES, BREP) and .msh files as cells, through gmsh in a sandboxed process.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Packing and unpacking between two processes of one machine.
 #include "reducer/mesher/parcel.hpp"
 

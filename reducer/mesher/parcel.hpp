@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Request and answer of the program that runs gmsh, as bytes. The answer comes from a process that has read an
 // untrusted file, so all of it is checked.
 #pragma once

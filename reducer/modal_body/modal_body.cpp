@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lumped masses, their modes under reference conditions, and the sums over the nodes.
 #include "reducer/modal_body/modal_body.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Floating-frame body of a part (formats/MODAL_BODY.md): lumped masses and modes under reference conditions.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loads of lumped masses and of nodes, and their static answers under the reference conditions.
 #include "reducer/modal_body/static_answers.hpp"
 

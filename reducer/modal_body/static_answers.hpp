@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Static answers that the modes of a modal body omit: to inertia loads of its frame and to forces on its nodes.
 #pragma once
 

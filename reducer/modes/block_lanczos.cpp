@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Block Lanczos iteration with thick restart, on BLAS 3.
 #include "reducer/modes/block_lanczos.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Block Lanczos iteration for the lowest eigenpairs of large pencils. It solves for eight or sixteen right-hand sides
 // at a time, so that the factor is read once for all. eps_block_lanczos.cpp makes it a type of SLEPc's EPS.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Boundary modes by one factorisation and blocked right-hand sides.
 #include "reducer/modes/boundary_modes.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Boundary (static constraint) modes: motion of the inside for motions of the boundary, [Car00] eq. (4).
 #pragma once
 

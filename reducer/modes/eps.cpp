@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Set-up of EPS with a shell matrix around the factor, and its pairs.
 #include "reducer/modes/eps.hpp"
 

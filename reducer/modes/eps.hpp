@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Owner of an EPS, SLEPc's eigenvalue solver, for vibration modes and buckling.
 #pragma once
 

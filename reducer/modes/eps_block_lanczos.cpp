@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Functions of the EPS type that SLEPc calls. Only this file includes SLEPc's private header, as its manual prescribes
 // for new solvers.
 #include "reducer/modes/eps_block_lanczos.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Block Lanczos iteration as an additional type of SLEPc's EPS.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modes of the system from modes of the reduced part.
 #include "reducer/modes/free_motions.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lowest modes of the free reduced part on the full model, for estimates of its accuracy.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rigid properties and free frequencies of the unreduced part.
 #include "reducer/modes/full_model.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Quantities of the unreduced part, with which the certificate compares those of the reduced one.
 #pragma once
 

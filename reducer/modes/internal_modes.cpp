@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Internal modes: their number, selection and basis.
 #include "reducer/modes/internal_modes.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Internal (fixed-boundary) modes, [Car00] eq. (5), in a basis that does not depend on solver or node numbers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Inverse iteration a few columns at a time, in place.
 #include "reducer/modes/inverse_iteration.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Inverse iteration on eigenpairs of S x = λ M x, in one process or in several that share the rows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Load factors: bracketed and counted by inertia, found by shift-invert Krylov-Schur iteration below the lowest.
 #include "reducer/modes/load_factors.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Buckling: multiples of a stress at which a part loses its stability, (S + λ K_g) φ = 0.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Change of coordinates from held pins to free ones.
 #include "reducer/modes/loose_modes.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Intended mechanisms inside a part. The reduction holds one coordinate of each, which then becomes internal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Projection on T = [1 0; Ψ Φ], THEORY (79), and canonical form, THEORY (7).
 #include "reducer/modes/project.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Projection of S and M on boundary and internal modes: reduced matrices of the superelement file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rayleigh-Ritz method for the inside with the boundary held, in the space of moment vectors or of free modes.
 #include "reducer/modes/ritz_vectors.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Internal vectors other than fixed-boundary modes: moment vectors in addition to these, and the internal part of free
 // modes (Rubin, MacNeal).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Searches by EPS. All processes that share the rows make the same calls.
 #include "reducer/modes/search.hpp"
 

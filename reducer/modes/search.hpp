@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One search by SLEPc for the lowest pairs of a pencil, in this process or in all that share its factor.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Eigenpairs by SLEPc, counted by Sylvester's law of inertia. If some are missing, the search is repeated.
 #include "reducer/modes/spectrum.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lowest eigenpairs of S x = λ M x without a gap, S positive definite after a shift, M positive semidefinite.
 #pragma once
 

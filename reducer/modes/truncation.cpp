@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bounds of the error by dropped modes, computed from reduced matrices.
 #include "reducer/modes/truncation.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Truncation error: bounds for the effect of the omitted internal modes, from one block of solutions.
 #pragma once
 

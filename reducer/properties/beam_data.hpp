@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Data of a beam: sections, material, theory, added mass.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Polynomials through the constants of sections.
 #include "reducer/properties/beam_taper.hpp"
 

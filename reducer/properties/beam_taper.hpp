@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sections along a tapered beam: stations between two end sections, and constants at a point between stations.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stiffness and mass per area of isotropic sheets and laminates.
 #include "reducer/properties/laminate.hpp"
 

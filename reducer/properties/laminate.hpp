@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sections of shells: stiffness and mass per area of an isotropic sheet or a stack of orthotropic plies.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Figures of PBARL as polygons.
 #include "reducer/properties/pbarl.hpp"
 

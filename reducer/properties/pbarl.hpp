@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sections by the names and sizes of Nastran's PBARL and PBEAML cards.
 #pragma once
 

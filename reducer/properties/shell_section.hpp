@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Section of a shell: resultants per unit length from membrane strain, curvature and shear strain.
 #pragma once
 

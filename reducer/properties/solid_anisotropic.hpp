@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elastic matrices of solids with material axes: C in part axes from the constants of a deck.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elastic matrices of solids in part axes: isotropic, orthotropic and fully anisotropic materials.
 #include "reducer/properties/solid_material.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Notes on load cases, and on forces on nodes of modal bodies.
 #include "reducer/recover/inertia_loads.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nodes, elements and groups chosen by words of the command line.
 #include <algorithm>
 #include <charconv>

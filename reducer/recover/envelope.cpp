@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Extremes over time; of equal values the first counts.
 #include "reducer/recover/envelope.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Extremes over time of all recovered quantities: value, instant, and place in the element.
 #pragma once
 

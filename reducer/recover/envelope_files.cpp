@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files of the envelope: a table of elements, and fields on the mesh at rest.
 #include <cmath>
 

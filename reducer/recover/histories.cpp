@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files of the tables over time.
 #include "reducer/recover/histories.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Histories of chosen nodes, elements and groups as CSV, written batch by batch.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cells of histories from the rows of fields.
 #include "reducer/recover/history_tables.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tables of histories of nodes, elements and groups.
 #pragma once
 

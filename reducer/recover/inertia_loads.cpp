@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loads on the omitted part of the deformation, from the motion of the floating frame.
 #include "reducer/recover/inertia_loads.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Static answers of the recovery file for the omitted part of the deformation: their factors from the motion of the
 // frame.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values at one instant, and their maxima.
 #include "reducer/recover/instant_values.hpp"
 

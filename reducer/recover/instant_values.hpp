@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values at one instant: one number per node and per cell, and their maxima.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Load files: FORCE and MOMENT cards, *CLOAD lines.
 #include "reducer/recover/load_files.hpp"
 

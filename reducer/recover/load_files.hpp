@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Load cases for the part's own mesh in other finite element programs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Invariants of stress tensors, normal stresses of sections.
 #include "reducer/recover/measures.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scalar measures of stress in an element, face, section or point: von Mises and principal stresses, with their places.
 #pragma once
 

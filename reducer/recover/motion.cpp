@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Coordinates of one superelement or modal body from the rows of a results file.
 #include "reducer/recover/motion.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Motion of one body of a results file, in the coordinates and units of its recovery file.
 #pragma once
 

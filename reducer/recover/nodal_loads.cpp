@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sums over the internal coordinates and the loads. Boundary forces follow by virtual work on the boundary shapes.
 #include "reducer/recover/nodal_loads.hpp"
 

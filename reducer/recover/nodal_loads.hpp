@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Forces on the nodes of the unreduced part at one instant, whose static answer is the recovered displacement.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names and places of nodes and elements, and stress points around nodes.
 #include "reducer/recover/places.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Places in a part: texts for reports, elements and stress points around nodes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Recovery: results -> coordinates -> fields, batch by batch -> files and the largest values.
 #include "reducer/recover/recover.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `reducer recover`: displacement and stress of a part from the results of a run.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Arguments of `reducer recover` on the command line.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Products of fields with coordinates, and scalar stress measures.
 #include "reducer/recover/stresses.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Displacements and stresses of the mesh at some instants, from fields of the recovery file and the body's motion.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values on all cells and points, zero for kinds without them.
 #include "reducer/recover/vtu_data.hpp"
 

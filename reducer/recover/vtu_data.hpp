@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Recovered fields of one instant as arrays of a VTU file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Frequencies, condition numbers and massless directions from S̄ and M̄ only.
 #include "reducer/report/certificate.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Certificate of a superelement: computed after the reduction and from the file alone, printed and stored as JSON.
 #pragma once
 

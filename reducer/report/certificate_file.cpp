@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Certificate as JSON next to the superelement file, and as text for users.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures of the certificate by gnuplot, and the HTML around them.
 #include "reducer/report/certificate_page.hpp"
 

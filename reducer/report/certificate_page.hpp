@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `reducer show -o certificate.html`: the certificate as a page with pictures.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Data of the certificate from every stage of a reduction.
 #include "reducer/report/describe.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Data of the certificate, and warnings about the mesh.
 #pragma once
 

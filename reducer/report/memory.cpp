@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Required and available memory.
 #include "reducer/report/memory.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Memory of a reduction, reported and compared with the available memory before most of it is allocated.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Time and memory per phase, and the thread that reports long phases.
 #include "reducer/report/phases.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Time and memory per phase of a reduction, and progress on stderr if one takes longer than a second.
 #pragma once
 

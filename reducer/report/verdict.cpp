@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sentence about the errors of frequencies.
 #include "reducer/report/verdict.hpp"
 

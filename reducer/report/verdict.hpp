@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Verdict about a superelement in one line: whether it is good enough, and for what.
 #pragma once
 

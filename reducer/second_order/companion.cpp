@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Arrays of the companion file from the modes.
 #include "reducer/second_order/companion.hpp"
 

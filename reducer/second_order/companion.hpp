@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Companion of a superelement: second-order arrays and load cases of the finite elements (formats/COMPANION.md).
 #pragma once
 

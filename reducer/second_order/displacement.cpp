@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shapes of second-order displacement from sample deformations.
 #include "reducer/second_order/displacement.hpp"
 

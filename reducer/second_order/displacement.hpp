@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Displacement of second order inside a part: motion of elements and ties of a deformed part in addition to Φ y, at
 // given coordinates y (formats/RECOVERY.md, second-order displacement).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Gram matrix of the stress that pairs of shapes trap, and its rows.
 #include "reducer/second_order/double_curvature.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Membrane stress that bending into double curvature traps: rows of the companion's strain without a linear part.
 //
 // The second-order strains of a deformation d load the elements with the nodal forces f_e = ∂V3/∂w. If every element

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Two eigenproblems of the reduced matrices: the first removes motions without strain, the second is by mass.
 #include "reducer/second_order/free_shapes.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elastic modes of the free reduced body, scaled by their strain energy.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Geometric stiffness: elements, then ties and offset masses, in the pattern of the stiffness.
 #include "reducer/second_order/geometric_stiffness.hpp"
 

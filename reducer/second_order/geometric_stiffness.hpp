@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stiffness and geometric stiffness of a loaded part as sparse matrices, for the buckling of the unreduced part.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Forms of elements for the displacements of the reduced coordinates, block by block.
 #include "reducer/second_order/inertia.hpp"
 

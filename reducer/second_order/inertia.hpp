@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Inertia of the part in a turning frame, THEORY (81), (85), by the masses of elements: C, E, W, contributions of
 // element interiors to N and T, and loads of rigid accelerations, THEORY (94).
 #pragma once

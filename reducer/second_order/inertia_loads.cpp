@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loads of rigid accelerations and of rotation, and their static answers.
 #include "reducer/second_order/inertia_loads.hpp"
 

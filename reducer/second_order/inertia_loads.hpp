@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Twelve inertia loads of a floating frame, and the static answers of the part in addition to its internal coordinates.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Quadratic forms by one matrix product per batch of elements and piece of the pairs of coordinates.
 #include "reducer/second_order/quadratic_forms.hpp"
 

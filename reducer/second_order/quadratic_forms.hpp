@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Σ σ(w_j) Q(Φ_k, Φ_l) over all points of the part: matrices over the reduced coordinates from stresses and gradients
 // of batches of elements.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Forces that ties transmit, and the second order on which they do work.
 #include "reducer/second_order/tie_strain.hpp"
 

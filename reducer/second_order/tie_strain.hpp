@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Second order of ties: work of the forces that ties transmit on rigid arms and averages that turn.
 //
 // Ties are equations c(x) = 0. For displacements w under loads g they transmit forces λ, S w + Cᵀ λ = g with the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Buckling for each load case: geometric stiffness, load factors, scaled shapes.
 #include "reducer/solve/buckling.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linear buckling of the supported part under each of its load cases.
 #pragma once
 

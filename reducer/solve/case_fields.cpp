@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Recovered fields in memory, and the loads between the ends of beams.
 #include "reducer/solve/case_fields.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Forces and stresses of the solved load cases.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Table and VTU files.
 #include "reducer/solve/files.hpp"
 

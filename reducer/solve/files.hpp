@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files of a solution: values of named points, and the mesh with displacements and stresses for ParaView.
 #pragma once
 

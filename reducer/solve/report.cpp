@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lines of the report on a solution.
 #include "reducer/solve/report.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Solution: part -> mesh -> S, M -> supports and loads -> displacements, modes -> stresses.
 #include "reducer/solve/solve.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `reducer solve`: statics, modes and buckling of the unreduced part on its supports.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Solution of the static equations, and refinement.
 #include "reducer/solve/statics.hpp"
 

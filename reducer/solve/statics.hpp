@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linear statics of the supported part: one factor for all load cases.
 #pragma once
 

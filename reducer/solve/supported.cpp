@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Held and free coordinates.
 #include "reducer/solve/supported.hpp"
 

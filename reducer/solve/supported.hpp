@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The part on its supports: its held coordinates, and the factor of the stiffness of the others.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Eigenpairs of the supported part, their basis and effective masses.
 #include "reducer/solve/supported_modes.hpp"
 

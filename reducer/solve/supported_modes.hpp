@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modes of the unreduced part on its supports, or of the free part.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ties between two nodes.
 #include "reducer/sources/apart_on_purpose.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nodes at the same place that are not merged: whether something ties them, or a joint may connect them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Spiders, springs, point masses and boundary nodes of the mesh.
 #include <algorithm>
 #include <map>

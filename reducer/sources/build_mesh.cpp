@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mesh of a part: its steps in their order.
 #include "reducer/sources/build_mesh.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mesh of a part from the drawing in the part file and from its mesh file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Check that the edges of patches and beams that touch have the same nodes.
 #include <algorithm>
 #include <map>

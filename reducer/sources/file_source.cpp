@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The mesh file of a part: cells of a geometry or mesh, or the elements of a deck, after the part file's own nodes.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shells, solids and beams on groups: cells with properties become elements.
 #include <algorithm>
 #include <map>

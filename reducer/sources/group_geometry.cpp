@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Entities in boxes and on bores, and nearest entities.
 #include "reducer/sources/group_geometry.hpp"
 

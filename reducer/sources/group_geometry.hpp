@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Groups by position: entities inside a box, on the wall of a bore, or nearest to a point.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shares of the nodes of a group in its length, area or volume.
 #include <algorithm>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hanging nodes: nodes on an edge or face of another element without a node there, so that they are not connected to
 // it.
 #include <algorithm>

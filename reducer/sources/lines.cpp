@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lines and arcs through points, and their number of elements.
 #include "reducer/sources/lines.hpp"
 

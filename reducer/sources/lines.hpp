@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lines and arcs of part.yaml as curves, and the axes of beams along them.
 #pragma once
 

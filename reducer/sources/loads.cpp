@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Supports and load cases of part.yaml at nodes, faces, edges and beams of the mesh.
 #include <algorithm>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mesh under construction: common data of build_mesh() and its steps.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hash table of cubes in space.
 #include "reducer/sources/node_grid.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Spatial search for points: the node at a place, and nodes nearby.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Points, patches and beams of the part file as nodes and elements.
 #include <set>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mapped meshes of plates, discs, cylinders and extrusions.
 #include "reducer/sources/patches.hpp"
 

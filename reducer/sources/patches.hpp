@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plates, discs, cylinders and extrusions of part.yaml as cells: mapped meshes whose coincident nodes are merged.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nodes from points, numbers, positions and centroids.
 #include "reducer/sources/places.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Places of part.yaml as nodes of the mesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Resolution of the names of groups.
 #include "reducer/sources/selection.hpp"
 

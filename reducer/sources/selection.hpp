@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Selections by the names of groups in part.yaml, and the shares of their nodes.
 #pragma once
 

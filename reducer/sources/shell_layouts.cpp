@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plies from the names of their materials.
 #include "reducer/sources/shell_layouts.hpp"
 

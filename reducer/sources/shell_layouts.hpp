@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sections of shells and materials of solids from layouts and materials of part.yaml.
 #pragma once
 

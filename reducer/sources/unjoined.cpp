@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Warnings about elements that touch without a common node, because they are not connected there.
 #include <algorithm>
 #include <limits>

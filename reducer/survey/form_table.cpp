@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rows and columns of the table of forms.
 #include "reducer/survey/form_table.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Placement of labels by a search around each place.
 #include "reducer/survey/labels.hpp"
 

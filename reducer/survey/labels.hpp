@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Places of the names of surfaces in a picture.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Faces as shells of one group each, for the page of a part.
 #include "reducer/survey/page.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Faces of a part on an HTML page that turns the part.
 #pragma once
 

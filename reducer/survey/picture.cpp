@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Two views and their labels on one canvas, by gnuplot.
 #include "reducer/survey/picture.hpp"
 

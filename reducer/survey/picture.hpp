@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `reducer groups -o`: coloured faces with their numbers, as a picture or as a page.
 #pragma once
 

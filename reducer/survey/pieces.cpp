@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Colours that differ between neighbours in the list.
 #include "reducer/survey/pieces.hpp"
 

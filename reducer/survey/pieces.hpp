@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Faces as they are drawn, each in its own colour.
 #pragma once
 

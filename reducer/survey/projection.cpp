@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Triangles sorted by depth, and squares of the picture that find the triangles in front of a place.
 #include "reducer/survey/projection.hpp"
 

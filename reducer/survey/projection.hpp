@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A view of coloured surfaces as polygons from back to front, and the visible surface at each place.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tables of entities, groups and sets.
 #include "reducer/survey/survey.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Contents of a part or mesh file: names and numbers by which part.yaml can refer to them, and the forms of its faces.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Assembly: graph of the nodes, then element matrices in batches, computed and added by all threads. If there are
 // several ranks, each computes the rows of its share of the nodes.
 #include "reducer/system/assembly.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Assembly of the sparse matrices S and M of all coordinates of the mesh, before ties are eliminated.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Null directions of the nodes' blocks of S and M.
 #include "reducer/system/inactive.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Removal of coordinates without stiffness and mass, such as the rotations of a truss's nodes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rigid motion that fits a null vector, and its description in words.
 #include "reducer/system/mechanism.hpp"
 

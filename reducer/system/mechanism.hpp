@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Messages about mechanisms inside a part: motions without stiffness.
 #pragma once
 

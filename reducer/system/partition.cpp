@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Partition of the coordinates and extraction of the blocks.
 #include "reducer/system/partition.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Partition into boundary coordinates (B), which other bodies see, and internal ones (I), which are condensed, and the
 // blocks of S and M.
 #pragma once

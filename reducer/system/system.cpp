@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // S and M in independent coordinates, from the mesh.
 #include "reducer/system/system.hpp"
 

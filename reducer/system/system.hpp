@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Equations of motion of the part in independent coordinates, the basis of all later steps.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Equations of an averaging spider. Large spiders have a tree of groups.
 #include "reducer/ties/averaging.hpp"
 

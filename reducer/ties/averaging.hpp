@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Averaging spiders (RBE3): the reference follows the weighted mean motion of the nodes.
 #pragma once
 

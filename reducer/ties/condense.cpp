@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tᵀ A T for two matrices together, row by row of the result. Most rows of T are those of a unit matrix.
 #include "reducer/ties/condense.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // S and M of the independent coordinates: Tᵀ S T and Tᵀ M T.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elimination of ties to reduced row echelon form.
 #include "reducer/ties/elimination.hpp"
 

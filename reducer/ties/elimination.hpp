@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exact elimination of linear equations: choice of dependent coordinates, as sums over the others.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Equations of rigid spiders and of the mesh; averaging.cpp has those of averaging spiders.
 #include "reducer/ties/equations.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Spiders and equations of a mesh as linear equations between its coordinates, the input of elimination.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Springs whose axes matter, rotations of their nodes, and spiders for nodes without rotations.
 #include "reducer/ties/spring_turns.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Springs between nodes without rotations: definition of rotations that turn their axes with the part.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies and modes of a page from groups of elements and shapes of coordinates.
 #include "reducer/view/part_page.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `reducer view`: a part as an HTML page, before its reduction, or with the modes of its recovery file.
 #pragma once
 

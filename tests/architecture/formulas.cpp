@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers of the formulas of docs/THEORY.md: those that the page has, that the code cites, and that the tests evaluate.
 #include <regex>
 #include <set>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Functions of the sources as they are written: where each begins and ends, and how many parameters it has.
 #include <algorithm>
 #include <array>

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # install.sh <source> <build>: installs this build into a folder of its own, moves it, and uses what is there as a user would:
 # programs, the page with the first part, the schemas, manual pages, completion.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # mechanism_alone.sh <source> <build>: mechanism needs no PETSc, SLEPc or gmsh. It configures where these cannot be found,
 # nothing of them is in that build graph, and the mechanism of this build neither included nor links them.
 set -euo pipefail

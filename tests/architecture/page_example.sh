@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # page_example.sh <source> <build> <page> [heading]: does what a page tells, in its order and in an empty folder; with a
 # heading only what stands in that section (up to the next heading of its level).
 #   ```yaml blocks become files. Their name is the first line, "# name.yaml", or the last `name` of the paragraph before;

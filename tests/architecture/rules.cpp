@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads the tree as text and looks for violations of its rules.
 #include "tests/architecture/rules.hpp"
 
@@ -226,8 +227,8 @@ std::vector<Violation> cycles_of(const Graph& graph, const std::string& what) {
 
 std::string without_ending(const std::string& path) { return path.substr(0, path.rfind('.')); }
 
-/// The folder of a source. Sources in the folder of a stage itself, above its rooms, are programs and stories, each a room
-/// of its own; those of `common` are one room.
+/// The folder of a source. Sources in the folder of a stage itself, above its rooms, are programs and stories, each a
+/// room of its own; those of `common` are one room.
 std::string room_of(const std::string& stem) {
   const std::string folder = stem.substr(0, stem.rfind('/'));
   return folder.find('/') == std::string::npos && folder != "common" ? stem : folder;
@@ -354,9 +355,8 @@ std::vector<Violation> check_lengths(const SourceTree& tree) {
   std::vector<Violation> violations;
   for (const SourceFile& file : tree.files) {
     const std::size_t most = file.is_header() ? 300 : 500;
-    if (file.is_source() && file.lines.size() > most)
-      violations.push_back(
-          {file.path, 0, std::to_string(file.lines.size()) + " lines, at most " + std::to_string(most)});
+    if (file.is_source() && file.length() > most)
+      violations.push_back({file.path, 0, std::to_string(file.length()) + " lines, at most " + std::to_string(most)});
   }
   return violations;
 }
@@ -380,8 +380,8 @@ std::vector<Violation> check_stories(const SourceTree& tree) {
                                                 "mechanism/study/study.cpp",        "reducer/reduce.cpp"};
   std::vector<Violation> violations;
   for (const SourceFile& file : tree.files)
-    if (stories.contains(file.path) && file.lines.size() > page)
-      violations.push_back({file.path, 0, std::to_string(file.lines.size()) + " lines, a story has at most 80"});
+    if (stories.contains(file.path) && file.length() > page)
+      violations.push_back({file.path, 0, std::to_string(file.length()) + " lines, a story has at most 80"});
   return violations;
 }
 

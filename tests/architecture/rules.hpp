@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The rules of the tree as functions over its text: who may include whom, lengths, wording, links. Beside the programs.
 #pragma once
 
@@ -19,6 +20,8 @@ struct SourceFile {
   std::vector<std::string> code;
   std::vector<Include> includes;
 
+  /// Length without the line of the licence.
+  std::size_t length() const;
   bool is_header() const { return path.ends_with(".hpp"); }
   bool is_source() const { return path.ends_with(".cpp") || is_header(); }
   bool is_page() const { return path.ends_with(".md"); }
@@ -70,6 +73,9 @@ std::vector<Violation> check_sentences(const SourceTree& tree);
 
 /// Docstrings begin with a noun or a verb: none with "Of", "The same" or "As".
 std::vector<Violation> check_docstrings(const SourceTree& tree);
+
+/// Sources, scripts and lists of CMake begin with the line SPDX-License-Identifier (scripts: behind #!).
+std::vector<Violation> check_licences(const SourceTree& tree);
 
 /// Links of pages, and files that pages and comments name, exist; source keys such as [Car00] have a row in
 /// CONVENTIONS.md.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The scanner itself: a planted violation of each rule is found, and only that one.
 #include "tests/architecture/rules.hpp"
 
@@ -261,9 +262,11 @@ TEST_F(PlantedTree, FullRoomsAndLongStoriesAreFound) {
 }
 
 TEST_F(PlantedTree, LongSentencesAreFound) {
-  std::string words;
+  std::string words, table;
   for (int i = 0; i < 29; ++i) words += "word" + std::string(i % 7 == 6 ? "\n" : " ");
-  plant("formats/PAGE.md", "# Title\n\nA " + words + ". Next " + words + ".\n\n| " + words + words + "|\n");
+  for (int i = 0; i < 40; ++i) table += "word ";
+  plant("formats/PAGE.md",
+        "# Title\n\nA " + words + ". Next " + words + ".\n\n| A " + std::string(words.size(), 'b') + " |\n");
   EXPECT_EQ(to_text(check_sentences(tree())), "");
   plant("formats/PAGE.md", "# Title\n\n- One.\n- A `b c d` [two words](x.md) " + words + "\n");
   EXPECT_THAT(to_text(check_sentences(tree())), HasSubstr("formats/PAGE.md:4: 33 words in a sentence, at most 30"));
@@ -271,10 +274,27 @@ TEST_F(PlantedTree, LongSentencesAreFound) {
 
 TEST_F(PlantedTree, DocstringsWithoutNounAreFound) {
   plant("common/a.hpp",
-        "#pragma once\n/// Of a beam.\nint f();\n/// Mass\n/// Of a beam.\nint g();\nint h;  ///< The same of h\n");
+        "#pragma once\n/// O"
+        "f a beam.\nint f();\n/// Mass\n/// O"
+        "f a beam.\nint g();\nint h;  ///< The sa"
+        "me of h\n");
   EXPECT_EQ(to_text(check_docstrings(tree())),
             "common/a.hpp:2: a docstring begins with a noun or a verb\n"
             "common/a.hpp:7: a docstring begins with a noun or a verb\n");
+}
+
+TEST_F(PlantedTree, MissingLicencesAreFound) {
+  const std::string licence = "SPDX-License-Identifier: GPL-3.0-or-later\n";
+  plant("common/a.hpp", "// " + licence + "#pragma once\n");
+  plant("common/a.cpp", "// " + licence + "#include \"common/a.hpp\"\n");
+  plant("scripts/b", "#!/bin/sh\n# " + licence);
+  plant("scripts/c", "#!/bin/sh\necho\n");
+  plant("cmake/d.cmake", "# a list\n");
+  std::string found;
+  for (const Violation& violation : check_licences(tree()))
+    if (violation.path.find("/a.") != std::string::npos || !violation.path.ends_with("pp"))
+      found += violation.path + " ";
+  EXPECT_EQ(found, "cmake/d.cmake scripts/c ");
 }
 
 TEST_F(PlantedTree, WordingIsChecked) {

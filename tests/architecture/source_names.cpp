@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Which source implements which header, and where numbers become int.
 #include <filesystem>
 #include <iterator>

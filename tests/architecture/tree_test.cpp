@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The rules of the tree hold for this tree (architecture rules 1-5, README "Where things are").
 #include <gtest/gtest.h>
 
@@ -44,6 +45,8 @@ TEST(Tree, WordsAreKept) { EXPECT_EQ(to_text(check_wording(this_tree())), ""); }
 TEST(Tree, SentencesAreShort) { EXPECT_EQ(to_text(check_sentences(this_tree())), ""); }
 
 TEST(Tree, DocstringsBeginWithANoun) { EXPECT_EQ(to_text(check_docstrings(this_tree())), ""); }
+
+TEST(Tree, FilesNameTheirLicence) { EXPECT_EQ(to_text(check_licences(this_tree())), ""); }
 
 TEST(Tree, LinksLead) { EXPECT_EQ(to_text(check_links(this_tree())), ""); }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ways of values through the rooms, as the maps tell them.
 #include <algorithm>
 #include <filesystem>

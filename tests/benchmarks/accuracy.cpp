@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What accuracy costs on smooth motions: CPU time at given errors of generalised_alpha, radau and, for the rigid chain,
 // the plain Runge-Kutta method; as markdown. Arguments: names of scenes, none: all.
 #include <algorithm>

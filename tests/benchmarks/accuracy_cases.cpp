@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ten scenes with an accuracy asked for, fixed before they were measured: what `integrator: accuracy` reaches and
 // costs, beside the cheapest setting of a study over methods, steps and tolerances; as markdown. Arguments: names of
 // cases, none: all.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The internal modes of a plate by each type of SLEPc's EPS, with one factor: columns solved, time, residual. The table of
 // docs/PERFORMANCE.md, "Eigenvalue solvers".
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of an iteration, their share of a step, and the two linear solvers.
 #include <utility>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // benchmarks [--benchmark_filter=...]: prints one markdown table per kind of measurement.
 #include <cstdlib>
 #include <exception>

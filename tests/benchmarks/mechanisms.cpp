@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Chains and slider-cranks written in code.
 #include "tests/benchmarks/mechanisms.hpp"
 

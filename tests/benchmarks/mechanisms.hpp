@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes of mechanisms for the benchmarks: chains of rigid links, and the slider-crank of [GA00] 4.3.
 #pragma once
 

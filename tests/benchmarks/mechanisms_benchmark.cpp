@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Chains against the number of links, sparse against dense against size, and the slider-crank as steps per second.
 #include <utility>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // R. Featherstone, Rigid Body Dynamics Algorithms, Springer 2008, 7.3, for spherical joints, in world axes.
 #include "tests/benchmarks/runge_kutta_chain.hpp"
 

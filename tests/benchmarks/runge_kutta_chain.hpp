@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The falling chain of rigid_chain() by the plain Runge-Kutta method of order 4 on accelerations of the
 // articulated-body recursion: what any method with constraints has to compare with where nothing is stiff.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Whole runs: the hinged beam in all models, chains.
 #include <benchmark/benchmark.h>
 

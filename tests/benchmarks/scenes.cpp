@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Superelements by static condensation and fixed-boundary modes of a chain of beam elements; the loop of a run with
 // clocks.
 #include "tests/benchmarks/scenes.hpp"

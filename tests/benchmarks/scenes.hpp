@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes of the benchmarks, written in code, and a run in memory with its costs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What second-order terms of a superelement cost against the linear body: per iteration, per step, and term by term.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Start-up of the programs: CPU and wall time of their own first words.
 #include <fcntl.h>
 #include <sys/resource.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Prints medians; a new heading whenever the counters differ from those of the line before.
 #include "tests/benchmarks/table.hpp"
 

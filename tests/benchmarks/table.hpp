@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reporter of the benchmarks: one line of markdown per benchmark with its counters, medians where it is repeated.
 #pragma once
 

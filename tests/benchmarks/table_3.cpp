@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Table 3 of [GA00] with the slider-crank of examples/slider_crank: what virtual bodies cost, sparse and full LU, as
 // markdown. Argument: the folder with the scenes and rod.superelement.h5 (scripts/table_3 makes it).
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The numbers that steer a step (mechanism/step/tuning.hpp), one by one around their values: what each costs in time.
 // Their values are where these tables are flat or lowest.
 #include <string>

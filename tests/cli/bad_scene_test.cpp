@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every fault of a scene that the issue of this slice lists: exit code, place, quantity, remedy, and nothing left
 // behind.
 #include <algorithm>

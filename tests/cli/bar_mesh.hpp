@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A bar of tetrahedra as a deck that this program and CalculiX read.
 #pragma once
 

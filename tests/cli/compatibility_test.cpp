@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files of former and present versions (tests/compatibility) are read by every program that reads their kind, with a
 // note of what they lack.
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Effects of a scene from the command line: what runs tell of switches, and `mechanism ledger`.
 #include <regex>
 

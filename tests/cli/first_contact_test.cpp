@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What somebody meets who starts: files in the wrong place, units, remedies that fit the file, and where outputs lie.
 #include <filesystem>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modal bodies that a scene holds otherwise than their modes are: table B of the trials of November 2026, a rotor with
 // the reference [x, y, z, rx] and [y, z] whose slopes the scene clamps.
 #include <cmath>

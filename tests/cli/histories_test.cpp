@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What people look at from the command line: plots against a reference run, units, channels of the scene, large
 // outputs.
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs that end before their end: Ctrl-C, kill, sudden death, and steps that do not converge.
 #include <chrono>
 #include <functional>

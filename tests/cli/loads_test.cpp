@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loads of `reducer recover --loads` in CalculiX, on the mesh of the part. CalculiX must find the stress and the
 // displacement of `reducer recover`. The part is at rest under its weight, or spins, accelerates and vibrates.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Programs that run out of memory or disk at one place of a run: an error that says so, no half-written file, whole
 // files of before.
 #include <cctype>

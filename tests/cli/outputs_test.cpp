@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Outputs that cannot or must not be written, results of a wrong kind, words that are no commands.
 #include <unistd.h>
 

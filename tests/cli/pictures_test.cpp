@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What pages and pictures hold of trials that failed once: rigid arms, cars that leave their place, modes without
 // vibration.
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shared folders in which somebody has put links in the places of temporary files, and names that are commands.
 #include <filesystem>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every written file names the program and version that wrote it. Tables of numbers (CSV) hold numbers alone.
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ class Producer : public Folder {
 };
 
 TEST_F(Producer, IsInWhatMechanismWrites) {
-  ASSERT_EQ(mechanism({"run", "arm.scene.yaml", "--set", "checkpoint.every=0.05"}).code, 0);
+  ASSERT_EQ(mechanism({"run", "arm.scene.yaml", "--set", "checkpoint.every=5"}).code, 0);
   ASSERT_EQ(mechanism({"view", "arm.results.h5", "-o", "arm.html"}).code, 0);
   ASSERT_EQ(mechanism({"export", "arm.results.h5", "-o", "arm.pvd"}).code, 0);
   expect_named({"arm.results.h5", "arm.checkpoint.h5", "arm.html", "arm.pvd"}, "mechanism");
@@ -43,7 +44,7 @@ points: {base: [0, 0, 0], tip: [2, 0, 0]}
 beams: {spar: {from: base, to: tip, section: tube, material: steel, elements: 6}}
 boundary: {base: all, tip: all}
 supports: {base: all}
-loads: {push: {at: tip, force: [0, 0, 1]}}
+load_cases: {push: {forces: {tip: [0, 0, 1]}}}
 modes: 2
 recovery: yes
 )yaml");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The built programs as child processes with captured streams, for the tests of the command lines.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Messages about files of another kind: they name file and line and quote nothing. A scene or part from elsewhere may
 // name any file that its reader may read.
 #include <filesystem>

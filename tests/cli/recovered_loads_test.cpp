@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stress of modal bodies, of bodies that load each other, and of load cases, end to end: reduced, run, recovered,
 // against closed forms. What few modes hold of it must not matter.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stress recovered from runs with second order and from bases that lack the shapes of their load, end to end: reduced,
 // run, recovered, against closed forms (tests/verification/references/trials, table B of the trials of November 2026).
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The faults of parts and of reduced files, told by `reducer`; skipped where that program is not built.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs that go on from a file with a scene that has changed since.
 #include <filesystem>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pages, pictures and lists of channels of many bodies: their size and their work grow as the number of bodies does.
 #include <sys/resource.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What several analyses of one command say of the scene that they share.
 #include "tests/cli/scenes.hpp"
 

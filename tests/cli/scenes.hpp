@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A folder with a small scene, a superelement and results, in which the tests of the command lines work.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Displacement of second order between boundary nodes, end to end. A cantilever under an end moment M is an arc of
 // radius EI/M (Euler's elastica). It is reduced, run, recovered and shown on a page.
 #include <array>

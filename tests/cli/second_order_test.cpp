@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One superelement with a companion file, end to end: reduced, run, ended beyond its range, restarted.
 #include "formats/results/results.hpp"
 #include "tests/cli/scenes.hpp"

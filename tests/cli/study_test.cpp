@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `mechanism study`: orders and cheapest settings that are known, interruptions, and what it says of bad input.
 #include <chrono>
 #include <random>

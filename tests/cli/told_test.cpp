@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What runs tell of what they have derived: velocities at the start with the first row, damping of modes.
 #include <sstream>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // System calls that a process may make, tried in a child each.
 #include "common/confined/call_filter.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Children: what they say and cost, how they end, and those that cannot begin.
 #include "common/child.hpp"
 

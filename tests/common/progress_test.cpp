@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tests of the progress line with a clock that the test turns.
 #include "common/progress.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rotations: every function against long double over all magnitudes of the angle, identities of exp, log and T,
 // derivatives.
 #include "common/math/rotation.hpp"

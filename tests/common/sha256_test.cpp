@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // SHA-256 against the examples of FIPS 180-4 (NIST, "SHA-256 examples", CSRC).
 #include "common/sha256.hpp"
 

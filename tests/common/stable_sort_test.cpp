@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stable sorting of objects that need more alignment than the buffer of the standard library gives.
 #include "common/stable_sort.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nearest keys, wildcards, base64, and files that appear whole or not at all.
 #include "common/text.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Units: factors by label, conversions between named units, labels of products, and unnamed units that never mix.
 #include "common/units.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Random mechanisms, trees and loops, by mechanism and by Simbody: a table of the largest differences.
 //   compare_simbody [count]
 #include <algorithm>

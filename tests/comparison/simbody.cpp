@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One mechanism by Simbody (M. A. Sherman, A. Seth, S. L. Delp, Simbody: multibody dynamics for biomedical research,
 // Procedia IUTAM 2 (2011) 241-261): accelerations and reactions at the start. C++17, the last that its headers know.
 #include "tests/comparison/simbody.hpp"

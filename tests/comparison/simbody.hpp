@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Start of motion of a random mechanism by Simbody.
 #pragma once
 

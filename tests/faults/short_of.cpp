@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Library for LD_PRELOAD that makes an allocation or a write to a file fail, from `main` on. Environment:
 // - TISSERAND_SHORT_OF = memory | disk
 // - TISSERAND_SHORT_AT = number of the call, from 1; 0: none

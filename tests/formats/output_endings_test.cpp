@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names of the files that belong to a superelement: none of them is taken for the output of another kind.
 #include <string>
 

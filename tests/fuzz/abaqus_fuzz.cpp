@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing target: any bytes as an Abaqus deck give a Deck or an Error, nothing else. A first byte '!' ignores unknown
 // keywords.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing target: any bytes as the answer of the program that runs gmsh give a mesh or an Error, nothing else.
 #include <cstdint>
 #include <string>

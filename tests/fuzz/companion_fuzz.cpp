@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing target: any valid HDF5 container in place of a companion gives a companion or an Error, nothing else. The
 // bytes say what the container holds (tests/formats/hdf5/mutated_container.hpp); none: a sound one, which must be read.
 #include "container_target.hpp"

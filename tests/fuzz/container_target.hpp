@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the targets of binary files share: bytes -> a mutated copy of a sound file -> a reader.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing target: any bytes as a DMIG punch file give a superelement or an Error, nothing else.
 #include <string>
 

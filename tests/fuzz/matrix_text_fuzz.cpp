@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing target: any bytes as matrices of Abaqus, CalculiX, Matrix Market or FEDEM give a superelement or an Error,
 // nothing else. The first byte chooses the format (a, c, m, f); a line "====" begins the next file.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing target: any valid HDF5 container in place of a modal body gives a modal body or an Error, nothing else. The
 // bytes are as in superelement_fuzz.cpp; none: the rod of [GA00] 4.3 with two modes, which must be read.
 #include "container_target.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing target: any bytes as Nastran bulk data give a Deck or an Error, nothing else. A first byte '!' ignores
 // unknown cards.
 #include <string>

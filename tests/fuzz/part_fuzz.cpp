@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing target: any bytes as part.yaml give a Part or an Error, nothing else. A first line "#path=value" is an
 // override.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing target: any valid HDF5 container in place of a recovery file gives all that a reader takes from it, or an
 // Error, nothing else. The bytes are as in superelement_fuzz.cpp; the content_id is needed.
 #include "container_target.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing target: any bytes as the CSV file of a reference history give a history or an Error, nothing else, by the
 // names of columns and by their numbers.
 #include "common/error.hpp"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every fuzzing target runs over its corpus as a test Fuzz.<target>, with any compiler: written inputs, and those that
 # scripts/fuzz --keep has packed. The targets of the reducer's readers and those of formats alone link different libraries.
 add_library(tisserand_replay OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/replay.cpp)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing target: any valid HDF5 container in place of a results file or a checkpoint gives what all commands, and the
 // inputs of a scene, read of it, or an Error, nothing else. The first byte says which; the others are as in
 // superelement_fuzz.cpp. None: sound results of three rows, which must be read. A checkpoint without its content_id is

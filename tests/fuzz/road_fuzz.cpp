@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing target: any bytes as a table of heights or an OpenCRG file give heights whose faults are told, or an Error,
 // nothing else.
 #include "common/error.hpp"

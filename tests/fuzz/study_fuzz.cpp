@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing target: any bytes as study.yaml give a Study or an Error, nothing else.
 #include "common/error.hpp"
 #include "formats/study/study.hpp"

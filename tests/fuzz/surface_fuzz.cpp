@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing target: any bytes as an STL or OBJ file give triangles or an Error, nothing else.
 #include <cstdio>
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The bytes of one fuzzing run as a file that the readers can open.
 #pragma once
 

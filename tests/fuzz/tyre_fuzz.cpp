@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing target: any bytes as a tyre property file give coefficients or an Error, nothing else, in SI and in mm and t.
 #include "common/error.hpp"
 #include "formats/tyres/tyre_property_file.hpp"

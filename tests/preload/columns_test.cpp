@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Columns of one reduced body in a mechanism: frequencies under load against the characteristic equation of the beam,
 // loads at which they vanish, beam-columns.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Load cases of a part end to end: statics of the reduced body in a mechanism against `reducer solve` on the same part.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reduced parts under load in scenes: from a mesh with its companion to equilibrium and modes of a mechanism.
 #pragma once
 

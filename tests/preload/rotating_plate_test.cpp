@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A cantilever plate on a turning hub as one reduced body: frequencies against those of the full model of the same mesh
 // in turning axes, with geometric stiffness, centrifugal and gyroscopic terms.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Snap-through of a shallow frame of two reduced bodies (Williams' toggle frame, 1964), along the whole path, against
 // geometrically exact beams.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A square plate under uniform pressure as one reduced body, its edges held in place or free to move in their plane:
 // the deflection of its middle against von Karman's equations, at one to two thicknesses.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Geometry, supports and exact solutions of the published frequencies of beams.
 #include "tests/problems/beam_vibration.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Published and exact frequencies of beams: from a number of elements to the numbers that are printed. Tests and the
 // table of verification compute the same thing here.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The patch of [MH85], 0.24 x 0.12 with four inner nodes and five quadrilaterals, and its exact constant states.
 #include "tests/problems/shell_patch.hpp"
 

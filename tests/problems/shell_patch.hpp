@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Patch test of the shell elements on the mesh of MacNeal and Harder ([MH85]): how far a constant state is missed.
 #pragma once
 

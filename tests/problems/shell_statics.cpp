@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Geometry, supports and loads of the published statics of plates and shells; data as in their sources ([MH85],
 // NAFEMS), in consistent units.
 #include "tests/problems/shell_statics.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Published statics of plates and shells: from a mesh to the number that is printed. Tests and the table of
 // verification compute the same thing here.
 #pragma once

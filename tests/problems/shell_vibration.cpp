@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Geometry and supports of the published frequencies of plates and shells.
 #include "tests/problems/shell_vibration.hpp"
 

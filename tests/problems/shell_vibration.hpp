@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Published frequencies of plates and shells, computed from a mesh for the tests and for the verification tables.
 #pragma once
 

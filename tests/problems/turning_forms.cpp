@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Products of the rows of each element, summed over its masses, loads and pivots.
 #include "tests/problems/turning_forms.hpp"
 

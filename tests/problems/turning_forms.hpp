@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What an element adds by its mass, as whole matrices: the sums that programs never form.
 #pragma once
 

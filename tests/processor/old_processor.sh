@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # old_processor.sh <folder of programs> <-march of the build> <program>...: on a processor that lacks instructions, each
 # program says what is missing and ends with status 1, whatever the command; on one that has them it runs. Needs qemu-user.
 set -euo pipefail

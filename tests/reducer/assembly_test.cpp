@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The system of a mesh: coordinates, sums of elements, coordinates without stiffness and mass, faults of the mesh.
 #include "reducer/system/assembly.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Laws of the beam element: symmetry, zero-energy modes, patch test, mass, invariance, limits.
 #include "reducer/elements/beam/beam.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Types of SLEPc's EPS on matrices whose spectrum is known in closed form; block Lanczos iteration as a program of
 // SLEPc sees it.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Frequencies of meshed beams against analytic ones, and their order of convergence.
 #include <gtest/gtest.h>
 

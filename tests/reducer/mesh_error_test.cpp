@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Estimated discretisation error of the lowest frequencies: zero for exact solutions, else of the size of the error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

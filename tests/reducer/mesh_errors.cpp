@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes of a plate, a cylindrical panel, a block and a beam.
 #include "tests/reducer/mesh_errors.hpp"
 

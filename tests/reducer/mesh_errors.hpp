@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts with coarse and fine meshes, on which the estimate of the discretisation error is measured.
 #pragma once
 

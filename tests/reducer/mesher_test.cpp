@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Meshing of lines and arcs: places, connections, orientation, and the gmsh file.
 #include "reducer/sources/build_mesh.hpp"
 

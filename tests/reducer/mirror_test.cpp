@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The mirror image of a superelement against the reduction of the mirrored part.
 #include "formats/superelement/mirror.hpp"
 

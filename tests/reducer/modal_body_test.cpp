@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modal bodies of the reducer: analytic beams, the file of examples/modal_slider_crank, dense eigenproblems, sums over
 // the nodes, masses beside nodes and behind ties, refused inputs.
 #include <cmath>

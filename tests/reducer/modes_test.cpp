@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Internal modes: clusters, cuts, counts, massless coordinates, and agreement of the two eigenvalue solvers.
 #include "reducer/modes/internal_modes.hpp"
 

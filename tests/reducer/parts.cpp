@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts and helpers shared by the tests of the reducer and the table of verification.
 #include "tests/reducer/parts.hpp"
 

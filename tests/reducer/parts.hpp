@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of the reducer's tests, built in code, and small helpers around the full model.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // That the parts of the tests are what they promise.
 #include <gtest/gtest.h>
 

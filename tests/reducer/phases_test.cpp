@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a reduction tells while it runs: long phases with the time to go, times by phase.
 #include "reducer/report/phases.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reductions by several processes (mpirun): the same results, the same errors, and an end in every case.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measures the laws of the reduction against dense matrices of the full frame.
 #include "tests/reducer/reduction_laws.hpp"
 

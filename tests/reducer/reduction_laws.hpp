@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What every Craig-Bampton reduction must have, measured on the frame of the tests: for its tests and the table of
 // verification.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Laws of the reduction: rigid motions, statics, numbering, bounds on frequencies, canonical form.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Moment vectors and modes of the free part: against the textbook's matrices and the exact dynamic stiffness of small
 // parts.
 #include "reducer/modes/ritz_vectors.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sections of PBARL: areas and moments by hand, orientation in the element's axes, faults.
 #include <cmath>
 #include <limits>

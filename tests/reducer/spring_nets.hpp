@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Random nets of springs with masses: general stiffness, all coordinates used, rigid motions exact.
 #pragma once
 

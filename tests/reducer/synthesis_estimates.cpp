@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Dense Craig-Bampton with the residual flexibility of the dropped modes, beside the modes of the full model.
 #include "tests/reducer/synthesis_estimates.hpp"
 

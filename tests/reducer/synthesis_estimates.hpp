@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How good reduced modes are: an a-posteriori estimate of their error, and their likeness to those of the full model;
 // for the tests and the table of verification.
 #pragma once

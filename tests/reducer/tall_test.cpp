@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Products with a tall matrix against Eigen's, at all remainders of rows, columns and right-hand sides.
 #include "reducer/algebra/tall.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Spiders and equations: exact elimination against dense null spaces, rigid arms, averages, loads and contradictions.
 #include "reducer/system/system.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads the truss from the references and joins its reduced components.
 #include "tests/reducer/truss.hpp"
 

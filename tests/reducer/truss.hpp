@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The space truss of pyYeti in two components: from NASTRAN's model to parts and frequencies, for its tests and the
 // table of verification.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Component mode synthesis of a space truss in two components, against NASTRAN and an independent program.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // planted <fault>: commits one fault of a kind that only assertions and sanitizers see. Exit status 0: nobody has seen
 // it.
 #include <cmath>

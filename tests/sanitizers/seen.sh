@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # seen.sh <program> <fault> <text>: the program fails on this fault, and what it prints holds the text.
 set -uo pipefail
 if printed="$("$1" "$2" 2>&1)"; then

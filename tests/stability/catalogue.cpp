@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Data: the cases.
 #include "tests/stability/catalogue.hpp"
 

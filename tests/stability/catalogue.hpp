@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The hard cases of the matrix: scenes of this folder, what must come out and why, and what each is varied over.
 #pragma once
 

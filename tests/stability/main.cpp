@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // stability <folder of programs> <folder of scenes> <folder to write in> page|expect|check|small [expected.csv]:
 // runs the matrix of hard cases.
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs the program and compares its results with the criteria.
 #include "tests/stability/matrix.hpp"
 

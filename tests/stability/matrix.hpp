@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cells of the matrix, and the outcome of each.
 #pragma once
 

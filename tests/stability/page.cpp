@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The page of hard cases: one table per factor, the messages of failing cells, reasons and sources.
 #include "tests/stability/page.hpp"
 

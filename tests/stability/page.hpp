@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // docs/STABILITY.md from the outcomes of the matrix.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Data: cases of equilibria, of rows that change and of loops.
 #include <cmath>
 #include <numbers>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Counts heap allocations of a test program, to prove that hot paths make none.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a table of reference numbers.
 #include "tests/support/reference_table.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of numbers of a CSV file under tests/verification/references.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Layout and values of the example rows.
 #include "tests/support/results_rows.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of results whose every value is a known function of its time and place, for tests of results files.
 #pragma once
 

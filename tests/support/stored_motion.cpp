@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Selected channels, row by row.
 #include "tests/support/stored_motion.hpp"
 

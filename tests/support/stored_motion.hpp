@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stored rows of a results file, and comparison of two results files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Makes and removes temporary folders; reads files.
 #include "tests/support/temporary_folder.hpp"
 

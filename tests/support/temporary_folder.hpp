@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A folder of its own for a test that writes files, removed with all it holds; the text of a file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // How often a test of faults (killed runs, damaged files) tries.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files of examples with other numbers, which are as sensible.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Beams of the verification page: NAFEMS problems and exact solutions of Euler and Timoshenko.
 #include <functional>
 

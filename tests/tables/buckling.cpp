@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Buckling and preload of reduced parts, for the verification page: ratios to exact loads by number of modes.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Prints the verification page: every problem of the collection with target, result, error, mesh and order.
 #include <cstdio>
 #include <ctime>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The estimate of the discretisation error compared with the error.
 #include <algorithm>
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes problems and laws as tables in markdown, with errors and measured orders of convergence.
 #include "tests/tables/page.hpp"
 

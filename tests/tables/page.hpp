@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The verification page: problems with their targets and the results of `reducer` on several meshes, as markdown.
 #pragma once
 

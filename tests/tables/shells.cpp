@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plates and shells of the verification page: patch test, statics and frequencies, with the sources of the targets.
 #include <algorithm>
 #include <cmath>

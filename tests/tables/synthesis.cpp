@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Component mode synthesis of the page of verification: the truss in two components, and the laws of the reduction.
 #include <cmath>
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs that reach an error which was asked for: held against runs far finer, and against modes that are not there.
 #include "mechanism/study/accuracy.hpp"
 

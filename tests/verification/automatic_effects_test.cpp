@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs that choose effects by themselves: the run is that of the scene with its choice, to the bit; what is off errs by
 // less than the tolerance, and what matters is on.
 #include <array>

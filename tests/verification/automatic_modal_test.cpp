@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs that choose the flexibility of modal bodies by themselves, in each frame that modes can have.
 #include <cmath>
 #include <optional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // method: bdf: accelerations of index 1 with CVODE against exact and published solutions; drift; flexible bodies.
 #include "mechanism/bdf/bdf.hpp"
 

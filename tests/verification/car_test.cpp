@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The car of examples/vehicle on its rigid and its flexible chassis: loads, frequencies, symmetry, and agreement
 // between the ways to model chassis and hinges.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The chain of examples/ with few links: what holds the links together changes nothing, and stiff superelements fall
 // like rigid links.
 #include <gtest/gtest.h>

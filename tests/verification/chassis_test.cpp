@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The chassis of examples/chassis through the reducer, against [GA00]: counts of section 5.1, frequencies of Table 5.
 #include <gtest/gtest.h>
 

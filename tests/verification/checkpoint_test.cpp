@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Checkpoints: a run that goes on from one is bit-equal to a run that was never interrupted; from results to the
 // tolerance; bad files are refused.
 #include <sys/wait.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Validity checks of runs: each warning is provoked, and absent where the answer is right.
 #include <numbers>
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Kinematics, inverse dynamics and assembly against closed formulas and against dynamics.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The examples of [Car00], section 8, through both stages: scenes as they lie in examples/, expected numbers of others.
 //
 // Expected values: "design numbers" were computed by an independent implementation of the same formulation (the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes of a metre that stand 1e6 m from the origin move as at the origin.
 #include <algorithm>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Orders of convergence, conditioning, changes of step, energy, breakpoints, rejected steps and restarts of the
 // integrator.
 #include "mechanism/step/step.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What one linear body does where benchmarks ask for it: the limits of the Princeton beam, and an internal mode far
 // beyond the step.
 #include <cmath>

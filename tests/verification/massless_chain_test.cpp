@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Massless chains (benchmark 8.4 of the collection in shared/data): a spring pendulum on 1, 5 and 20 virtual bodies.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies of different kinds in one scene: conservation in free flight, and agreement of the flexible formulations where
 // deformations are small.
 #include <array>

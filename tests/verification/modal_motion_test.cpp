@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Motion of modal bodies: conserved quantities, the slider-crank of [GA00] 4.3, agreement with superelements and
 // nonlinear beams where deformations are small.
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linearised modes against closed formulas and published frequencies: pendulums, tops, cantilevers at rest and turning.
 #include <cmath>
 #include <numbers>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The example parts through both programs, against closed formulas, equilibrium alone, the CAD kernel, and other models
 // of the same structure.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Descriptions of one mechanism that must give one motion: order, sides, units, pose, bodies in parts. Random trees and
 // loops of all joints; accelerations and reactions at the start, which depend on all equations.
 #include <algorithm>

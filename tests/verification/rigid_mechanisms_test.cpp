@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rigid mechanisms with published or exact solutions: joints, drives, gears and springs together.
 #include <array>
 #include <cmath>

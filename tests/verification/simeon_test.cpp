@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Simeon's flexible slider-crank (IVP test set, `crank`): a rod with given shapes, two across and two along its axis.
 #include <cmath>
 #include <numbers>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The slider-crank of [GA00] 4.3 in all models of examples/slider_crank, against a geometrically exact beam and the
 // linear body's own curve.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One motion, whatever solves its linear systems; what the report says about them.
 #include <array>
 

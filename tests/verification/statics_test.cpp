@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Static equilibrium of scenes: cantilevers of superelements and nonlinear beams, large rotations, scenes that can
 // move.
 #include "mechanism/analyses/statics.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Generalised alpha and HHT with error control: errors that follow the tolerance, orders for random sequences of steps,
 // instants that are met, rejected steps.
 #include "mechanism/step/step_control.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A very stiff internal mode (benchmark 8.5 of the collection in shared/data): 1e6 rad/s at steps of 1e-3.
 #include <algorithm>
 #include <cmath>

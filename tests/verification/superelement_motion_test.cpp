@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Superelements in motion: rigid motion, conservation, order of nodes, damping, gravity, the rigid use.
 #include <algorithm>
 #include <array>

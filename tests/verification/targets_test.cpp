@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The benchmarks of examples/rigid_benchmarks and examples/flexible_benchmarks: every scene against its targets.csv.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

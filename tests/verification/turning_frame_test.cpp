@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Floating frames of every kind keep their length and their meaning while a body turns all the way round.
 #include <cmath>
 #include <numbers>

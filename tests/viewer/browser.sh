@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Runs a test of web/test in headless Chromium: browser.sh <source folder> <test> <argument>... Ends with 77 where node or
 # Chromium is missing.
 set -euo pipefail

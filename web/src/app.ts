@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The page: joins runs, picture, curves, report and controls, and draws when something moved.
 import { Curves } from "./curves/curves";
 import type { Page } from "./data/page";

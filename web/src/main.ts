@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Opens the page: reads its data, draws, or tells in the page why it cannot.
 import { App } from "./app";
 import { Failure } from "./data/failure";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // window.tisserand: what the page tells of itself to tests and to the curious (web/README.md lists it).
 import type { App } from "./app";
 import { csvOf } from "./curves/table";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the tests of pages ask of numbers and of every page at its end.
 import assert from "node:assert/strict";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Measures opening and playing of the synthetic pages `crowd` (1000 bodies, 2000 instants) and `fine` (20 000 vertices, 8 modes):
 // node web/test/measure.mjs [viewer]. Processor time counts all processes of the browser, so it holds on a busy machine too.
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pixels of a PNG as Chromium writes it: 8 bits, RGB or RGBA, not interlaced.
 import { inflateSync } from "node:zlib";
 

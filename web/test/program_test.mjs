@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pages that `mechanism view` wrote, in a real browser: what they show against the results file, as `mechanism export` tells it.
 // Arguments: folder of the programs, source folder. Ends with 77 where node, Chromium or `reducer` is missing.
 import assert from "node:assert/strict";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Synthetic runs with known motion: what the page shows of them is tested against these formulas.
 import { Blocks, emptyRun, header } from "./writer.mjs";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The committed viewer in a real browser, over pages of known motion. Skipped (exit 77) where node or Chromium is missing.
 // Arguments: --small runs only two of the tests; a path names another viewer (default: dist/view.html).
 // Expected values come from the formulas in scenes.mjs.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Writes pages of the data contract for tests: arrays -> blocks -> the two elements of the page.
 import { deflateSync } from "node:zlib";
 

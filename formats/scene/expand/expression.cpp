@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Evaluates formulas by muParser. Only names that occur in a formula are looked up.
 #include "formats/scene/expand/expression.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Formulas in text inputs: arithmetic over named values.
 #pragma once
 

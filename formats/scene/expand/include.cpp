@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Includes files, each once and in a chain of limited depth, and merges their entries and settings.
 #include "formats/scene/expand/include.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `include` of scene.yaml: merges the maps of several files into one tree.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Expands a tree with assemblies to a flat one.
 #include "formats/scene/expand/instances.hpp"
 

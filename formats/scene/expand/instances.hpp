@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Instances of assemblies: copies of their entries, named by paths and placed by the pose of the instance.
 #pragma once
 

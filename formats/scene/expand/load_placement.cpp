@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Computes sums of scaled numbers, expressions and tables.
 #include "formats/scene/expand/load_placement.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Components of a load in a rotated assembly, as sums of functions of time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Table of the references between entries, and the search for names through the levels.
 #include "formats/scene/expand/names.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names in assemblies: the level of instances of a path such as `arm/tip`, and the files that paths name.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Looks up parameters, each resolved once, and replaces them in formulas and text.
 #include "formats/scene/expand/parameters.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Named values of a scene and of its assemblies: `$name`, `${formula}` and text with both are replaced in the tree.
 #pragma once
 

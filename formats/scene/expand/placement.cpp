@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rules of placement, key by key. Vectors along the assembly transform by G, axial ones (angular velocities, moments)
 // by det(G) G. Data in part axes are only mirrored, by S.
 #include "formats/scene/expand/placement.hpp"

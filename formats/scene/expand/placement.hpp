@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Placement of an assembly: moves, rotates and mirrors positions, directions, orientations and inertia of its entries
 // in the tree.
 #pragma once

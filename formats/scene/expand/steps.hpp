@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Smooth steps for formulas: from y0 before t0 to y1 after t1.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads, merges, overrides and expands a scene.
 #include "formats/scene/expand/tree.hpp"
 

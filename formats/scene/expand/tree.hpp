@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Expands scene.yaml with `include`, `parameters`, `assemblies` and `instances` to the flat tree that readers use.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Flattens a tree to lines, and compares two lists of lines.
 #include "formats/scene/expand/values.hpp"
 

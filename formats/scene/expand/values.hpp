@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values of an expanded scene as lines of text. Files store them to identify their scene and to show later differences.
 #pragma once
 

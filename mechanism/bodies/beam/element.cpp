@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Constants, residuals, energies and section forces of beam elements: the double instantiation of
 // bodies/beam/kernels.hpp.
 #include "mechanism/bodies/beam/element.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Geometrically exact beam elements (Simo-Reissner) with two and three nodes: constants, forces, tangents, energy.
 //
 // Sources: [Sim85] (strains), [CJ99] (objective interpolation of rotations),

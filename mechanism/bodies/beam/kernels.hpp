@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Strains, energy and forces of beam elements for any scalar (double, Dual, complex); bodies/beam/element.cpp
 // instantiates them.
 #pragma once

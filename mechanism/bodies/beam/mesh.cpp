@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lines and arcs of beam bodies divided into equal elements with section triads.
 #include "mechanism/bodies/beam/mesh.hpp"
 

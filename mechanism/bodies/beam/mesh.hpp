@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nodes and elements of a beam body from its description in a scene, in the part frame.
 #pragma once
 

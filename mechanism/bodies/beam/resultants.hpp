@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stress resultants of beam elements from their strains, for any scalar (double, Dual, complex).
 #pragma once
 

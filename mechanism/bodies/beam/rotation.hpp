@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Functions of rotation vectors for the interpolation of beam elements, in addition to common/math/rotation.hpp:
 // logarithm and tangents for any scalar, with series that are exact over the angles inside an element.
 #pragma once

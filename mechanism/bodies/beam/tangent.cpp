@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exact hand-written tangents of beam elements (first derivatives of the forces in bodies/beam/kernels.hpp).
 #include "mechanism/bodies/beam/kernels.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sums of [GA00] (8) and (12) over the constants of a body, at one instant.
 #include "mechanism/bodies/modal/body.hpp"
 

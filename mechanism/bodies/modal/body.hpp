@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modal body: floating frame with lumped masses and modes. Constants of a body; residual, tangent and energy at one
 // instant.
 //

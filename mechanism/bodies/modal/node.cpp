@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Kinematics of nodes of modal bodies, with derivatives.
 #include "mechanism/bodies/modal/node.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Node of a modal body: its motion as a function of the frame and the modes. Joints and loads act on the body through
 // it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // First frequency of a modal body with held components: by its modes, and with residual vectors.
 #include "mechanism/bodies/modal/reference_model.hpp"
 

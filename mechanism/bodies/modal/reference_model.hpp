@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Effect of static flexibility on modal bodies whose boundary conditions in the scene differ from those of the modes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Congruences y = T y_p, and checks of the couplings that they omit.
 #include "mechanism/bodies/planar/planar_body.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Planar body from a superelement body in space: the rows of S̄, M̄ and of the other arrays that stay in the plane.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sums in other axes and of other modes, and checks of the couplings that they omit.
 #include "mechanism/bodies/planar/planar_modal_body.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Planar modal body from a modal body in space.
 #pragma once
 

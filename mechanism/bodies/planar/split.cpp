@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Separation of modes of one frequency.
 #include "mechanism/bodies/planar/split.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Split of a body into motion in a plane and motion out of it.
 #pragma once
 

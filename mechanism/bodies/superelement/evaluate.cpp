@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Kinematics, residual, energies and boundary weight of a superelement body in double precision.
 #include "mechanism/bodies/superelement/evaluate.hpp"
 

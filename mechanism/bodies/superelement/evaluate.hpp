@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Evaluation of a superelement body: motion, residual, energy, coordinates of its file. Its tangents are in
 // tangent.hpp.
 #pragma once

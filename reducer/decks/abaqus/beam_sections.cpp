@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // *BEAM SECTION and *BEAM GENERAL SECTION: shapes and constants of beams, and the keywords after them.
 #include <array>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // *RETAINED NODAL DOFS, *BOUNDARY and other contents of steps.
 #include "reducer/decks/abaqus/boundary.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Last step of read_abaqus(): retained coordinates become the boundary, and supports are refused.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tables of element types, node orders and faces.
 #include "reducer/decks/abaqus/element_types.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Element types of Abaqus and CalculiX that read_abaqus() maps to the elements of a Mesh, with their faces.
 #pragma once
 

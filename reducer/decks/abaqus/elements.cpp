@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nodes with their coordinate systems, and elements by their types.
 #include "reducer/decks/abaqus/elements.hpp"
 

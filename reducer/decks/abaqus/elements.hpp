@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Third step of read_abaqus(): *NODE, *SYSTEM and *ELEMENT of one scope.
 #pragma once
 

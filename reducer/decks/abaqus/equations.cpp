@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // *EQUATION: sums of components of nodes that are zero.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Table of keywords.
 #include "reducer/decks/abaqus/keywords.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Treatment of each keyword of a deck by read_abaqus().
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Lines, keyword lines, included files and numbers of Abaqus decks.
 #include "reducer/decks/abaqus/lines.hpp"
 

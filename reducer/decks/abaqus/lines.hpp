@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // First step of read_abaqus(): blocks of one keyword each from the text of a deck and its included files.
 #pragma once
 

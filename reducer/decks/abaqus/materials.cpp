@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elastic constants from the forms of *ELASTIC.
 #include "reducer/decks/abaqus/materials.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // *MATERIAL with *ELASTIC and *DENSITY, and the material data of sections.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elements of the mesh, one function for each kind.
 #include "reducer/decks/abaqus/mesh.hpp"
 

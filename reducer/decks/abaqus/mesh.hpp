@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sixth step of read_abaqus(): elements with their sections become the elements, masses and springs of the mesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names of nodes and elements, and numbers of data lines.
 #include "reducer/decks/abaqus/model.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Data that read_abaqus() collects from the blocks of a deck for the mesh: nodes, elements and names by scope.
 #pragma once
 

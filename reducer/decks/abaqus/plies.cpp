@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // *SHELL SECTION, COMPOSITE: layers with angles or their own orientations.
 #include <cmath>
 

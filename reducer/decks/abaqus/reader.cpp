@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // read_abaqus(): the mesh and names of a deck, step by step.
 #include <fmt/format.h>
 

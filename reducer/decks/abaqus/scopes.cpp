@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // *PART, *INSTANCE, *ASSEMBLY and *STEP.
 #include "reducer/decks/abaqus/scopes.hpp"
 

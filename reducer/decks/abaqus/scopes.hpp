@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Second step of read_abaqus(): blocks sorted into the assembly, instances of parts and steps, with counts of keywords.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sections of shells, solids and trusses; point masses, rotary inertia and springs.
 #include "reducer/decks/abaqus/sections.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fifth step of read_abaqus(): section keywords of one scope become properties of the mesh and of its elements.
 #pragma once
 

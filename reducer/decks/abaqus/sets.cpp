@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Resolution of numbers and names; *NSET and *ELSET.
 #include "reducer/decks/abaqus/sets.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fourth step of read_abaqus(): sets, surfaces and orientations of one scope, and resolution of numbers and names.
 #pragma once
 

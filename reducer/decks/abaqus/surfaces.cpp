@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Faces and their areas; axes from points.
 #include "reducer/decks/abaqus/surfaces.hpp"
 

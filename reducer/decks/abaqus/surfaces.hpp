@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // *SURFACE, *ORIENTATION and *TRANSFORM: places and directions for sections and constraints.
 #pragma once
 

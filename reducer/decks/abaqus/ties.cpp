@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Spiders from couplings, rigid bodies and MPCs.
 #include "reducer/decks/abaqus/ties.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Seventh step of read_abaqus(): couplings, rigid bodies, MPCs and equations become spiders and equations of the mesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Properties of beams from PBAR, PBARL, PBEAM, PBEAML and the constants of rods of a Nastran deck.
 #include <cmath>
 #include <optional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Beams of the mesh from CBAR, CBEAM, CROD, CTUBE and CONROD of a Nastran deck.
 #include <optional>
 #include <vector>

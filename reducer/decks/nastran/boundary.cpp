@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Attachments, boundary and supports of the nodes of a Nastran deck.
 #include <algorithm>
 #include <cmath>

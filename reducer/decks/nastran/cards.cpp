@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // First step of a Nastran deck: cards of fields with line numbers, from the text of the file and its INCLUDEs.
 #include "reducer/decks/nastran/cards.hpp"
 

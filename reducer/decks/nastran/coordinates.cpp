@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Coordinate systems of a Nastran deck: origins and axes in the part frame from the chain of CORD cards.
 #include "reducer/decks/nastran/coordinates.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Second step of a Nastran deck: numbers from the fields of a card, with faults that name card, field and value.
 #include "reducer/decks/nastran/fields.hpp"
 

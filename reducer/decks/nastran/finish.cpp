@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Last step of a Nastran deck: nodes by their numbers, and elements of properties as sets.
 #include <algorithm>
 #include <vector>

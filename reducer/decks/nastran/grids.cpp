@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nodes of the mesh from GRID, GRDSET and the coordinate systems of a Nastran deck.
 #include <algorithm>
 #include <array>

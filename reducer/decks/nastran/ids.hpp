@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tables from numbers of a Nastran deck (grid points, properties) to rows: dense if the numbers are, otherwise sorted.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // MAT cards of a Nastran deck: elastic matrices for properties.
 #include "reducer/decks/nastran/materials.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Intermediate model of the Nastran reader: cards by name, grid points by id, and coordinate systems.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Property cards of a Nastran deck: rows of properties of the mesh from their fields.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mesh from a Nastran deck: sequence of the steps.
 #include <algorithm>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Remarks on a Nastran deck, which become warnings of its mesh.
 #include "reducer/decks/nastran/remarks.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sections of shells from PSHELL and PCOMP of a Nastran deck.
 #include <vector>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shells of the mesh from CQUAD4, CQUADR, CTRIA3 and CTRIAR of a Nastran deck.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Solids of the mesh from CTETRA, CHEXA and CPENTA of a Nastran deck.
 #include <array>
 

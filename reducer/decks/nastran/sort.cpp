@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cards of a Nastran deck by name: those that build the mesh, those that do not belong to a superelement, and
 // unsupported ones.
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Springs and point masses of the mesh from CELAS1, CELAS2, CBUSH and CONM2 of a Nastran deck.
 #include <bit>
 #include <optional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Spiders and equations of the mesh from RBE1, RBE2, RBE3, RBAR and MPC of a Nastran deck.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Two-node spatial beam element: closed-form stiffness, Gauss-integrated mass.
 #include "reducer/elements/beam/beam.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Two-node spatial beam element: its 12 x 12 matrices from section, material and length.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Condensation of released coordinates, and transformation along rigid arms.
 #include "reducer/elements/beam/ends.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Connection of a beam to its nodes: released end forces and rigid arms.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Integrals of section compliance and section mass along the beam.
 #include "reducer/elements/beam/general.hpp"
 

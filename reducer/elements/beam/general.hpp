@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Any straight beam: tapered, shear centre and centroid off the axis, turned principal axes, added mass; also rods.
 #pragma once
 

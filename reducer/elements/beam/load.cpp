@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Distributed loads of beams as forces at their ends and nodes.
 #include "reducer/elements/beam/ends.hpp"
 #include "reducer/elements/beam/mesh_beam.hpp"

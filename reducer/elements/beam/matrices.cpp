@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Matrices of a beam element of the mesh about its nodes, in part axes, and checks of its shape.
 #include "reducer/elements/element_matrices.hpp"
 

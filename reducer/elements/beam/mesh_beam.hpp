@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A beam of the mesh between its ends, from which its matrices and its second order are made.
 #pragma once
 

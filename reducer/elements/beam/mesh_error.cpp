@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Discretisation error of beams, which are exact for loads at their ends, by the inertia between the ends.
 #include "reducer/elements/mesh_error.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mass points of a beam and their motion with the nodes, through releases and rigid arms.
 #include "common/math/rotation.hpp"
 #include "reducer/elements/beam/ends.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Second-order strain of every kind of straight beam, from the exact solution along the axis.
 //
 // The section forces n, m of w and the axis and rotations of d come from the element's own exact solution (flexibility

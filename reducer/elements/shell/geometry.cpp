@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Axes and projected corners of shell elements.
 #include "reducer/elements/shell/geometry.hpp"
 

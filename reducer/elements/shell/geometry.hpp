@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plane in which a shell element works: axes, projected corners and warping heights from the nodes of a mesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Consistent and lumped mass of shell elements.
 #include "reducer/elements/shell/mass.hpp"
 

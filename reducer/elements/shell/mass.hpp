@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mass of shell elements in their own axes, about the middle surface, from projected geometry and section.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stresses of shell elements near their middle, and excess of their energy over that of smooth stresses.
 #include "reducer/elements/mesh_error.hpp"
 

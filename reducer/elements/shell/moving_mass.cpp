@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mass points of a shell and their motion with the nodes.
 
 #include <Eigen/Cholesky>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stiffness of the four-node shell element: assumed membrane stress with drilling rotations, MITC4 plate.
 //
 // Membrane forces N are an independent field (Hellinger-Reissner). Curvatures and shear strains follow from rotations

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Second-order strain of shell elements: corotation of the nodal forces, and membrane forces on rotations that vary
 // inside the element.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Faults of shape of shell elements, reported with their measures before any matrix is made.
 #include <algorithm>
 #include <cmath>

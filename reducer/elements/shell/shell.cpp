@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stiffness and mass of shell elements in part axes about the nodes, for assembly.
 #include <Eigen/Core>
 

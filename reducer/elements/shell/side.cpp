@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sides of the plate in a shell element.
 #include "reducer/elements/shell/side.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stiffness of shell elements in their own axes about the corners, from projected geometry and section.
 #pragma once
 

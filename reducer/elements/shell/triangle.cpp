@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stiffness of the three-node shell element: Felippa's optimal membrane with drilling rotations, Katili's DKMT plate.
 //
 // The membrane strain of the basic part is constant and passes every patch test; the higher part of the drilling

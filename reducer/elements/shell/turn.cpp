@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mean rotation of the middle surface, from the slopes of the displacements of the corners.
 #include "reducer/elements/shell/turn.hpp"
 

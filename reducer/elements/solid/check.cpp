@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Faults of the shape of a solid element, found before its matrices are made.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pressure on faces of solids and shells; line loads on their edges.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Gradients of solid elements' shape functions at quadrature points: for stiffness, mass, stress, second order.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Quadrature rules of the reference elements of solids: points and weights as data, and products made from them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Second-order strain of solid elements: Green's strain at the points of the stiffness, with stresses that include the
 // incompatible displacements.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shape functions of the solid elements and their natural gradients at a point of the reference element.
 //
 // Reference elements as in gmsh: tetrahedra r, s, t ≥ 0, r + s + t ≤ 1; hexahedra −1 ≤ r, s, t ≤ 1; prisms r, s ≥ 0, r

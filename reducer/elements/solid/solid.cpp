@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stiffness and mass of solid elements for assembly, from nodes, material and shape.
 //
 // With H_kl(a, b) = ∫ ∂N_a/∂x_k ∂N_b/∂x_l dV and constant elasticity c_ikjl in the element, the stiffness is S(3a + i,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stresses of solid elements at their nodes, by a polynomial through the quadrature points of the stiffness.
 #include <Eigen/LU>
 #include <Eigen/QR>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Companion files: bit-equal round trip in both shapes of symmetric arrays, every rule of COMPANION.md, foreign files.
 #include <hdf5.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Load-time operations on companions against companions computed anew by their definitions, and against one another.
 #include "formats/companion/operations.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The process that reads HDF5 files: what it may do, how its end is told, that nobody else opens the file.
 #include "formats/hdf5/apart.hpp"
 

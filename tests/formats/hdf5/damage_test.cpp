@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files whose bytes were changed after they were written: the same contents come out, or an error that names the file.
 #include <fstream>
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mutations of an attribute or a dataset, one function for each kind.
 #include "tests/formats/hdf5/mutated_container.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Fuzzing of what lies over HDF5: valid containers whose objects, types, shapes, layouts and values come from bytes.
 #pragma once
 

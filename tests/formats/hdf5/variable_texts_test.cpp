@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Texts of variable length: legal ones are read, crafted ones refused before anything is copied.
 #include <cstdlib>
 #include <fstream>

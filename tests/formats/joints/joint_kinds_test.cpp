@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The table of joint kinds against the enum, the reader, the JSON Schema and the page.
 #include "formats/joints/joint_kinds.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Producers inside pictures: the files stay valid.
 #include "formats/page/picture_mark.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Solids, thinning and few modes: what pages draw of a body.
 #include "formats/page/surface.hpp"
 

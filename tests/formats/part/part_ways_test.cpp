@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tests of the ways in of part.yaml: mesh files, groups, patches, shells, solids, springs, spiders, places: every key,
 // every default, and the text of every error.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Recovery files: round trip, blocks, damage, files of other parts.
 #include "formats/recovery/recovery.hpp"
 

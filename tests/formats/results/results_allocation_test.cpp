@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Storing a row takes no memory from the heap between flushes: every malloc of the thread is counted.
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A run that is killed at any moment leaves a results file that opens and whose rows are true.
 //
 // Heavier: TISSERAND_KILLS=100 formats_tests --gtest_filter='ResultsKill.*'

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Results files: what goes in comes out, selections, partial files, CSV.
 #include "formats/results/results.hpp"
 

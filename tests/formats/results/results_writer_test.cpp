@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What writers of results promise to disks, to readers beside them and to runs that go on.
 #include <sys/resource.h>
 #include <sys/wait.h>

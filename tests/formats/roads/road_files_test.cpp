@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tables of heights and OpenCRG files: what they say, and every way in which they can be wrong.
 #include <cmath>
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `analyses` of scenes: settings of their own and shared ones, what they start from, errors.
 #include <fstream>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `effects` of scenes: switches of all and of bodies, their places, errors.
 #include "formats/scene/effects.hpp"
 

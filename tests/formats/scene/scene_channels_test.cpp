@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Channels, inputs and friction in scene.yaml: every key, tables from text and HDF5 files, the text of every error.
 #include <fstream>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Springs with curves and about axes, bushings, gravity and the start of bodies in scene.yaml: every key, the text of
 // every error.
 #include <gmock/gmock.h>

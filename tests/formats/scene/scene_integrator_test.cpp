@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `integrator` of scene.yaml: error control, bdf, linear solvers; keys that have no effect.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

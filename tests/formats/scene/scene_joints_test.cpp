@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Joints with keys of their own, gears, motions and springs of scene.yaml: every key, and the text of every error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

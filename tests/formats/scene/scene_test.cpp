@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tests of read_scene and check(Scene): defaults, every notation, and the text of every error.
 #include "formats/scene/scene.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tests of include, parameters, assemblies and instances: the scene that they grow to, and the place of every error.
 #include "formats/scene/expand/tree.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Roads and tyres in scene.yaml: every key, the text of every error, placing in assemblies.
 #include <cmath>
 #include <numbers>

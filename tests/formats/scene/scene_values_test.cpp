@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Values of a scene as lines, and what differs between two scenes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

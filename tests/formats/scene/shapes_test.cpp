@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `shape` of bodies in scene.yaml: values, errors, mirrored assemblies; and the scene as text.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tyre property files: what is read of them, in which units, and the text of every error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

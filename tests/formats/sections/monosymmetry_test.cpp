@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Third moments of area and Wagner's β: closed forms of rectangles, symmetry, turning, a published approximation.
 #include "formats/sections/monosymmetry.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Section constants by boundary integral equations against closed solutions, [Pil02] and laws of the theory.
 #include "formats/sections/polygon.hpp"
 

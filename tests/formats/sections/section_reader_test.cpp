@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sections of part.yaml by shape, and what readers and scenes refuse.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The table of section constants: principal moments against [Pil02], and what it says.
 #include "formats/sections/report.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tests of the section constants of shapes against integrals over the section and limits.
 #include "formats/sections/shapes.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Thin-walled constants against closed formulas, solid sections with thin walls, and laws of the theory.
 #include "formats/sections/walls.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // study.yaml: axes in the place of their names, and findings.
 #include "formats/study/study.hpp"
 

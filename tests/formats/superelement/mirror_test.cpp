@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mirror images of files: valid files again, of the same strain and kinetic energies, the same after two mirrors.
 #include "formats/superelement/mirror.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modal body files: bit-equal round trip, damaged files, every rule of MODAL_BODY.md.
 #include <hdf5.h>
 

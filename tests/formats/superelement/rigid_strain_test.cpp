@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What rigid motions may strain: slender parts with wrong positions, signs and units are refused, sound ones are read.
 #include "formats/superelement/rigid_strain.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Superelement files: bit-equal round trip, foreign and damaged files, units, versions, unknown items, unwritable
 // places.
 #include <hdf5.h>

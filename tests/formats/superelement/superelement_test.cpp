@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Superelements: rigid motions and rigid body against formulas, every rule of check(), rearrangements, the filter.
 #include "formats/superelement/superelement.hpp"
 

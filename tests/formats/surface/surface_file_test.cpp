@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // STL and OBJ files, good and broken ones.
 #include "formats/surface/surface_file.hpp"
 

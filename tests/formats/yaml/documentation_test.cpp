@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The Python snippets of SUPERELEMENT.md, COMPANION.md and RESULTS.md, run as they stand there.
 #include <cstdlib>
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tests of --set: paths, typed values, and errors that name the override.
 #include "formats/yaml/override.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tests that the JSON Schemas of part.yaml and scene.yaml and the tables of PART.md and SCENE.md are those of the lists
 // of fields, and that every example of the project (also those in the pages) is accepted by schemas and readers.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Texts as files for the tests of the readers of part.yaml and scene.yaml.
 #pragma once
 

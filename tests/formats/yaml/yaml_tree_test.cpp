@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tests of load_yaml and parse_yaml: what is no YAML, what would be too much, and where values stand.
 #include "formats/yaml/tree.hpp"
 

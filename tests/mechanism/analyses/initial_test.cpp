@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Start of an analysis: counts, projection, and every fault of the input that is found here.
 #include "mechanism/analyses/start.hpp"
 

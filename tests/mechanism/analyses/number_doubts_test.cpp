@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers of scenes that cannot be meant are named; those of examples, and of their variations, are not.
 #include "mechanism/analyses/number_doubts.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pre-flight: counts as rigid bodies, motions that nothing determines, groups, gaps, doubtful masses.
 #include "mechanism/analyses/preflight.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Free velocities at the start: what joints, drives and given velocities leave to find.
 #include "mechanism/analyses/start_velocities.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Laws of single beam elements: forces are gradients, tangents are derivatives, rigid motions are free of strain.
 #include <complex>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Frequencies of beams at rest from mass and stiffness tangents against exact dispersion relations.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Beams under large rotations: a helix, reversed elements, rigid motions accumulated, relative rotations near
 // π.
 #include <cmath>

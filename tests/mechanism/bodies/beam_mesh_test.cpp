@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Beam bodies of a scene become nodes, section triads and elements.
 #include <numbers>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Static beams with large rotations against published and analytic solutions; orders of convergence.
 #include <cmath>
 #include <numbers>

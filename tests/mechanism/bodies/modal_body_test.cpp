@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The floating-frame body and its nodes against known answers, Lagrange's equations and the laws that they imply.
 #include "mechanism/bodies/modal/body.hpp"
 

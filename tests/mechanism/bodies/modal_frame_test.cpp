@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modal bodies whose file rotates the body frame in the part (mean axis, principal axes). Nodes, markers, printed poses
 // and stored instants equal those of the same body without that rotation.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The planar body alone: r_p = Eᵀ r(E q) and A_p = Eᵀ A E, since E is constant where motion stays in the plane.
 #include "mechanism/bodies/planar/planar_body.hpp"
 

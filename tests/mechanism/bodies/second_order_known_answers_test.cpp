@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Known answers of an independent implementation of stiffening and full inertia, and laws that they obey.
 #include <string>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // No heap allocation in the functions of the superelement body that a time step calls.
 #include <string>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Building a superelement body: weights, canonical form, units, cut of modes, order of nodes, errors; no allocation
 // later.
 #include <cstdlib>

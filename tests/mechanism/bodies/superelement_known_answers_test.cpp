@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Known answers of an independent implementation: weights, frame, y, U, forces, tangent products.
 #include <string>
 #include <tuple>

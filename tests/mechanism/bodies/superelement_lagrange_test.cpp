@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Forces of the superelement body against Lagrange's equations on deformed states, and the balances that follow from
 // them.
 #include <complex>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tangents of the superelement body: against complex steps, and condensed against uncondensed.
 #include <complex>
 #include <string>

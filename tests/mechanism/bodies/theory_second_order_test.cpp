@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Formulas (42) to (54) of docs/THEORY.md, written down once more as they stand there and compared with what the
 // program computes of a body with a companion file at a deformed, moving state.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Formulas (1) to (42) of docs/THEORY.md, written down once more as they stand there and compared with what the program
 // computes at a deformed, moving state. theory_second_order_test.cpp has section 8, the rooms joints, step and radau
 // the rest.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sub-assemblies in motion, for every kind of entry: an instance moves as the same entries written into the scene do, a
 // placed one as its image under the pose, a mirrored one as its mirror image.
 #include <cmath>

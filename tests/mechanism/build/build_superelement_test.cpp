@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Uses of superelement files: which of them share a body.
 #include "mechanism/build/superelements.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Effects that a scene switches: what is off is not in the model, what is not there is an error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

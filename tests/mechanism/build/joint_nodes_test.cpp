@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What joints ask of the nodes that they hold, and what is said of nodes that are not where the joint is.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

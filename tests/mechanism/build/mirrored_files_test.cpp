@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One image per file and mirror, however many bodies take it; files that cannot be read are named once.
 #include "mechanism/build/mirrored_files.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What leaves the plane of a planar scene is named with its value.
 #include <functional>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modes of planar scenes: frequencies, and shapes of bodies that stand turned, are those in space.
 #include <complex>
 

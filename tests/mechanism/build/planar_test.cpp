@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Planar scenes: the planar equations give the motion in space, with half the coordinates.
 #include <cmath>
 

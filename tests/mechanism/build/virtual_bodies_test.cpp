@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Virtual bodies kept and eliminated are the same mechanism: motion, reactions, and the faults that each finds.
 #include "mechanism/build/virtual_bodies.hpp"
 

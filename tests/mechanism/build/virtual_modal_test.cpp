@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Virtual bodies on nodes of modal bodies, and joints between modal and rigid bodies: the known answers of [GA00]
 // sections 3 and 4, kept against eliminated, loops of ties.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The lowest vibration of a body as its neighbours hold it.
 #include "mechanism/doubts/held_body.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bushings and fields: wrench from the potential, tangents by differences, invariance, and motions with known answers.
 #include "mechanism/forces/bushing.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Channels and inputs in expressions: exact derivatives in whole models, control loops with known answers, histories.
 #include "mechanism/model/channel.hpp"
 

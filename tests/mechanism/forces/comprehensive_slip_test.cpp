@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The law of comprehensive slip: exact values, the friction circle, no jump.
 #include "mechanism/tyres/comprehensive_slip.hpp"
 

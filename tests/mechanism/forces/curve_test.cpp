@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Laws of springs as tables: values, slopes and integrals against known functions.
 #include "mechanism/forces/curve.hpp"
 

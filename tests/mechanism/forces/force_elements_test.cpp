@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Force elements in whole models: gravity per body, springs with curves and about axes; exact tangents, known motions.
 #include <cmath>
 #include <numbers>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What results say about force elements, against the laws of these at a known state.
 #include <cmath>
 #include <numbers>

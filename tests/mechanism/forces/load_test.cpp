@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Applied forces and moments: virtual power of the applied wrench, stiffness against central differences, work of a
 // run.
 #include "mechanism/forces/load.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The Magic Formula against a second implementation, written from the published equations by someone who had not read
 // this one (tests/verification/references/magic_formula), and at its limits.
 #include "mechanism/tyres/magic_formula.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Motions from tables: no overshoot, holds, two continuous derivatives, orders on smooth data; smooth steps.
 #include "mechanism/forces/motion_table.hpp"
 

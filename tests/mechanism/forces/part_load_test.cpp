@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Load cases of companion files as loads: against gravity, closed formulas, differences, and the balance of energy.
 #include <cmath>
 #include <random>

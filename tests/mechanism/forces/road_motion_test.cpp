@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Wheels and a car on roads with heights over grids and along lines: the same bump written three ways, energy over a
 // hill, ends and holes.
 #include <cmath>

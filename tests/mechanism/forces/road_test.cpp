@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Roads with heights over grids and along lines: polynomials and arcs in closed form, gradients by differences, ends
 // and holes.
 #include "mechanism/tyres/road.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Springs with stops, and prescribed motions: laws against their derivatives and against known functions; jumps in
 // time.
 #include "mechanism/forces/spring.hpp"

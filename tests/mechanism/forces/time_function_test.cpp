@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Functions of time of loads: numbers, tables, expressions, and values that are not numbers.
 #include "mechanism/forces/time_function.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tyres of planar models against those of space where axle, road and motion lie in the plane: terms, tangent, power.
 #include <random>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Wheels and cars on roads in motion and at rest, against mechanics on paper.
 #include <cmath>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tyres at one instant, of every law: contact of the disc, tangents by differences, power, relaxation, and limits
 // without jumps.
 #include "mechanism/tyres/tyre.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A run against a reference that has other instants.
 #include "mechanism/histories/difference.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures: the script that gnuplot reads, its quoting, and one picture from end to end.
 #include "mechanism/histories/plot.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Histories from CSV files, the choice of channels, and the measure of a run against a reference.
 #include "mechanism/histories/series.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Units that a user asks for: what is converted, by which factor, and what is refused.
 #include "mechanism/histories/shown_units.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Friction in joints: the law, exact derivatives in whole models, and motions with known answers.
 #include "mechanism/joints/friction.hpp"
 

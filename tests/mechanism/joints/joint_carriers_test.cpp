@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every joint between every pair of carriers of markers: derivatives against differences through the one door,
 // reactions without work, invariance, swapped bodies.
 #include <cmath>

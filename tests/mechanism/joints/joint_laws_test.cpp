@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Laws of the joint kinds against the keys that a scene may give for them.
 #include "mechanism/joints/joint_laws.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One suite for all joints: derivatives against central differences, reactions by their power and by hand.
 #include "mechanism/joints/joint.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Formulas (55) to (61) of docs/THEORY.md, written down once more as they stand there and compared with what the
 // program computes: relations, their gradients, the equations of motion, friction.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Ledgers of motions whose changes and activities are known in closed form, and against two whole runs.
 #include "mechanism/ledger/ledger.hpp"
 

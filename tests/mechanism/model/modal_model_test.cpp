@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modal bodies inside a whole model: every joint, springs, loads and motions on their nodes, against differences and
 // known answers.
 #include <random>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The one door: residual, tangents and constraint rows of a scene that holds one of everything, against differences.
 #include "mechanism/model/model.hpp"
 

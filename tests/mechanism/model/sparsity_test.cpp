@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The entries that the iteration matrix does not store are zero at random states, and those it stores are needed.
 #include "mechanism/model/sparsity.hpp"
 

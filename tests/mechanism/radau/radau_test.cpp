@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // method: radau: orders of positions, velocities and multipliers, its error estimate and steps, stiff parts, and what
 // all methods share: jumps, rows between steps, rows left out, checkpoints, no allocation.
 #include "mechanism/radau/radau.hpp"

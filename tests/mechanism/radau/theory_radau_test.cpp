@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Formulas (73) to (77) of docs/THEORY.md, written down once more as they stand there and compared with the stages of a
 // step, its error estimate and its projection.
 #include <cmath>

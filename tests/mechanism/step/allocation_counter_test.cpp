@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The counting malloc of this test program (tests/support/allocation_counter.hpp), and the proof that it counts.
 #include "tests/support/allocation_counter.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // No heap allocation inside an accepted step without output, whatever the model holds.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // All linear solvers behind one interface: answers, refactorisation, singular matrices, health, choice, pattern slots.
 #include "mechanism/solver/linear_solver.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Prediction of a step by the trend of the last one: fewer iterations, the same motion, none of it after a jump.
 #include <gtest/gtest.h>
 

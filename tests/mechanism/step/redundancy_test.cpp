@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reactions of least norm against a solution by hand and against the properties that define them.
 #include "mechanism/step/redundancy.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Formulas (62) to (72) of docs/THEORY.md, written down once more as they stand there and compared with steps that the
 // program takes.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Orders, fronts, medians and the cheapest setting of tables that are made up, so that the answers are known.
 #include "mechanism/study/findings.hpp"
 

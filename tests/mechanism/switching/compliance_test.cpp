@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What bodies yield to loads, buckling, and what joints move along with them.
 #include <numbers>
 

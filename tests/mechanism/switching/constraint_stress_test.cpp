@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies that reactions can stress though no load acts.
 #include "mechanism/switching/constraint_stress.hpp"
 

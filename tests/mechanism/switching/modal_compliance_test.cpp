@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modal bodies: what they yield to loads, what joints move along with them, momenta of one that loses its modes.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files for ParaView: read by VTK where Python has it, and their points compared with the results.
 #include "mechanism/view/paraview.hpp"
 

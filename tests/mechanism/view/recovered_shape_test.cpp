@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces from recovery files on pages, against the nodes of the results.
 #include "mechanism/view/recovered_shape.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pages of `mechanism view`, read back and compared with the results that they show.
 #include "mechanism/view/view.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Decks of Nastran and of Abaqus, numbers with all their digits.
 #include "tests/reducer/crossings/description.hpp"
 

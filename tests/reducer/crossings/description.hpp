@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The same part written in another way: turned, mirrored, in other units, far away, with other numbers, for another
 // program.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Eigenvalues of each reduced matrix against the stiffness of the held part, and mapped vectors.
 #include "tests/reducer/crossings/fingerprint.hpp"
 

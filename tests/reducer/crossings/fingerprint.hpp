@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a part does, in numbers that do not depend on how it is described.
 #pragma once
 

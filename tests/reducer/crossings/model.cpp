@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Grids that no symmetry maps on themselves, and what is tied to them.
 #include "tests/reducer/crossings/model.hpp"
 

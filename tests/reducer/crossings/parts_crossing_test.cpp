@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Cells of elements, ties, boundary, ways to reduce and descriptions: a part is the same however it is described.
 #include <array>
 #include <set>

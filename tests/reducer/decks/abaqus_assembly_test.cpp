@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sets, parts and instances of Abaqus decks: who is meant by a number or a name.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Decks written by hand beside a test: text in, Deck or the text of the error out.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nodes and elements of Abaqus decks: coordinate systems, node orders, types, ids.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

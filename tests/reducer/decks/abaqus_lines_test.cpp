@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The text of Abaqus decks: comments, continuation, case, included files, numbers, and files that are no decks.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

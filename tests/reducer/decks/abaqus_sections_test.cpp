@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Materials and sections of Abaqus decks: every form gives the property that the manual of its keyword describes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

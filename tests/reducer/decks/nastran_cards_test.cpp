@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nastran decks: fields in every format, continuations, comments, INCLUDE, numbers, unknown cards.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

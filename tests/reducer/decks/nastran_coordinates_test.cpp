@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nastran decks: coordinate systems and the grid points in them, against positions computed by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Decks written in a test: their meshes, their faults, and files beside them for INCLUDE.
 #pragma once
 

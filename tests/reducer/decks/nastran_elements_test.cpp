@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nastran decks: bars, rods, shells, solids, springs and masses in the mesh, against values by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

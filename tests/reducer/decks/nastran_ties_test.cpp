@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nastran decks: rigid and averaging elements, equations, boundary and supports.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

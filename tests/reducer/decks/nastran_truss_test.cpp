@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The truss that NASTRAN computed, written as a deck in each format: the matrices of its bars by hand.
 #include <gtest/gtest.h>
 

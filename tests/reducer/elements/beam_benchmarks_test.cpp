@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Frequencies of beams against NAFEMS and exact solutions, with their orders of convergence.
 #include <gtest/gtest.h>
 

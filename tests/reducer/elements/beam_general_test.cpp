@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The general beam against the plain one, closed formulas of coupled and tapered beams, and its laws.
 #include "reducer/elements/beam/general.hpp"
 

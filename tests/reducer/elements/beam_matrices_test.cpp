@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Beams of a mesh: rigid arms, released ends, faults, and published or exact frequencies of assembled beams.
 #include <cmath>
 #include <numbers>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loads of linear buckling from elements' stiffness and geometric stiffness, against analytic values.
 #include "tests/support/meshes/buckling.hpp"
 

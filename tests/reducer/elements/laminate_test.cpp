@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sections of shells from plies against closed forms.
 #include "reducer/properties/laminate.hpp"
 

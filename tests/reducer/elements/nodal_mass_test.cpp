@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mass matrix of a point mass beside its node against the kinetic energy of a rigid body.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers of a part that hardly can be meant are told; what designs may have is not (PART.md, "Numbers that are
 // doubted").
 #include "reducer/elements/plausibility.hpp"

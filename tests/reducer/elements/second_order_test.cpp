@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Second-order strain of every kind of element: known answers, invariance under a superposed rotation, no stress in
 // rigid motions, exact energies of springs that turn.
 #include "reducer/elements/second_order.hpp"

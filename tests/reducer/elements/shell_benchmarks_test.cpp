@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Published statics of plates and shells: coarse meshes within 3 to 7 %, fine ones within 1 to 2 %.
 #include <gtest/gtest.h>
 

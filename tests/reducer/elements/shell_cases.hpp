@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Single shell elements, patches and rigid motions that the laws of the shell elements are tried on.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Frequencies of plates and shells against NAFEMS, Ritz and closed forms, and their order of convergence.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Laws of the shell elements: symmetry, zero-energy modes, mass, invariance under rotation, renumbering and reversal.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Patch tests of the shell elements: constant strain and curvature come out to round-off in any orientation.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Solid elements on published and analytic problems: vibrating thick plate with its orders of convergence, NAFEMS FV52
 // and LE10.
 #include "reducer/elements/element_matrices.hpp"

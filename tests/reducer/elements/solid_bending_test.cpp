@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Solid elements in bending: exact where their functions allow it, free of locking, and known benchmarks.
 #include "reducer/elements/element_matrices.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Findings on badly shaped solid elements: each fault by name, good elements without any.
 #include <cmath>
 #include <limits>

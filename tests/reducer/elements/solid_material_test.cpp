@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elastic matrices of solids: strains of simple tests, material axes, and constants that cannot be.
 #include <limits>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Patch tests of the solid elements: a linear displacement on the surface of a distorted mesh must fill its inside.
 #include "reducer/elements/element_matrices.hpp"
 

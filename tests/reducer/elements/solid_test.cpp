@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Laws of every solid element by itself: symmetry, six zero modes, mass, rotation, renumbering.
 #include "reducer/elements/element_matrices.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Springs and bushings between two nodes: energies by hand, rigid motions, and the measure that tells when they fail.
 #include "reducer/elements/spring.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers of parts that cannot be meant are named: the trials stiff_spring and unlikely_values.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Inertia of every kind of element in a turning frame: its mass matrix, the momentum of a turned shape, and the energy
 // of an element that is turned as a whole.
 #include "reducer/elements/turning_mass.hpp"

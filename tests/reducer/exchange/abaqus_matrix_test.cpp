@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Matrix text of Abaqus and CalculiX: user elements, node-component lists, stored matrices, positions, errors.
 #include "reducer/exchange/abaqus_matrix.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // DMIG cards: every field form, what the header may say, coordinate systems, scalar points, errors, the way out and
 // back.
 #include "reducer/exchange/dmig.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files written by hand and superelements to compare with, for the tests of import and export.
 #pragma once
 

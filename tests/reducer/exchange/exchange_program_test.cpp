@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `reducer import` and `reducer export` as users call them: files, certificate, messages, exit codes.
 #include <sys/wait.h>
 

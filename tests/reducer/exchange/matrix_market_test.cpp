@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Matrix Market files, fmx files and the table of rows: all forms, errors, and the way out and back bit for bit.
 #include "reducer/exchange/matrix_market.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // MBDyn's FEM data file: record groups as in its input manual, and modes that hold all of the superelement.
 #include "reducer/exchange/mbdyn.hpp"
 

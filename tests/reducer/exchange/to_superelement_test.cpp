@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // From foreign matrices to a superelement: order, names, canonical form, filter, certificate, every inconsistency.
 #include "reducer/exchange/to_superelement.hpp"
 

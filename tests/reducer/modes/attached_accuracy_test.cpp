@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `accuracy` holds whatever the part is attached to: free, each boundary node held alone, all held, and on springs.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Mechanisms inside a part: found by the null space of the stiffness, named, refused, or kept as internal coordinates.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

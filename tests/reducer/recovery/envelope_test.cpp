@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Envelopes and histories of `recover` against stresses that the test itself makes from the fields, instant by instant.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Forces on nodes of `recover --loads` against the stiffness of the unreduced part times the recovered displacement.
 #include "reducer/recover/nodal_loads.hpp"
 

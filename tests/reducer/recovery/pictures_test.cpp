@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What pictures are made of: cells in the order of VTK, faulty elements of a mesh on its page.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // `recover` on written results: displacements, stresses and places against theory, mirrored bodies, other units, bad
 // input.
 #include "reducer/recover/recover.hpp"

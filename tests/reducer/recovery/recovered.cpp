@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reductions whose recovery data stay in memory.
 #include "tests/reducer/recovery/recovered.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The recovery data of a reduction, kept in memory: what the tests of shapes and stresses look at.
 #pragma once
 

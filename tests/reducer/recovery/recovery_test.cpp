@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shapes and stresses of recovery files: rigid motions, states of constant stress and of bending, beams, modes and
 // statics of the full model.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of a results file from coordinates.
 #include "tests/reducer/recovery/stored_run.hpp"
 

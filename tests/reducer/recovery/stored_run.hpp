@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Results files with superelements that move as a test prescribes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The first line of a certificate: good enough or not, up to which frequency, and why.
 #include "reducer/report/verdict.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loads of buckling of reduced parts against Euler, plates, the full model of the same mesh, and an independent
 // program.
 #include <cmath>

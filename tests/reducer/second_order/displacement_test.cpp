@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Displacement of second order inside parts whose boundary is moved as that of a bar bent to a circle.
 //
 // A straight bar of length L under end moments is an arc of radius R: the point s of its axis is at R sin(s/R) along

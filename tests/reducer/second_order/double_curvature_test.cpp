@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the rows of a companion hold of the membrane stress of a plate that bends into double curvature, against the
 // exact energy of von Kármán's plate in its first mode.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Companions whose internal coordinates are no fixed-boundary modes: moment vectors and Rubin's; and methods and ties
 // that have no second order, told by name.
 #include <gmock/gmock.h>

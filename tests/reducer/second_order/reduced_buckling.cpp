@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Columns, strips, plates and panels with their companions, loaded and buckling in the reduced coordinates.
 #include "tests/reducer/second_order/reduced_buckling.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loads of buckling of parts that are reduced to their ends or edges, and what they are held against. Tests and the
 // page of verification compute the same thing here.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The steps of reduce() on a mesh made in code, and the eigenproblem of buckling.
 #include "tests/reducer/second_order/reduced_part.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reduction of a mesh with its companion, as in reduce(), and load factors of buckling in the reduced coordinates.
 #pragma once
 

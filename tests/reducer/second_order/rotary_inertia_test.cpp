@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rotary inertia in the companion: one mass by every route, momentum and energy of a turned part, files that lack it.
 #include <cmath>
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The companion of a part: known answers of two frames, laws of its arrays, ties, and loads of buckling in reduced
 // coordinates.
 #include <cmath>

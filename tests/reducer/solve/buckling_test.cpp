@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Load factors of `reducer solve --buckling`: columns of beams and of solids, plates, open sections, rigid arms and
 // averages, against closed forms; what is refused and what the files hold.
 #include "reducer/solve/buckling.hpp"

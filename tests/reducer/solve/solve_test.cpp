@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modes on supports, what is refused and how, files and report of `reducer solve`.
 #include "reducer/solve/solve.hpp"
 

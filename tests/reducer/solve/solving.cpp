@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Files of the tests live as long as a call.
 #include "tests/reducer/solve/solving.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts written as text, solved in memory: what the tests of statics and supported modes look at.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Statics of unreduced parts against beam, plate and continuum theory; loads, reactions, supports.
 #include "reducer/solve/solve.hpp"
 

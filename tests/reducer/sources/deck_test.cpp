@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Decks of other programs as the mesh file of a part: the same plate, its sets and numbers, and what belongs to the
 // deck.
 #include <gmock/gmock.h>

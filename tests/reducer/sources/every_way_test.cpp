@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One structure through every way in: the reduced stiffness and mass are the same.
 #include <fstream>
 #include <iterator>

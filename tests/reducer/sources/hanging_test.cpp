@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Hanging nodes are reported with their number and the first place; what joins them, or is no neighbour, is not.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

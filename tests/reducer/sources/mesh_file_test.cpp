@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Geometry and mesh files: the same plate through every way in gives the same matrices; CAD files; damaged files.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of the tests of the ways in: from text to a mesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Plates, discs, cylinders and extrusions: places, areas, normals, groups of edges, connections, and what is refused.
 #include <cmath>
 #include <numbers>

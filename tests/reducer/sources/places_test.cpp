@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Places, groups, spiders, springs, masses and boundary nodes on a mesh file and on drawn walls.
 #include <cmath>
 #include <numeric>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One plate as the part file draws it, and matrices that can be compared whatever the numbering.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Geometry of strangers: commands that a .geo file must not run, limits, damaged CAD files, answers that make no sense.
 #include <linux/audit.h>
 #include <linux/filter.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Drawn beams that touch without a common node are told, unless they are tied.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What `reducer groups` tells of geometry, meshes and decks, and its pictures.
 #include "reducer/survey/survey.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Sections, materials, elements and states of nodes for the tests of beam elements.
 #include "tests/support/bodies/beam_states.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Random deformed states of single beam elements and their perturbation in any scalar, for tests of forces and
 // tangents.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The dense Newton iteration of the cantilever.
 #include "tests/support/bodies/beam_statics.hpp"
 

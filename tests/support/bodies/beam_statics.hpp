@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Static equilibrium of a cantilever of beam elements by a dense Newton iteration: the tests' own small solver.
 #pragma once
 

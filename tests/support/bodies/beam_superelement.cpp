@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Matrices of the beam, its reduction by Craig-Bampton and its rearrangements.
 #include "tests/support/bodies/beam_superelement.hpp"
 

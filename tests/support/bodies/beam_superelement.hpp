@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Test superelements from closed formulas: a free straight beam (12 x 12), and rearrangements that change no physics.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stiffness and masses of a rod, modes of a lumped model under reference conditions.
 #include "tests/support/bodies/lumped_bodies.hpp"
 

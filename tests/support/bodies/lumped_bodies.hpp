@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modal bodies from lumped finite element models: frames of straight beams, reference conditions, modes, integrals.
 //
 // The producer of formats/MODAL_BODY.md for tests and examples: small and dense, no part of the programs.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads the body and the state of references/goncalves_ambrosio/known_answers.json.
 #include "tests/support/bodies/modal_known_answers.hpp"
 

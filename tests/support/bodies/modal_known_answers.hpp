@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The body, state and results of references/goncalves_ambrosio/known_answers.json.
 #pragma once
 

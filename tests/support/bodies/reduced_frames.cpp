@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Full models of a bent frame and a network of springs, and their reduction.
 #include "tests/support/bodies/reduced_frames.hpp"
 

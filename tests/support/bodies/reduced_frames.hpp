@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Superelements of every kind of boundary node, reduced by Craig-Bampton from small full models.
 #pragma once
 

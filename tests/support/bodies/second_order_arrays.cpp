@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Arrays of the second order by their definitions, dense.
 #include "tests/support/bodies/second_order_arrays.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A superelement and the arrays of its companion from full matrices and a geometric stiffness, by the definitions of
 // COMPANION.md.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shape functions of the Bernoulli beam and what is integrated over them.
 #include "tests/support/bodies/second_order_beam.hpp"
 

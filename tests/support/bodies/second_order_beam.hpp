@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A straight beam of Bernoulli elements with its companion: geometric stiffness with moments and shear.
 #pragma once
 

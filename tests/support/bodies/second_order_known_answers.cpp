@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads references/second_order_known_answers.json.
 #include "tests/support/bodies/second_order_known_answers.hpp"
 

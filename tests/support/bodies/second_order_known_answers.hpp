@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The superelements, arrays, states and results of references/second_order_known_answers.json.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A superelement with its companion, computed by the definitions of COMPANION.md from a network of springs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A recovery file made by hand: one beam, one shell and one solid at seven nodes, with any numbers as fields.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Random states of superelement bodies and their residuals.
 #include "tests/support/bodies/superelement_cases.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // States of superelement bodies and their residuals, for the tests of the superelement body.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Reads references/cardona/known_answers.json.
 #include "tests/support/bodies/superelement_known_answers.hpp"
 

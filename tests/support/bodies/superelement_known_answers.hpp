@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The superelements and states of references/cardona/known_answers.json.
 #pragma once
 

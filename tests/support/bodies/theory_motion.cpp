@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Kinematics of sections 1 to 5 of docs/THEORY.md.
 #include "tests/support/bodies/theory_motion.hpp"
 

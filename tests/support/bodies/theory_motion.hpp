@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Formulas (1) to (25) of docs/THEORY.md, written down once more as they stand there: what the tests of the theory
 // compare the kernels with.
 #pragma once

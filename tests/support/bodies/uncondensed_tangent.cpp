@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/bodies/uncondensed_tangent.hpp"
 
 namespace tisserand::test_support {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The whole tangent of a superelement body, internal coordinates kept.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Loads, springs, bushings, drives, stops, friction, gears and load cases of the cells.
 #include "tests/support/crossings/actions.hpp"
 

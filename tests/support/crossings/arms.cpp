@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rigid bodies, beams, superelements and modal bodies of about 2 kg and 2 m, soft, without a plane of symmetry.
 #include "tests/support/crossings/arms.hpp"
 

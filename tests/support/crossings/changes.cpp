@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The similarities of changes, and those that change no number.
 #include "tests/support/crossings/changes.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Expressions with other names for time and channels; curves with other factors.
 #include "tests/support/crossings/functions.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Functions of time and laws of a scene in another description of it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Conversion of rows of results into named quantities, mapped to the original description.
 #include "tests/support/crossings/history.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Histories of runs, mapped to the description of the original scene, and their comparison.
 #pragma once
 

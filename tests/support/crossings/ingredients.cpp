@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Assembly of the scenes of cells: hinge, bob, start, scheme.
 #include "tests/support/crossings/ingredients.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Capabilities that cells combine: a body, the joint that hangs it on the ground, what acts, a scheme.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Greedy covering array of strength two: each choice takes a pair that is missing and what else is missing most.
 #include "tests/support/crossings/pairs.hpp"
 

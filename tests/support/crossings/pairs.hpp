@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Few cells in which any two values of two axes meet.
 #pragma once
 

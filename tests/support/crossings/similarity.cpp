@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What each entry of a scene becomes: points, vectors, axial vectors, tensors, laws and functions of time.
 #include "tests/support/crossings/similarity.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Other descriptions of one scene: turned, mirrored, moved, in other units, at another time.
 #pragma once
 

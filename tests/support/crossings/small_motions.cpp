@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Runs of modes, and pairs of eigenvalues of two runs.
 #include "tests/support/crossings/small_motions.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Subspace iteration with S⁻¹ (−K_G): its largest eigenvalues are 1/λ.
 #include "tests/support/meshes/buckling.hpp"
 

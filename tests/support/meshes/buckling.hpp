@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Linear buckling of a small mesh: loads -> stress -> geometric stiffness -> load factors.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Grids of shell elements, and their supports and loads by place.
 #include "tests/support/meshes/shell_grids.hpp"
 

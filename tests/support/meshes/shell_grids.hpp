@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shell meshes of the tests: a grid of nodes on a surface x(a, b), with 3- or 4-node elements, supports and loads by
 // place.
 #pragma once

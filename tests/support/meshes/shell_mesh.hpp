@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a shell problem is meshed with: the kind of element and a number that refines.
 #pragma once
 

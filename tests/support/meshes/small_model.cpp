@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Assembly, supports, displacements and frequencies of a small mesh.
 #include "tests/support/meshes/small_model.hpp"
 

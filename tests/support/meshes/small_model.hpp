@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A mesh with supports and loads, small enough to be solved beside a test: element matrices -> displacements,
 // frequencies.
 #pragma once

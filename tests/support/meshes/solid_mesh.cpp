@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Blocks of solid elements, distorted or not.
 #include "tests/support/meshes/solid_mesh.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes of solid elements for tests: blocks of any shape, distorted or mapped, and single elements.
 #pragma once
 

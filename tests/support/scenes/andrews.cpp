@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The squeezing mechanism's place at the start, its bodies, hinges, spring and motor.
 #include "tests/support/scenes/andrews.hpp"
 

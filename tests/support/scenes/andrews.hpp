@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Andrews' squeezing mechanism (Schiehlen 1990; IVP test set, F. Mazzia): seven plane bodies, ten hinges, a spring, a
 // motor.
 #pragma once

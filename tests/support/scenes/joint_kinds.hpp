@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The kinds of joints that a suite of tests runs over, so that a new row of the table is tested without further ado.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Geometry of overconstrained linkages: closure by Newton's iteration, and the path on which they move.
 #include "tests/support/scenes/linkages.hpp"
 

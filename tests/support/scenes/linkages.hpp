@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Random overconstrained linkages of one loop and one degree of freedom, by the parameters of Denavit and Hartenberg.
 #pragma once
 

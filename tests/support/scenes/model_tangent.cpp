@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Random states, the dense iteration matrix and differences of the residual.
 #include "tests/support/scenes/model_tangent.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The iteration matrix of a whole model as a dense matrix, and central differences of its residual to hold it against.
 #pragma once
 

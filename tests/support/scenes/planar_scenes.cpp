@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies, joints and forces of the scenes.
 #include "tests/support/scenes/planar_scenes.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes of the x-y plane, turned and moved as a whole, for tests of planar models.
 #pragma once
 

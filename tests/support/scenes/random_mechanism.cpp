@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Trees first, then loops; poses by the free displacements of the joints, velocities by projection on what they hold.
 #include "tests/support/scenes/random_mechanism.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Random mechanisms of rigid bodies: trees and loops of all joints in a random consistent state, and what they do at
 // it.
 // In C++17, for programs whose other headers know no later one.

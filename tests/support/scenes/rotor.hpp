@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A rigid rotor with static and dynamic unbalance on a drive of constant speed, and what its bearing must carry.
 #pragma once
 

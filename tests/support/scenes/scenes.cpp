@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Parts of scenes, the scenes of two known mechanisms, and the loop of a run.
 #include "tests/support/scenes/scenes.hpp"
 

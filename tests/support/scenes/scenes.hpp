@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes written in code, and a runner that starts and advances them as a run does, for tests of the mechanism core.
 #pragma once
 

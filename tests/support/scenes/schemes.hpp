@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The integration schemes that every test of the integrator runs through.
 #pragma once
 

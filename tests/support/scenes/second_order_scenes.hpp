@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies of second order as files of scenes, and the slender beam that most of their tests take.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a flexible body swings with, whatever kind of body it is: scenes of runs that switch effects by themselves.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Planning, running and reading back of trial scenes.
 #include "tests/support/scenes/trial.hpp"
 

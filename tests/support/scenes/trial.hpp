@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes of tests/verification/references/trials, run as the program runs them: all analyses in order.
 #pragma once
 

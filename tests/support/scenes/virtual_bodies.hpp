@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes with virtual bodies, run to the motion of every place and the reactions of every joint.
 #pragma once
 

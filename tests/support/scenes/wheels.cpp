@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies, guides and tyres of the scenes.
 #include "tests/support/scenes/wheels.hpp"
 

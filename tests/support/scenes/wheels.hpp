@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Wheels and a car of one body on roads, for tests of tyres and roads.
 #pragma once
 

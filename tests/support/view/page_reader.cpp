@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Base64, zlib, byte planes and differences back to numbers.
 #include "tests/support/view/page_reader.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A page of `mechanism view` read back as formats/PAGE.md says, independently of what writes it.
 #pragma once
 

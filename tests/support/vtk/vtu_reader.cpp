@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tags by regular expressions, then bytes behind the underscore.
 #include "tests/support/vtk/vtu_reader.hpp"
 

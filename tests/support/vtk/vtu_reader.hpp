@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A VTU file read back as the description of the VTK file formats says, independently of what writes it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Motions that drives prescribe: kinematics, inverse dynamics and dynamics of combined capabilities, in two
 // descriptions and against each other.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What crossings found, each in the smallest scene that shows it.
 #include <string>
 

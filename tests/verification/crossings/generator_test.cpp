@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The generator of crossings itself: pairs of values, actions that act, and changes that change.
 #include <set>
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Two ways to the same motion of combined capabilities: formulations and methods, and a superelement that is rigid
 // against the rigid body of its mass.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Motion of combined capabilities: the same mechanism in another description moves alike. Any two of an arm, a hinge,
 // an action, a scheme and a change of the description meet in one cell at least.
 #include <cmath>

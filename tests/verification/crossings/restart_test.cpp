@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Combined capabilities that go on from a checkpoint: bit-equal to the run that wrote it.
 #include <filesystem>
 #include <string>

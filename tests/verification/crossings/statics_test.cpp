@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Equilibria of combined capabilities and the small motions about them: the same in another description; dynamics that
 // starts there rests; modes at rest do not depend on the floating frame or the inertia of a superelement.
 #include <algorithm>

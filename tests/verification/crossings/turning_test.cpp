@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Steady turns of combined capabilities: the same in another description; dynamics that starts there turns rigidly.
 #include <cmath>
 #include <complex>

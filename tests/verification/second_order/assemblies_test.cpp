@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Second-order superelements among others: several uses of one file, virtual bodies, forces at boundary nodes.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Laws that a second-order superelement obeys in motion: momenta, positive mass, order of nodes, modes of stretch,
 // frequencies under load.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What is said of second-order superelements: choices that are refused, with the remedy; doubts of linear ones, which
 // are not theirs.
 #include <cmath>

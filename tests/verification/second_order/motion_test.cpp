@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One superelement with stiffening and full inertia where one linear body fails: buckling, beam-columns, rotating
 // blades, spin-up, axial spin, and conservation.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One second-order superelement on references of others: the hinged beam of [Car00] 8.1 at 1.5 rad/s, and how errors
 // grow with the angle between nodes and frame.
 #include <array>

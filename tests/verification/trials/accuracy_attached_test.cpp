@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What `accuracy` promises holds whatever the part is attached to, through both programs.
 #include <cstdlib>
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Effects that are `auto` in loops of flexible bars: what constraints stress is on, and what the start leaves out is
 // reported.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nonlinear beams under large axial forces against strings, cables, columns and blades: closed forms and orders.
 #include <cmath>
 #include <numbers>

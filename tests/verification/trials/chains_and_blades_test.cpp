@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Nonlinear beams of two nodes as heavy chains, turning blades, pushed columns and rolled-up strips: closed forms and
 // series.
 #include <algorithm>

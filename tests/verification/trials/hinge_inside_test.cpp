@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // A hinge inside a part, kept by `mechanism: allow`, through both programs.
 #include <cmath>
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Laws at the ends of their ranges: bushings that are wound up by whole turns, tables that end, axes that turn over.
 #include <cmath>
 #include <numbers>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Random overconstrained linkages of one degree of freedom with every method and three steps each.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Spinning superelements with rotary inertia at their nodes, against nonlinear beams and rigid bodies welded to the
 // same superelement (tests/verification/references/trials).
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Modes of rotors in axes at rest and in axes that turn with them. Frequencies of the beams are those of an independent
 // finite element rotor, which they meet to 3e-5: second forward whirl 137.35, 150.82, 160.26 Hz at 300, 600, 1000
 // rad/s.

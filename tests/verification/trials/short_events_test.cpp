@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Events that are shorter than the steps that an error or the scene allows.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes on which a former version was wrong or silent, against closed forms (tests/verification/references/trials).
 #include <cmath>
 #include <cstdlib>

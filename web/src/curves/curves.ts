@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The side of curves: the tree of channels, and panels below it.
 import { Panel } from "./panel";
 import type { PanelHost } from "./panel";

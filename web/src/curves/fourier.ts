@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Amplitude spectrum of a history: evenly sampled, mean removed, Hann window, fast Fourier transform.
 
 /** In place, radix 2: X_k = sum x_n exp(-2 pi i k n / N); N a power of two. */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One diagram: its channels over time (or differences, or spectra), with the cursor at the time of the animation.
 import uPlot from "uplot";
 import { valueAt } from "./fourier";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What a panel of curves shows, as columns over one abscissa: values, differences of runs, or spectra.
 import uPlot from "uplot";
 import { LINE_COLOURS, lineColour } from "../view/colours";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The tree of channels: folders by the path of a channel, opened on demand; the search lists what matches every word.
 import type { Run } from "../data/run";
 import { h } from "../ui/dom";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stored arrays of the page: bytes of a block -> typed values, and their reading row by row without a copy.
 import { require } from "./failure";
 import type { ArrayEntry } from "./header";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The compressed blocks of the page: base64 text -> bytes, inflated when first asked for and kept.
 import { decode, Values } from "./arrays";
 import { Failure, require, WRITE_AGAIN } from "./failure";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /** A fault of the page's data or of the browser, told to the reader: what, where, and what to do. */
 export class Failure extends Error {
   constructor(what: string, readonly remedy: string) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The header of a page: the types of the data contract (formats/PAGE.md), as read from JSON.
 
 export interface ArrayEntry {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The two data elements of the page -> header and runs.
 import { Blocks } from "./blocks";
 import { Failure, require, WRITE_AGAIN } from "./failure";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Unit quaternions [w x y z] and vectors, on flat arrays.
 export type Quaternion = [number, number, number, number];
 export type Vec = [number, number, number];

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One run in memory: its arrays, decoded, and where its bodies and places are at a time or a phase of a mode.
 import type { Values } from "./arrays";
 import type { Blocks } from "./blocks";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures and videos of the canvas, with title, time and the scale of colours written on them.
 import { download, fileName, styled } from "./dom";
 import { number } from "./numbers";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The keys of the page.
 import type { App } from "../app";
 import type { Standard } from "../view/camera";

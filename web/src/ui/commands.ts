@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Every key of the page, once: what it does, for the keyboard and for the help.
 
 export interface Command {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The help and the licences, as dialogs of the browser (they hold the focus, Escape closes them).
 import { written } from "./commands";
 import type { Command } from "./commands";

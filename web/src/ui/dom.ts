@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elements of the page. Every text goes through textContent: names from files never become markup.
 
 type Child = Node | string | null;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What was chosen in the picture: a body or a node, its place now, and the channels of its name.
 import { button, h } from "./dom";
 import { number, steady } from "./numbers";

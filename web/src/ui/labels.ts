@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Names of nodes beside them in the picture.
 import { Vector3 } from "three";
 import { add, rotate, scaled, subtract } from "../data/rotation";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tabs of the side, and the bar that parts it from the picture.
 import { h } from "./dom";
 

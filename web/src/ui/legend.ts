@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The scale of colours, and the small axes that tell how the picture is turned.
 import { h, svg } from "./dom";
 import { number } from "./numbers";

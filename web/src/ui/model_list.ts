@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies, nodes and joints as a list: what a click in the picture chooses can be chosen here by keyboard.
 import { button, h } from "./dom";
 import { number } from "./numbers";

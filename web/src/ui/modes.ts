@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The table of modes: a row chosen moves the picture in that mode.
 import { button, h } from "./dom";
 import { number } from "./numbers";

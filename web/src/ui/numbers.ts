@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers as an engineer writes them.
 
 /** Four significant digits by default; a power of ten where that is shorter. */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The clock of the page: time of the runs or phase of a mode, playing, speed, loop, steps.
 import type { Run } from "../data/run";
 

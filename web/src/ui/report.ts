@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The report of a run: doubts and notes first, what was simulated, effects, energy and steps over time, time of the phases.
 import uPlot from "uplot";
 import { h, select, styled } from "./dom";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One picture of one or more states, side by side, with nothing of the page about it: what `mechanism picture` writes.
 import type { App } from "../app";
 import type { Vec } from "../data/rotation";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The bar above the picture: view, colour, deformation, what is shown, capture.
 import { button, checkbox, h, select } from "./dom";
 import type { Standard } from "../view/camera";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The bar of time: play, steps, slider, speed, loop; in a mode, its phase.
 import { button, checkbox, h, select } from "./dom";
 import { number, steady, withUnit } from "./numbers";

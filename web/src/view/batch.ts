@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // All shapes of a run (or all glyphs) as four draw calls: surfaces, creases, lines, points; moved item by item.
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Group, LineSegments, Mesh, Points, Uint32BufferAttribute } from "three";
 import type { Pose, Shape } from "../data/run";

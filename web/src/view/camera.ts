@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The camera: it orbits a target about the vertical, in perspective or parallel; drag, wheel, fingers.
 import { OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
 import { length, scaled } from "../data/rotation";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Colours told apart by the colour-blind: cividis and viridis for numbers (perceptually uniform), Okabe and Ito for lines,
 // Tol's light set for bodies.
 

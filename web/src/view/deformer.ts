@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The vertices of one shape at given amplitudes: displacement, stress, smooth normals; scratch for one body at a time.
 import type { Shape } from "../data/run";
 import type { Facets } from "./facets";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces made ready to draw: smooth normals up to a crease angle, vertices doubled at creases, and the lines of creases.
 import type { Shape } from "../data/run";
 

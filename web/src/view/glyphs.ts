@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Shapes of joints by kind, of virtual bodies and of arrows, of unit size: z is the axis of the joint.
 import type { Shape } from "../data/run";
 import { rotate } from "../data/rotation";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The ground grid below the motion and the world axes.
 import type { Vec } from "../data/rotation";
 import { add, scaled, subtract } from "../data/rotation";

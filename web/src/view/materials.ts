@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Materials over the shaders; uniforms that all share are one object.
 import { DataTexture, DoubleSide, GLSL3, LinearFilter, RawShaderMaterial, RGBAFormat, UnsignedByteType, Vector2, Vector4 } from "three";
 import type { IUniform } from "three";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The largest value of a coloured quantity, with its place and instant, for the legend; a factor that makes deformation visible.
 import type { Values } from "../data/arrays";
 import { add, rotate, subtract } from "../data/rotation";

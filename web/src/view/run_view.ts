@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // One run in the picture: its bodies, joints, virtual bodies, springs, arrows, nodes and traces, moved with Run.motion.
 import { BufferAttribute, BufferGeometry, Group, Points } from "three";
 import type { Object3D, Vector4 } from "three";

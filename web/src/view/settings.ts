@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // What the picture shows: one object, changed by controls and keys.
 import type { MapName } from "./colours";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // GLSL of the picture. Vertices come moved and deformed from the processor: on machines without a graphics card, where
 // speed is scarce, that is several times faster than modes in textures (web/README.md has the figures).
 

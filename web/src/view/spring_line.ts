@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 import { add, length, scaled, subtract } from "../data/rotation";
 import type { Vec } from "../data/rotation";
 

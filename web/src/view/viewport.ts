@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The picture: renderer, camera, the views of all runs; drawn when something changed, never in vain.
 import { Color, Scene, Vector2, Vector3, Vector4, WebGLRenderer, WebGLRenderTarget } from "three";
 import type { Vec } from "../data/rotation";

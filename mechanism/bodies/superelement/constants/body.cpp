@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Constants of a body from a superelement file: order of rows, units, canonical form, weights.
 #include "mechanism/bodies/superelement/constants/body.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // The superelement as a body of the mechanism: constants built once from the file, which the Model holds, and its uses.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Damping of a superelement body: matrices on the deformation rates from the options of the scene.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Conversion of matrices to runs of their common entries, and linear combinations.
 #include "mechanism/bodies/superelement/constants/quadratic_forms.hpp"
 

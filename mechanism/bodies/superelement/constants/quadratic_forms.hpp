@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Symmetric matrices that are applied together, for any scalar: the arrays of a second-order superelement.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Constants of second-order terms and load cases of a body from arrays in its coordinates.
 #include "mechanism/bodies/superelement/constants/second_order.hpp"
 

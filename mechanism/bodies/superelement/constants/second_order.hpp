@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Stiffening and full inertia of a superelement body, from the arrays of a companion file.
 #pragma once
 

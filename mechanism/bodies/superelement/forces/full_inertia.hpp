@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Inertia option F of a superelement body, for any scalar: the kinetic energy THEORY (48) of all its mass, with the
 // second-order displacement of the interior. Letters are those of docs/THEORY.md, section 8; R in the code is Φ₀ there.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Load cases of the companion file on a superelement body, for any scalar: distributed loads that turn with the body.
 //
 // With the factor s a load case does the virtual work of THEORY (42), s [F·R₀ᵀδx₀ + m(y)·δΘ₀ + (f + K y)·δy]. f = Φᵀ f

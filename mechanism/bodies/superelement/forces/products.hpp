@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Products of constant matrices with vectors of any scalar.
 #pragma once
 

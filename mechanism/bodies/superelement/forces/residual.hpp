@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Forces of a superelement body, for any scalar: G_iner + G_int + G_damp − gravity from the local motion.
 #pragma once
 

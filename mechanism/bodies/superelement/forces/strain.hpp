@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elastic forces of stiffening, for any scalar: the terms that the quadratic part of the generalised strains adds to
 // S̄ y.
 #pragma once

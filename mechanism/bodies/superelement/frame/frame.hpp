@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Floating frame of a superelement body, for any scalar: R₀, ψ, T⁻¹ and U from node poses.
 #pragma once
 

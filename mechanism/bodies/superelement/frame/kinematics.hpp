@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Local coordinates y, ẏ, ÿ of a superelement body from node motions and the floating frame, for any scalar, in space
 // and in the plane.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exact motion of a superelement's centre of mass, for any scalar. Inertia option M uses it instead of the interpolated
 // motion.
 #pragma once

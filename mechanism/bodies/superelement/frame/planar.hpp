@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Floating frames of planar superelement bodies, for any scalar: rotations add, and T⁻¹ is 1.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of the centre of mass of a superelement body, and their products in the step tangent of inertia option M.
 #include "mechanism/bodies/superelement/tangent/center_tangent.hpp"
 

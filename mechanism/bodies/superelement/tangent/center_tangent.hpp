@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Part of the step tangent that inertia option M adds to that of option B: the exact motion of the centre of mass.
 #pragma once
 

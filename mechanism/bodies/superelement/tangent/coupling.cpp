@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Elimination of the internal coordinates with the blocks of the latest tangent.
 #include "mechanism/bodies/superelement/tangent/coupling.hpp"
 

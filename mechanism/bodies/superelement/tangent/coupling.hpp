@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Coupling of boundary and internal coordinates in the step tangent: A_BI = W M_BI, A_IB = M_IB Z, and the terms of
 // damping.
 #pragma once

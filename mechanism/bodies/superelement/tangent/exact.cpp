@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Exact tangent of a superelement body, by dual numbers.
 #include <Eigen/Core>
 #include <Eigen/LU>

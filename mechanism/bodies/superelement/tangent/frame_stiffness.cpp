@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Derivatives of the transposed projector at fixed forces: THEORY (21), (22).
 #include "mechanism/bodies/superelement/tangent/second_order_tangent.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Factors by Cholesky if the matrix is positive definite, else by LU.
 #include "mechanism/bodies/superelement/tangent/internal_factor.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Factorisation of the internal block of a superelement's tangent.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Planar step tangent: sums of products of columns in axes of the frame, which are rotated to world axes at the end.
 
 #include "mechanism/bodies/superelement/tangent/coupling.hpp"

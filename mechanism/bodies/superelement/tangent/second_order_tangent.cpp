@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Assembly in (x₀, Θ₀, y), elimination of the internal coordinates there, and transformation to node coordinates.
 #include "mechanism/bodies/superelement/tangent/second_order_tangent.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Step tangents of superelement bodies with stiffening or full inertia, in the coordinates (x₀, Θ₀, y) and in those of
 // the nodes.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Step tangent of a superelement body with the internal coordinates eliminated: the inner loop of every time step.
 #include "mechanism/bodies/superelement/tangent/tangent.hpp"
 

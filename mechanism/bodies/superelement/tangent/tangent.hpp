@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Tangents of a superelement body (step tangent, with internal coordinates kept, exact) and elimination of y_I.
 #pragma once
 

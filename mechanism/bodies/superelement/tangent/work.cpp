@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Allocation of the stored data and work matrices of a superelement body.
 #include "mechanism/bodies/superelement/tangent/work.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Data that one use of a superelement body keeps between residual, tangent and solution, and work matrices.
 #pragma once
 
