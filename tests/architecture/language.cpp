@@ -18,7 +18,7 @@ bool begins_with(const std::string& line, const std::regex& what) {
   return std::regex_search(line, what, std::regex_constants::match_continuous);
 }
 
-/// Paragraphs of a page without headings, tables, blocks of code, displayed formulas and comments.
+/// Paragraphs of a page without headings, tables, contents, blocks of code, displayed formulas and comments.
 std::vector<Paragraph> paragraphs_of(const SourceFile& page) {
   static const std::regex item(R"(\s*([-*]|\d+\.) )"), outside(R"(\s*($|\||#|<!--|---))"), indented(R"(    +\S)");
   std::vector<Paragraph> paragraphs;
@@ -41,12 +41,14 @@ std::vector<Paragraph> paragraphs_of(const SourceFile& page) {
   return paragraphs;
 }
 
-/// A link is its text; code and formulas count as one word.
+/// A link is its text; a picture is nothing; code and formulas count as one word.
 std::string read_aloud(std::string text) {
-  static const std::regex link(R"(!?\[([^\]]*)\]\([^)]*\))"), code(R"(`[^`]*`)"), formula(R"(\$[^$]*\$)");
+  static const std::regex picture(R"(!\[[^\]]*\]\([^)]*\))"), link(R"(\[([^\]]*)\]\([^)]*\))");
+  static const std::regex code(R"(`[^`]*`)"), formula(R"(\$[^$]*\$)");
+  text = std::regex_replace(text, picture, "");
   text = std::regex_replace(text, link, "$1");
   text = std::regex_replace(text, code, "Code");
-  return std::regex_replace(text, formula, "x");
+  return std::regex_replace(text, formula, "X");
 }
 
 std::ptrdiff_t words_of(const std::string& sentence) {
@@ -57,12 +59,13 @@ std::ptrdiff_t words_of(const std::string& sentence) {
 }  // namespace
 
 std::vector<Violation> check_sentences(const SourceTree& tree) {
-  static const std::regex end(R"([.!?]["*)]*\s+(?=["(*\[]*[A-Z]))");
+  static const std::regex end(R"([.!?]["*)]*\s+(?=["(*\[]*[A-Z0-9]))");
   std::vector<Violation> violations;
   for (const SourceFile& page : tree.files) {
     if (!page.is_page()) continue;
     for (const Paragraph& paragraph : paragraphs_of(page)) {
       const std::string text = read_aloud(paragraph.text);
+      if (text.find(" \xC2\xB7 ") != std::string::npos) continue;  // contents
       for (std::sregex_token_iterator sentence(text.begin(), text.end(), end, -1), none; sentence != none; ++sentence)
         if (const std::ptrdiff_t words = words_of(*sentence); words > most_words)
           violations.push_back({page.path, paragraph.line,
