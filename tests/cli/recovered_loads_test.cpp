@@ -37,8 +37,8 @@ class RecoveredLoads : public ::testing::Test {
     write_text(folder.file("bar.part.yaml"), bar_part);
   }
 
-  void reduce(const std::vector<std::string>& settings, const std::string& part = "bar") const {
-    std::vector<std::string> words{program("reducer"), "run", part + ".part.yaml"};
+  void reduce(const std::vector<std::string>& settings) const {
+    std::vector<std::string> words{program("reducer"), "run", "bar.part.yaml"};
     for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
     const Outcome outcome = call(words, where);
     ASSERT_EQ(outcome.code, 0) << outcome.error;
@@ -298,8 +298,8 @@ TEST_F(RecoveredLoads, OfLoadCasesIsThatOfOtherProgramsAndOfThePlane) {
 // two, too. Modal bodies had nothing added, and nothing was said.
 TEST_F(RecoveredLoads, FilesOfBeforeAreReadWithNotes) {
   const fs::path before = TISSERAND_SOURCE_DIR "/tests/compatibility";
-  for (const char* name : {"loaded.part.yaml", "loaded.scene.yaml"}) fs::copy_file(before / name, folder.file(name));
-  reduce({}, "loaded");
+  for (const char* name : {"loaded.scene.yaml", "loaded.superelement.h5", "loaded.companion.h5", "loaded.recovery.h5"})
+    fs::copy_file(before / name, folder.file(name));
   const auto text_of = [&](const std::string& recovery, const std::string& results) {
     const Outcome outcome = call({program("reducer"), "recover", recovery, results, "-o", "out"}, where);
     EXPECT_EQ(outcome.code, 0) << outcome.error;

@@ -224,7 +224,8 @@ class RegisteredType : public ::testing::Test {
   }
   void TearDown() override { EPSDestroy(&eps); }
 
-  void expect_spectrum(double tolerance) {
+  /// `residual`: largest |K x - λ M x|/(λ |x|).
+  void expect_spectrum(double tolerance, double residual = 1e-7) {
     PetscInt converged = 0;
     petsc_check(EPSGetConverged(eps, &converged));
     ASSERT_GE(converged, 6);
@@ -234,7 +235,7 @@ class RegisteredType : public ::testing::Test {
       petsc_check(EPSGetEigenvalue(eps, k, &value, nullptr));
       EXPECT_NEAR(value / exact[static_cast<std::size_t>(k)], 1.0, tolerance) << "eigenvalue " << k;
       petsc_check(EPSComputeError(eps, k, EPS_ERROR_RELATIVE, &error));
-      EXPECT_LT(error, 1e-7);
+      EXPECT_LT(error, residual);
     }
   }
   PetscInt iterations() {
@@ -332,10 +333,13 @@ TEST_F(RegisteredType, ProfitsFromInitialVectors) {
   expect_spectrum(1e-12);
 }
 
+// The iteration ends when |x - (λ - σ) (K - σM)⁻¹ M x| is below SLEPc's tolerance of 1e-8. K - σM amplifies this
+// residual by up to the ratio of the largest to the smallest eigenvalue; purification would remove that part.
 TEST_F(RegisteredType, LeavesItsVectorsAsTheyAreIfAsked) {
   petsc_check(EPSSetPurify(eps, PETSC_FALSE));
   petsc_check(EPSSolve(eps));
-  expect_spectrum(1e-12);
+  const std::vector<double> exact = of_membrane(n);
+  expect_spectrum(1e-12, 1e-8 * exact.back() / exact.front());
 }
 
 TEST_F(RegisteredType, RefusesWhatItCannotSolve) {
