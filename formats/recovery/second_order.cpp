@@ -23,7 +23,9 @@ Eigen::MatrixXd add_second_order(const SecondOrderForms& forms, const Eigen::Row
   return amplitudes;
 }
 
-Eigen::RowVectorXd stiffened_instants(const Eigen::MatrixXd& y, const Eigen::MatrixXd& y_strain) {
+Eigen::RowVectorXd stiffened_instants(std::optional<bool> stiffened, const Eigen::MatrixXd& y,
+                                      const Eigen::MatrixXd& y_strain) {
+  if (stiffened) return Eigen::RowVectorXd::Constant(y.cols(), *stiffened ? 1.0 : 0.0);
   if (y.rows() == 0 || y_strain.size() != y.size()) return Eigen::RowVectorXd::Zero(y.cols());
   return (y_strain.array() != y.array()).cast<double>().colwise().maxCoeff();
 }

@@ -3,6 +3,7 @@
 // (formats/RECOVERY.md, second-order displacement).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -35,7 +36,9 @@ Eigen::MatrixXd second_order_amplitudes(const std::vector<Eigen::MatrixXd>& form
 Eigen::MatrixXd add_second_order(const SecondOrderForms& forms, const Eigen::RowVectorXd& stiffened,
                                  const std::vector<Eigen::Index>& left_out, Eigen::MatrixXd& y);
 
-/// 1 for instants at which the body had its stiffening: y with the second-order strain differs from y.
-Eigen::RowVectorXd stiffened_instants(const Eigen::MatrixXd& y, const Eigen::MatrixXd& y_strain);
+/// 1 for instants at which a body has its stiffening, else 0. If the results do not say whether it is `stiffened`
+/// (before version 1.13), `y_strain` (n x T, y with the second-order strain) differs from y then.
+Eigen::RowVectorXd stiffened_instants(std::optional<bool> stiffened, const Eigen::MatrixXd& y,
+                                      const Eigen::MatrixXd& y_strain);
 
 }  // namespace tisserand::formats

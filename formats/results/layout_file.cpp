@@ -13,6 +13,7 @@ namespace tisserand::formats {
 namespace {
 
 constexpr std::uint64_t max_names = 10'000'000;
+constexpr const char* stiffened_dataset = "/superelements/stiffened";
 constexpr const char* compare = "compare the file with formats/RESULTS.md";
 
 /// Names that are stored if a block begins with `block`.
@@ -117,6 +118,17 @@ std::vector<int> read_offsets(const hdf5::InputFile& file, const std::string& da
   return std::vector<int>(wide.begin(), wide.end());
 }
 
+/// Reads which of `owners` superelements have stiffening.
+std::vector<int> read_stiffened(const hdf5::InputFile& file, std::size_t owners) {
+  if (!file.has(stiffened_dataset)) return {};
+  std::vector<std::int64_t> wide(bounded_length(file, stiffened_dataset));
+  file.read(stiffened_dataset, {wide.size()}, "numbers", wide.data());
+  if (wide.size() != owners || std::ranges::any_of(wide, [](std::int64_t one) { return one != 0 && one != 1; }))
+    throw Error(fmt::format("does not hold 0 or 1 for each of the {} superelements", owners),
+                fmt::format("{}: {}", file.path(), stiffened_dataset), compare);
+  return std::vector<int>(wide.begin(), wide.end());
+}
+
 /// Reads a unit. Factor 0 means a unit without a name.
 Unit read_unit(const hdf5::InputFile& file, const std::string& name) {
   const double factor = file.number_attribute("/", name);
@@ -176,6 +188,8 @@ void write_names(const hdf5::Output& out, const ResultsLayout& layout, const std
     write_columns(out, channel_columns, layout.quantities, [](const auto& c) { return std::vector{c.name, c.unit}; });
   for (const Offsets& one : offset_lists)
     if (stores(one.block)) hdf5::write_dataset(out, one.dataset, layout.*one.list);
+  if (stores("/superelements/y_strain") && !layout.stiffened.empty())
+    hdf5::write_dataset(out, stiffened_dataset, layout.stiffened);
 }
 
 ResultsLayout read_layout(const hdf5::InputFile& file) {
@@ -196,6 +210,7 @@ ResultsLayout read_layout(const hdf5::InputFile& file) {
     l.couplings.push_back({couplings[0][i], couplings[1][i] == "length", couplings[2][i] == "length"});
   for (std::size_t i = 0; i < channels[0].size(); ++i) l.quantities.push_back({channels[0][i], channels[1][i]});
   l.strained = file.has("/superelements/y_strain");
+  l.stiffened = read_stiffened(file, l.superelements.size());
   l.treads = file.has("/tyres/deflection");
   // Version 1.0 had one angle per joint, not-a-number for joints without angle.
   if (l.coordinates.empty() && file.text_attribute("/", "version") == "1.0")

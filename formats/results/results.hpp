@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,7 @@ struct ResultsLayout {
   std::vector<std::string> frictions;  ///< joints with friction
   std::vector<std::string> tyres;
   bool strained = false;          ///< some superelements have second-order strain: y_strain
+  std::vector<int> stiffened;     ///< of each superelement: 1 with stiffening, 0 without; empty before version 1.13
   bool treads = false;            ///< some tyres relax: tread deflections
   std::vector<Coordinate> loads;  ///< forces (length) and moments (angle)
   struct Quantity {
@@ -65,6 +67,11 @@ struct ResultsLayout {
   std::vector<std::string> channels;  ///< selection, as in OutputSpec; empty: all
   std::vector<std::string> superelement_content_ids;
   SimulatedScene simulated;
+
+  /// Whether a superelement has stiffening; nothing in files before version 1.13.
+  std::optional<bool> is_stiffened(std::size_t superelement) const {
+    return stiffened.empty() ? std::nullopt : std::optional(stiffened[superelement] != 0);
+  }
 };
 
 /// Motion of the frames of modal bodies, in axes of their parts (acceleration of the origin less gravity, angular

@@ -100,7 +100,7 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
   if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
   const hdf5::Output out{file.id(), where};
   hdf5::write_attribute(out, "/", "format", "tisserand-results");
-  hdf5::write_attribute(out, "/", "version", "1.12");
+  hdf5::write_attribute(out, "/", "version", "1.13");
   hdf5::write_attribute(out, "/", "run", run);
   hdf5::write_attribute(out, "/", "scene", layout.scene);
   hdf5::write_attribute(out, "/", "producer", layout.producer);
@@ -369,6 +369,9 @@ void ResultsWriter::Impl::begin_with(const ResultsBeginning& beginning) {
   if (same != names.size() || same != known.size())
     throw Error("holds other channels, or other units, than this run would store", old.path(),
                 "go on with the `output.channels` and the units of that run, or leave --append out");
+  if (old.layout().stiffened != layout.stiffened && !old.layout().stiffened.empty())
+    throw Error("holds bodies with stiffening where this run has none, or the reverse", old.path(),
+                "go on with the `effects` and `second_order` of that run, or leave --append out");
   if (old.rows() < beginning.rows)
     throw Error(fmt::format("holds {} instants, {} were expected", old.rows(), beginning.rows), old.path(),
                 "go on from a stored instant of it");

@@ -349,6 +349,7 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
     layout.boundary_offset.push_back(layout.boundary_offset.back() + count_of(body.node));
     for (const SuperelementNode& node : body.node) layout.boundary_nodes.push_back(node.name);
     layout.strained = layout.strained || body.second_order.stiffening;
+    layout.stiffened.push_back(body.second_order.stiffening ? 1 : 0);
     for (const BodyLoadCase& load : body.load_cases) layout.load_cases.push_back(load.name);
     layout.load_case_offset.push_back(count_of(layout.load_cases));
   }

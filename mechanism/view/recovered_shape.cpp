@@ -172,7 +172,8 @@ void add_strain_and_loads(const Sources& from, BodyShape& shape) {
       formats::load_factors(recovery, *run.reader, run.rows,
                             {static_cast<std::size_t>(body.superelement), found.axes, body.origin, to_scene});
   const MatrixXd y = d.amplitudes, strain = has_strain ? MatrixXd(all_strain.middleCols(first, count)) : y;
-  const Eigen::RowVectorXd stiffened = formats::stiffened_instants(y.transpose(), strain.transpose());
+  const Eigen::RowVectorXd stiffened = formats::stiffened_instants(
+      run.layout().is_stiffened(static_cast<std::size_t>(body.superelement)), y.transpose(), strain.transpose());
   const std::vector<Index> dropped = formats::dropped_modes(recovery, y.transpose());
   if (loads.known())
     for (const Index k : dropped)

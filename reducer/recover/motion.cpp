@@ -171,7 +171,8 @@ BodyMotion MotionReader::stored(Index first, Index count) const {
   const Index n = recovery_.coordinates();
   motion.y = coordinates(results_, body_.is_modal ? "modal_bodies/w" : "superelements/y", body_, n, rows);
   motion.y_strain = has_strain_ ? coordinates(results_, "superelements/y_strain", body_, n, rows) : motion.y;
-  motion.stiffened = formats::stiffened_instants(motion.y, motion.y_strain);
+  motion.stiffened = formats::stiffened_instants(
+      body_.is_modal ? std::nullopt : results_.layout().is_stiffened(body_.row), motion.y, motion.y_strain);
   formats::to_part(recovery_, motion.mirror, motion.to_scene.length, motion.y);
   formats::to_part(recovery_, motion.mirror, motion.to_scene.length, motion.y_strain);
   if (body_.is_modal) motion.y /= std::sqrt(motion.to_scene.mass) * motion.to_scene.length;

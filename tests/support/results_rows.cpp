@@ -33,6 +33,7 @@ formats::ResultsLayout example_layout() {
   layout.tyres = {"front", "rear"};
   layout.quantities = {{"speed", "m s^-1"}, {"corner/angle", "rad"}};
   layout.treads = layout.strained = true;
+  layout.stiffened = {1, 0};
   layout.superelement_content_ids = {std::string(64, 'a'), std::string(64, 'b')};
   return layout;
 }

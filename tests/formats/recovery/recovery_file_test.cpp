@@ -291,7 +291,9 @@ TEST(SecondOrder, AddsAtStiffenedInstantsAndToCoordinatesThatAreLeftOut) {
   y << 2.0, 2.0, 0.0, 3.0, 3.0, 0.0;
   Eigen::MatrixXd strain = y;
   strain(0, 1) += 1e-6;
-  const Eigen::RowVectorXd stiffened = stiffened_instants(y, strain);
+  const Eigen::RowVectorXd stiffened = stiffened_instants({}, y, strain);
+  EXPECT_EQ(stiffened_instants(true, y, y), Eigen::RowVector3d(1.0, 1.0, 1.0)) << "equal by chance";
+  EXPECT_EQ(stiffened_instants(false, y, strain), Eigen::RowVector3d(0.0, 0.0, 0.0));
   EXPECT_EQ(stiffened, Eigen::RowVector3d(0.0, 1.0, 0.0));
   Eigen::MatrixXd kept = y, moved = y;
   EXPECT_EQ(add_second_order(forms, stiffened, {}, kept), Eigen::RowVector3d(0.0, 6.0, 0.0));

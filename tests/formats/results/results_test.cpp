@@ -182,11 +182,14 @@ TEST(Results, CoordinatesAreStoredWithTheirStrain) {
   write_rows(folder.file("a.h5"), layout, 3);
   const ResultsReader reader(folder.file("a.h5"));
   EXPECT_TRUE(reader.layout().strained);
-  EXPECT_EQ(reader.version(), "1.12");
+  EXPECT_EQ(reader.version(), "1.13");
   EXPECT_EQ(reader.channels().size(), 1u + 5 + 5 + 1);  // with the factor of a load case
+  EXPECT_EQ(reader.layout().is_stiffened(0), true);
+  EXPECT_EQ(reader.layout().is_stiffened(1), false);
   layout.strained = false;
   write_rows(folder.file("b.h5"), layout, 3);
   EXPECT_FALSE(ResultsReader(folder.file("b.h5")).layout().strained);
+  EXPECT_EQ(ResultsReader(folder.file("b.h5")).layout().is_stiffened(0), std::nullopt);
 }
 
 TEST(Results, SingleNodesAreChosenWithTheirDatasets) {
