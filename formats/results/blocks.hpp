@@ -30,7 +30,7 @@ struct Block {
 /// All blocks with columns in the layout, in the order of RESULTS.md, /time first. The selection is not applied.
 std::vector<Block> all_blocks(const ResultsLayout& layout);
 
-/// Replaces the alias of a node: "nodes/position/rod/end/x" -> "nodes/position/rod/8/x". Also accepts patterns.
+/// Channel or pattern with the stored name of its node: "nodes/position/rod/end/x" becomes "nodes/position/rod/8/x".
 std::string without_alias(std::string channel, const ResultsLayout& layout);
 
 /// Blocks of /modes, whose rows are modes instead of instants.

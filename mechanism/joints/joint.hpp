@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Joints between two markers: the relations that they keep at zero, with constraints Φ, Jacobian B, the bias of Φ̈ and
-// the geometric stiffness of the reactions. joint_laws.cpp lists the relations of each kind.
+// Joints between two markers. A joint keeps relations at zero: it has constraints Φ, their Jacobian B, the bias of Φ̈ and
+// the geometric stiffness of its reactions. joint_laws.cpp lists the relations of each kind.
 #pragma once
 
 #include <array>

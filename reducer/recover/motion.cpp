@@ -206,7 +206,8 @@ void MotionReader::look_at_all(const RecoverRequest& request) {
   }
   if (has_loads_ && !loads_known) notes_.push_back(unknown_loads_note());
   has_loads_ = loads_known;
-  if (stiffened && !recovery_.second_order) notes_.push_back(formats::no_second_order_note);
+  if (stiffened && largest.maxCoeff() > 0.0 && !recovery_.second_order)
+    notes_.push_back(formats::no_second_order_note);
   if (!body_.is_modal)
     for (Index k = 0; k < n; ++k)
       if (recovery_.dof_node[k] < 0 && largest[k] == 0.0) zero_.push_back(k);

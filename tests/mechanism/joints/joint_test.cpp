@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One suite for all joints: derivatives against central differences, reactions by their power and by hand.
+// Derivatives of all joints against central differences; reactions by their power and by hand.
 #include "mechanism/joints/joint.hpp"
 
 #include <map>
