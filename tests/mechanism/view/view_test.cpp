@@ -116,7 +116,9 @@ TEST_F(Page, HoldsTheMotionOfTheResults) {
     const std::vector<double> stored = results.read(channel["path"]);
     const Eigen::MatrixXd shown = read.read(channel["values"]);
     ASSERT_EQ(shown.rows(), 101);
-    for (int t = 0; t < 101; ++t) EXPECT_FLOAT_EQ(shown(t, 0), stored[t]) << channel["path"];
+    for (int t = 0; t < 101; ++t) {
+      EXPECT_FLOAT_EQ(static_cast<float>(shown(t, 0)), static_cast<float>(stored[t])) << channel["path"];
+    }
   }
 }
 
