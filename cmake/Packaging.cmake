@@ -118,16 +118,16 @@ element program: superelements come from reducer or from other programs.")
 
   set(CPACK_DEBIAN_REDUCER_DESCRIPTION
       "flexible multibody dynamics: parts as superelements
-reducer turns a part (beams, shells and solids; drawn, or from CAD, meshes,
-decks of Nastran and Abaqus) into a superelement: reduced stiffness and mass
-of its boundary nodes and internal modes.")
+reducer turns a part (beams, shells and solids, from a text file, CAD, meshes
+or decks of Nastran and Abaqus) into a superelement: reduced stiffness and
+mass of its boundary nodes and internal modes.")
   set(CPACK_DEBIAN_REDUCER_PACKAGE_RECOMMENDS "gnuplot-nox, tisserand-mechanism")
   set(CPACK_DEBIAN_REDUCER_PACKAGE_SUGGESTS "openmpi-bin, slurm-client")
 
   set(CPACK_DEBIAN_TISSERAND_DESCRIPTION
       "flexible multibody dynamics from CAD, meshes and decks
 Both programs of Tisserand: reducer turns parts into superelements, mechanism
-runs mechanisms of these. With examples, meshes, a tutorial and all pages.")
+runs mechanisms of these. With examples, meshes, a tutorial and all documents.")
   set(CPACK_DEBIAN_TISSERAND_PACKAGE_ARCHITECTURE all)
   set(CPACK_DEBIAN_TISSERAND_PACKAGE_SHLIBDEPS OFF)
   set(CPACK_DEBIAN_TISSERAND_PACKAGE_DEPENDS

@@ -7,9 +7,10 @@
 
 namespace tisserand {
 
+/// Base64 text of the bytes.
 std::string base64(const std::string& bytes);
 
-/// Bytes that the text encodes, up to the first character outside the alphabet.
+/// Bytes that a base64 text encodes, up to the first character outside the alphabet.
 std::string base64_decoded(std::string_view text);
 
 }  // namespace tisserand

@@ -41,7 +41,7 @@ using TemporaryFile = std::unique_ptr<std::FILE, FileCloser>;
 TemporaryFile temporary_file(const std::string& program) {
   TemporaryFile file(std::tmpfile());
   if (!file || ::fcntl(fileno(file.get()), F_SETFD, FD_CLOEXEC) != 0)
-    throw Error("no temporary file can be made", program, remedy_of_errno(errno));
+    throw Error("cannot create a temporary file", program, remedy_of_errno(errno));
   return file;
 }
 
@@ -83,7 +83,7 @@ struct Line {
 void open_line(Line& line, const std::string& program) {
   std::array<int, 2> ends{-1, -1};
   if (::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()) != 0)
-    throw Error("no socket can be made", program, remedy_of_errno(errno));
+    throw Error("cannot create a socket", program, remedy_of_errno(errno));
   line.own = Descriptor(ends[0]);
   line.child = Descriptor(ends[1]);
 }
@@ -96,7 +96,7 @@ void open_line(Line& line, const std::string& program) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() == parent) ::execvp(words[0], words);
   const int number = errno;
-  [[maybe_unused]] const ssize_t told = ::write(complaint, &number, sizeof number);
+  [[maybe_unused]] const ssize_t reported = ::write(complaint, &number, sizeof number);
   ::_exit(127);
 }
 
@@ -107,7 +107,7 @@ pid_t start(const ChildRequest& request, const std::array<int, 3>& streams, int 
   words.push_back(nullptr);
   std::array<int, 2> ends{-1, -1};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-    throw Error("no process can be started", request.words[0], remedy_of_errno(errno));
+    throw Error("cannot start a process", request.words[0], remedy_of_errno(errno));
   const pid_t parent = ::getpid(), child = ::fork();
   if (child == 0) become(words.data(), streams, line, ends[1], parent);
   int number = child < 0 ? errno : 0;
@@ -116,7 +116,7 @@ pid_t start(const ChildRequest& request, const std::array<int, 3>& streams, int 
   ::close(ends[0]);
   if (number == 0) return child;
   throw Error(fmt::format("cannot be started: {}", std::strerror(number)), request.words[0],
-              number == ENOENT ? "install it, or name the folder that holds it on the PATH" : remedy_of_errno(number));
+              number == ENOENT ? "install it, or add its folder to PATH" : remedy_of_errno(number));
 }
 
 /// Waits until the child ends. Terminates it if its time is over or the request stops it.
@@ -146,7 +146,7 @@ ChildReport run_child(const ChildRequest& request) {
   const TemporaryFile input = temporary_file(program), out = temporary_file(program), error = temporary_file(program);
   if (std::fwrite(request.input.data(), 1, request.input.size(), input.get()) != request.input.size() ||
       std::fflush(input.get()) != 0)
-    throw Error("its input cannot be written", program, remedy_of_errno(errno));
+    throw Error("cannot write the input of this program", program, remedy_of_errno(errno));
   std::rewind(input.get());
   Line line;
   if (request.talk) open_line(line, program);
@@ -166,7 +166,7 @@ ChildReport run_child(const ChildRequest& request) {
   int status = 0;
   rusage used{};
   while (::wait4(child, &status, 0, &used) < 0)
-    if (errno != EINTR) throw Error("the process was lost", program, std::strerror(errno));
+    if (errno != EINTR) throw Error("cannot wait for the end of the process", program, std::strerror(errno));
   if (report.ending == ChildEnding::left && WIFSIGNALED(status)) report.ending = ChildEnding::killed;
   report.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
   report.text = content(out.get(), request.most_text);

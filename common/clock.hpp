@@ -4,7 +4,7 @@
 
 namespace tisserand {
 
-/// Seconds since a fixed instant; never decreases.
+/// Elapsed time since a fixed instant [s]. It never decreases.
 double wall_clock();
 
 /// Processor time of this process, summed over all threads [s].

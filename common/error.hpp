@@ -10,8 +10,8 @@
 
 namespace tisserand {
 
-/// Fault of the input or the system: what is wrong (quantity and value), where (file:line:column, dataset, node) and
-/// how to correct it. Text: "where: what; remedy".
+/// Error of the input or the system: what is wrong (quantity and value), where (file:line:column, dataset, node) and
+/// how to correct it. what() returns "where: what; remedy".
 class Error : public std::exception {
  public:
   Error(std::string what, std::string where, std::string remedy);
@@ -28,15 +28,17 @@ class Error : public std::exception {
   std::string text_;
 };
 
-/// One error that joins several errors of one input, one line each.
+/// One Error that joins several errors of one input, one line each.
 Error merge_errors(const std::vector<Error>& errors);
 
-/// Reports a fault of the program: prints the text with file and line and aborts. Use it through TISSERAND_ENSURE.
+/// Reports a fault of the program: prints the condition with file, line and values, and aborts. TISSERAND_ENSURE calls
+/// it.
 [[noreturn]] void ensure_failed(const char* condition, const char* file, int line, const std::string& values);
 
 }  // namespace tisserand
 
-/// Checks an invariant of the program, in every build. `...` is a fmt format string with the values to print.
+/// Checks an invariant of the program in every build, and aborts with a message if it does not hold. `...`: fmt format
+/// string and the values to print.
 #define TISSERAND_ENSURE(condition, ...)                                                      \
   do {                                                                                        \
     if (!(condition)) [[unlikely]]                                                            \

@@ -51,7 +51,7 @@ std::string gnuplot_picture(const std::string& script, const std::string& where)
   ChildReport report = run_child(request);
   const bool failed = report.ending != ChildEnding::left || report.code != 0;
   if (failed && (report.complaint.empty() || report.complaint.find("failed to map segment") != std::string::npos))
-    throw Error("gnuplot does not start, as where it gets no memory", where,
+    throw Error("gnuplot does not start: there may be too little memory", where,
                 "close other programs, or raise the limit (`ulimit -v`)");
   if (failed)
     throw Error("gnuplot failed: " + report.complaint, where, "try other ranges or channels");
@@ -59,8 +59,8 @@ std::string gnuplot_picture(const std::string& script, const std::string& where)
   const std::string_view tail =
       std::string_view(report.text).substr(report.text.size() - std::min<std::size_t>(report.text.size(), 64));
   if (std::ranges::none_of(ends, [&](std::string_view end) { return tail.find(end) != std::string_view::npos; }))
-    throw Error("the picture could not be written to its end: the disk is full, or files may not grow so large", where,
-                remedy_of_errno(ENOSPC));
+    throw Error("the picture is incomplete: the disk is full, or the limit of the file size (`ulimit -f`) is too low",
+                where, remedy_of_errno(ENOSPC));
   return std::move(report.text);
 }
 

@@ -6,9 +6,10 @@
 
 namespace tisserand {
 
-/// Ends this program with status 130 on Ctrl-C, `kill` or a closed terminal, whatever its threads do. Incomplete files
-/// are removed, and files that are being renamed are completed first. One line reports the result. `program` begins
-/// this line; if it is empty, there is no line. A signal that the caller ignores stays ignored. Call it once.
+/// Makes this program end with status 130 on Ctrl-C, `kill` or a closed terminal, whatever its threads do. Then
+/// incomplete files are removed, renames in progress are completed first, and one line reports the result. `program`:
+/// begins this line; if empty, there is no line. A signal that the caller ignores stays ignored. Requires that it is
+/// called once.
 void end_on_interrupt(const std::string& program);
 
 }  // namespace tisserand

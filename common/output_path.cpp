@@ -84,7 +84,7 @@ void require_output(const std::string& path, const std::vector<std::string>& end
       throw Error("the output would replace its own input", path, "give -o another name");
   if (std::ranges::find(endings, ending_of(path)) == endings.end())
     throw Error("does not end in " + join(endings, " or "), path,
-                "give -o a name that does: other endings are those of another kind of file");
+                "give -o a name with such an ending: other endings belong to other kinds of file");
   if (is_hdf5 && is_of_another_kind(path))
     throw Error("exists and is a file of another kind (not HDF5)", path,
                 "give -o another name, or remove that file first");

@@ -14,7 +14,7 @@ namespace tisserand {
 void require_output(const std::string& path, const std::vector<std::string>& endings,
                     const std::vector<std::string>& inputs);
 
-/// `path` without the first of these endings that it has; the whole path if none fits or nothing would be left.
+/// `path` without the first of `endings` that it has. The whole path if it has none of them or nothing would be left.
 std::string without_ending(const std::string& path, const std::vector<std::string>& endings);
 
 /// Whether text for `path` is streamed instead of stored in a file: -, /dev/stdout, a device, a pipe.

@@ -12,7 +12,8 @@ namespace tisserand {
 /// Number of cores of this machine, at most 16: more do not speed up loops limited by memory.
 inline int core_count() { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 16); }
 
-/// Consecutive part of `count` items that thread `share` of `shares` processes.
+/// Share of a thread: the consecutive items from `first` to `end` − 1. share_of() divides `count` items into `shares`
+/// shares of nearly equal size and returns number `share`.
 struct Share {
   int first = 0;
   int end = 0;
@@ -43,7 +44,7 @@ void on_threads(int threads, const Work& work) {
     if (f) std::rethrow_exception(f);
 }
 
-/// Runs work(t, k) for all k below `count`, where each thread t processes one share of them.
+/// Runs work(t, k) for all k from 0 to `count` − 1, where each thread t processes one share of them.
 template <class Work>
 void share_out(int count, int threads, const Work& work) {
   on_threads(threads, [&](int t) {

@@ -46,7 +46,7 @@ std::string Progress::line(double done, const std::string& text, double elapsed)
   std::string line = name_ + ": ";
   if (total_ > 0.0) line += fmt::format("{:.0f} %, ", 100.0 * part);
   if (!text.empty()) line += text + ", ";
-  line += duration(elapsed) + " gone";
+  line += duration(elapsed) + " elapsed";
   if (part > 0.0) line += fmt::format(", {} to go", duration(elapsed * (1.0 - part) / part));
   return line;
 }
@@ -56,11 +56,11 @@ void Progress::update(double done, const std::string& text) {
   if (finished_ || now < next_) return;
   next_ = now + (output_.terminal ? on_terminal : elsewhere);
   shown_ = true;
-  const std::string told = line(done, text, now - start_);
+  const std::string reported = line(done, text, now - start_);
   if (output_.terminal) {
-    std::fprintf(output_.stream, "\r%s\x1b[K", told.c_str());
+    std::fprintf(output_.stream, "\r%s\x1b[K", reported.c_str());
   } else {
-    std::fprintf(output_.stream, "%s\n", told.c_str());
+    std::fprintf(output_.stream, "%s\n", reported.c_str());
   }
   std::fflush(output_.stream);
 }

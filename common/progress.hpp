@@ -8,21 +8,21 @@
 
 namespace tisserand {
 
-/// Stream of the progress lines, and the clock that times them [s].
+/// Output of progress lines: the stream, and the clock that times them [s].
 struct ProgressOutput {
   std::FILE* stream;
   bool terminal;  ///< true: one line, redrawn ten times a second; false: a new line every ten seconds
   std::function<double()> clock;
 };
 
-/// Output to standard error with the steady clock.
+/// Progress output to standard error, timed by the steady clock.
 ProgressOutput standard_progress();
 
-/// Progress display, silent in the first second. update() reads the clock: call it at most every few microseconds.
+/// Progress display, silent in the first second. update() reads the clock: call it at most once every few microseconds.
 ///   running: 42 %, t = 1.2 s, 3 s gone, 4 s to go
 class Progress {
  public:
-  /// `total` <= 0 means unknown: no percentage is shown.
+  /// `total`: value of `done` at the end of the work; <= 0: unknown, no percentage is shown.
   Progress(std::string name, double total);
   Progress(std::string name, double total, ProgressOutput output);
   ~Progress();
@@ -30,8 +30,8 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void update(double done, const std::string& text);
-  /// Removes the line from a terminal. In other streams, prints the elapsed time if a line was printed before. Without
-  /// this call the work does not count as done.
+  /// Ends the display of work that is done. Removes the line from a terminal. In other streams, prints the elapsed time
+  /// if a line was printed before. Without this call the work does not count as done.
   void finish();
 
  private:

@@ -17,7 +17,7 @@ class Sha256 {
   Sha256& operator=(const Sha256&) = delete;
 
   void add(const void* data, std::size_t bytes);
-  /// 64 lower-case hexadecimal digits. Ends the computation.
+  /// Hash of all added data as 64 lower-case hexadecimal digits. It ends the computation.
   std::string hex();
 
  private:

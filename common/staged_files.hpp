@@ -8,8 +8,8 @@
 
 namespace tisserand {
 
-/// Group of files. If something fails before publish(), the old files stay. Files are renamed in the order of
-/// addition, so add the file that refers to the others last.
+/// Group of files that are replaced together. If something fails before publish(), the old files stay. Files are
+/// renamed in the order of addition, so add the file that refers to the others last.
 class StagedFiles {
  public:
   StagedFiles() = default;
@@ -22,7 +22,7 @@ class StagedFiles {
   void add(const std::string& path, const std::string& contents);
   /// Takes over a complete, closed temporary file in the folder of `path`.
   void adopt(const std::string& temporary, const std::string& path);
-  /// Renames all files. Throws Error.
+  /// Renames all temporary files to their final names. Throws Error.
   void publish();
 
  private:

@@ -7,17 +7,18 @@
 
 namespace tisserand {
 
-/// Registers an incomplete file. Blocks forever after remove_temporaries().
+/// Registers an incomplete file, for removal by remove_temporaries(). After remove_temporaries() it blocks forever.
 void note_temporary(const std::string& name);
 
-/// Removes a file from the list after it was renamed or deleted.
+/// Removes a file from the list of incomplete files, after it was renamed or deleted.
 void forget_temporary(const std::string& name);
 
-/// Lock to hold while files are renamed; one lock covers files that belong together. Marks the process as published.
+/// Lock that the caller must hold while files are renamed; one lock covers files that belong together. The call marks
+/// the process as having published.
 std::unique_lock<std::recursive_mutex> publishing();
 
-/// Removes all temporary files, after renames in progress have ended, and blocks later ones. Returns whether any file
-/// was published before.
+/// Removes all registered incomplete files, after renames in progress have ended, and blocks later renames. Returns
+/// whether any file was published before.
 bool remove_temporaries();
 
 }  // namespace tisserand

@@ -21,21 +21,22 @@ std::optional<std::string> nearest(const std::string& word, const std::vector<st
 /// At most ten members of `known`, nearest first: first those that contain `word`, then by edit distance.
 std::vector<std::string> nearest_names(const std::string& word, const std::vector<std::string>& known);
 
-/// The parts with `separator` between them.
+/// One text of all parts, with `separator` between them.
 std::string join(const std::vector<std::string>& parts, const std::string& separator);
 
-/// Names that the user chose, on one line: the first ten, "a, b, c and 290 more". Use join() for words of the program
-/// (keys, kinds, formats), whose lists are printed whole. `total`: number of all names if `names` holds only the first.
+/// Short list of names that the user chose, on one line: the first ten, "a, b, c and 290 more". Use join() for words of
+/// the program (keys, kinds, formats), whose lists are printed whole. `total`: number of all names if `names` holds
+/// only the first.
 std::string listed(const std::vector<std::string>& names, const std::string& separator = ", ", std::size_t total = 0);
 
 /// Whether `text` matches `pattern`, in which * stands for any run of characters (also none, also with /).
 bool matches_wildcard(const std::string& text, const std::string& pattern);
 
-/// The text with \xNN for what could harm a terminal: control characters except line ends and tabs, marks that change
-/// the writing direction, invalid UTF-8. Names and messages may come from untrusted files.
+/// The text with \xNN in place of what could harm a terminal: control characters except line ends and tabs, marks that
+/// change the writing direction, invalid UTF-8. Names and messages may come from untrusted files.
 std::string printable(std::string_view text);
 
-/// printable() on one line: line ends and tabs become blanks, and "..." follows after `most` bytes.
+/// Result of printable() on one line: line ends and tabs become blanks, and "..." follows after `most` bytes.
 std::string printable_line(std::string_view text, std::size_t most);
 
 /// Text file written under a temporary name until publish(); without publish() nothing is left. Streams such as
@@ -68,7 +69,7 @@ std::string temporary_beside(const std::string& path);
 /// Renames `from` to `to` after its data have reached the disk. Throws Error and removes `from` on failure.
 void publish_file(const std::string& from, const std::string& to);
 
-/// Remedy for a failed system call, by its errno: "free some space", "choose a folder that exists", ...
+/// Remedy for a failed system call by its errno, as text: "free some space", "choose a folder that exists", ...
 std::string remedy_of_errno(int error_number);
 
 }  // namespace tisserand

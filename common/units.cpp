@@ -51,12 +51,11 @@ std::string powers(const Units& units, int length, int mass, int time) {
 
 UnitConversion convert_units(const Units& from, const Units& to, const std::string& where) {
   if (from.named() != to.named())
-    throw Error(from.named()
-                    ? fmt::format("has units ({}, {}, {}), but the scene that uses it has consistent, unnamed ones",
-                                  from.length.label, from.mass.label, from.time.label)
-                    : fmt::format("has consistent, unnamed units, but the scene that uses it has {}, {}, {}",
-                                  to.length.label, to.mass.label, to.time.label),
-                where, "name the units of both, or of neither");
+    throw Error(from.named() ? fmt::format("has the units {}, {}, {}, but the scene that uses it names no units",
+                                           from.length.label, from.mass.label, from.time.label)
+                             : fmt::format("names no units, but the scene that uses it has the units {}, {}, {}",
+                                           to.length.label, to.mass.label, to.time.label),
+                where, "name the units in both files or in neither");
   if (!from.named()) return {};
   return {from.length.factor / to.length.factor, from.mass.factor / to.mass.factor, from.time.factor / to.time.factor};
 }

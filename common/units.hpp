@@ -6,12 +6,14 @@
 
 namespace tisserand {
 
-/// Unit as a factor to SI with a label. Factor 0 means "consistent and unnamed": all three units are so, or none.
+/// Unit of a quantity: a factor to SI with a label. A factor of 0 means "consistent and unnamed": all three units of
+/// Units are so, or none.
 struct Unit {
   double factor = 0.0;
   std::string label;
 };
 
+/// Units of length, mass and time.
 struct Units {
   Unit length;
   Unit mass;
@@ -34,19 +36,20 @@ struct UnitConversion {
 /// Conversion between two systems of units. Throws Error if exactly one is unnamed; `where` names the converted file.
 UnitConversion convert_units(const Units& from, const Units& to, const std::string& where);
 
-/// Unit by its label: length m mm cm km in ft, mass kg g t (tonne) lb slug, time s ms. Throws Error that lists the
-/// known labels.
+/// Unit of length, mass or time by its label: length m mm cm km in ft, mass kg g t (tonne) lb slug, time s ms. Throws
+/// Error that lists the known labels.
 Unit length_unit(const std::string& label);
 Unit mass_unit(const std::string& label);
 Unit time_unit(const std::string& label);
 
-/// Label of length^l mass^m time^t, for example "N" for SI and "t mm s^-2" otherwise. Empty if unnamed.
+/// Label of the unit length^l mass^m time^t with the given exponents, for example "N" for SI and "t mm s^-2" otherwise.
+/// Empty if the units are unnamed.
 std::string unit_label(const Units& units, int length, int mass, int time);
 
-/// Label of an energy, for example "J" for SI. Empty if unnamed.
+/// Label of the unit of energy, for example "J" for SI. Empty if the units are unnamed.
 std::string energy_label(const Units& units);
 
-/// Label as written after a number, for example " N". Empty for unnamed units.
+/// Label of a unit as written after a number, for example " N". Empty for unnamed units.
 std::string after_number(const std::string& label);
 
 }  // namespace tisserand

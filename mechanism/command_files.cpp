@@ -42,12 +42,13 @@ std::vector<std::string> inputs(const formats::Scene& scene) {
 std::string output_of(const std::string& asked, Joining joining, const std::optional<RestartFile>& restart) {
   const bool appends = joining == Joining::appended;
   if (!restart && appends)
-    throw Error("--append needs a run to go on from", "", "name its checkpoint or results file with --restart");
+    throw Error("--append needs --restart", "",
+                "name the checkpoint or the results file of the run to continue with --restart");
   if (!restart) return asked;
   if (appends) return asked.empty() ? restart->results : asked;
   if (asked.empty())
-    throw Error("--restart needs a results file of its own", "",
-                "name it with -o, so that what was computed before is kept, or join both with --append");
+    throw Error("--restart needs the name of a new results file", "",
+                "name it with -o, or store the rows of both runs in one file with --append");
   require_apart(*restart, asked);
   return asked;
 }

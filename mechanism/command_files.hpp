@@ -17,11 +17,13 @@ std::string default_results(const std::string& scene);
 /// Default page or picture in the folder of the first results: "dir/pendulum.results.h5" -> "dir/pendulum.html".
 std::string default_page(const std::vector<std::string>& results, const char* ending);
 
-/// Files that a run reads and must not replace.
+/// Paths of the files that a run of the scene reads and must not replace.
 std::vector<std::string> inputs(const formats::Scene& scene);
 
-/// Results file of a run: `asked`, or empty for the default of the scene. A restarted run never overwrites the results
-/// of its restart file unless it appends to them. Throws Error.
+/// Path of the results file of a run: `asked`, or empty for the default of the scene. `asked`: path that the user
+/// gives, or empty. With Joining::appended the default is the results file of the restarted run. Throws Error for
+/// Joining::appended without `restart`. It also throws for a restarted run that does not append and has no `asked`, or
+/// one that would overwrite the previous run.
 std::string output_of(const std::string& asked, Joining joining, const std::optional<RestartFile>& restart);
 
 }  // namespace tisserand::mechanism

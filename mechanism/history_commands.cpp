@@ -40,8 +40,8 @@ void draw(PlotWords& words) {
   std::vector<Series> series = read_series(request);
   show_in(units, series);
   if (words.difference || !request.reference_runs.empty()) append_differences(series);
-  const std::string told = plot(series, options);
-  say_of(options.output, fmt::format("{}picture: {}\n", told, options.output));
+  const std::string reported = plot(series, options);
+  say_of(options.output, fmt::format("{}picture: {}\n", reported, options.output));
 }
 
 void add_plot(CLI::App& app) {
@@ -51,11 +51,13 @@ void add_plot(CLI::App& app) {
   PlotOptions& options = words.options;
   add_series_arguments(*command, words.series);
   command->add_option("-o,--output", options.output, "picture, .png, .svg, .pdf or .eps")->required();
-  command->add_flag("--difference", words.difference, "also the difference from the reference, in a panel of its own");
+  command->add_flag("--difference", words.difference, "add a panel with the difference from the reference");
   command->add_option("--units", words.units, "units to show, such as mm,deg,MPa or length=mm,angle=deg")
       ->allow_extra_args(false);
   command->add_option("--size", words.size, "1400x800 (pixels), 160x100mm, 16x10cm or 6.3x4in");
-  command->add_option("--font", words.font, "name, size or both: 'DejaVu Sans,9' (points on paper, else pixels)");
+  command->add_option(
+      "--font", words.font,
+      "name, size or both: 'DejaVu Sans,9'; size in points if --size is in mm, cm or in, else in pixels");
   command->add_option("--title", options.title, "title of the picture");
   command->add_option("--range", words.range, "first and last abscissa, in the units that are shown")->expected(2);
   command->add_option("--y-range", words.y_range, "lowest and highest ordinate, in the units that are shown")
@@ -154,8 +156,8 @@ SeriesRequest complete(SeriesArguments arguments) {
 SeriesRequest complete_for_page(const SeriesArguments& arguments) {
   SeriesRequest request = complete(arguments);
   if (!request.reference_runs.empty())
-    throw Error("a reference of a page is a CSV file", request.reference_runs.front().file,
-                "name the results file as one more run: it is shown beside the first");
+    throw Error("a page can have only CSV files as references", request.reference_runs.front().file,
+                "give the results file as another run: the page shows both");
   return request;
 }
 

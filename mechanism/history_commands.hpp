@@ -11,25 +11,30 @@
 
 namespace tisserand::mechanism {
 
+/// Arguments of a command that select series: a request, and references as unparsed text.
 struct SeriesArguments {
   SeriesRequest request;
   std::vector<std::string> references;
 };
 
+/// Adds the options that fill in `arguments` to the command line parser of `command`.
 void add_series_arguments(CLI::App& command, SeriesArguments& arguments);
 
-/// Request with the references parsed from the arguments. Throws Error.
+/// Request that also contains the references, parsed from their text. Throws Error.
 SeriesRequest complete(SeriesArguments arguments);
 
-/// Request for a page or a picture of a run. Throws Error for a results file as reference: it must be given as a run.
+/// Request for a page or a picture of a run, with parsed references. Throws Error if a reference is a results file: for
+/// a page it must be given as a run.
 SeriesRequest complete_for_page(const SeriesArguments& arguments);
 
-/// All files that the command reads.
+/// Paths of all files that the command reads: results and references.
 std::vector<std::string> drawn_files(const SeriesArguments& arguments);
 
-/// Adds a command. Its own help shows all of `about`, the help of the program shows the first line.
+/// Adds the command `name` to the program. The help of the command shows all of `about`, the help of the program only
+/// the first line.
 CLI::App* add_command(CLI::App& app, const char* name, const char* about);
 
+/// Adds the commands channels, export, plot and compare to the program.
 void add_history_commands(CLI::App& app);
 
 }  // namespace tisserand::mechanism

@@ -88,14 +88,14 @@ int exit_code(const mechanism::RunReport& report) {
 }
 
 /// Reports printed so far: pre-flight warnings and notes that the analyses of a scene share, to print them once.
-struct Told {
+struct Reported {
   bool doubts = false;
   std::vector<std::string> notes;
 };
 
 /// Runs one analysis and prints its report without what `told` already holds.
 mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunRequest& request, const std::string& name,
-                          Told& told) {
+                          Reported& reported) {
   const double start = request.scene.integrator.start;
   Progress progress(name.empty() ? "simulating" : name, request.scene.integrator.end - start);
   mechanism::RunControl control;
@@ -106,9 +106,9 @@ mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunReq
   mechanism::RunEnd end = request.scene.integrator.accuracy ? mechanism::simulate_to_accuracy(request, control)
                                                             : mechanism::simulate(request, control);
   if (end.report.outcome != mechanism::RunOutcome::interrupted) progress.finish();
-  if (told.doubts) end.report.preflight = {};
-  told.doubts = told.doubts || !mechanism::preflight_doubts(end.report.preflight, request.scene.units).empty();
-  mechanism::drop_told_notes(end.report, told.notes);
+  if (reported.doubts) end.report.preflight = {};
+  reported.doubts = reported.doubts || !mechanism::preflight_doubts(end.report.preflight, request.scene.units).empty();
+  mechanism::drop_reported_notes(end.report, reported.notes);
   say(fmt::format("{}: {}{}\n{}  {:<16} {}\n", arguments.scene, request.scene.name,
                   name.empty() ? "" : fmt::format(": {}", name),
                   mechanism::report_text(end.report, request.scene.units), "results", end.report.results));
@@ -126,7 +126,7 @@ int run(const RunArguments& arguments) {
   std::vector<std::string> files_read = mechanism::inputs(scene);
   if (restart) {
     if (planned.size() > 1 && arguments.analysis.empty())
-      throw Error("the scene has several analyses", arguments.scene, "name the one that goes on with --analysis");
+      throw Error("the scene has several analyses", arguments.scene, "choose the one to continue with --analysis");
     planned.erase(planned.begin(), planned.end() - 1);
     planned.back().from.clear();
     if (restart->checkpoint || arguments.joining == mechanism::Joining::apart) files_read.push_back(restart->path);
@@ -138,14 +138,14 @@ int run(const RunArguments& arguments) {
   listen_for_interrupts();
   const mechanism::BodyFiles files = mechanism::read_body_files(scene);
   std::map<std::string, mechanism::State> ends;
-  Told told;
+  Reported reported;
   for (const mechanism::PlannedAnalysis& one : planned) {
     std::optional<mechanism::State> begin;
     if (!one.from.empty()) begin = ends.at(one.from);
     mechanism::RunEnd end = run_one(arguments,
                                     {one.scene, files, std::move(begin), one.results, arguments.restart, arguments.at,
                                      arguments.joining, arguments.changed},
-                                    one.name, told);
+                                    one.name, reported);
     if (const int code = exit_code(end.report); code != 0) return code;
     ends.insert_or_assign(one.name, std::move(end.state));
   }
@@ -154,11 +154,11 @@ int run(const RunArguments& arguments) {
 
 int check(const RunArguments& arguments) {
   const formats::Scene scene = read(arguments);
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   for (const mechanism::PlannedAnalysis& one : mechanism::plan(scene, "", {})) {
     if (!one.from.empty()) continue;  // it starts at the end of another analysis
     mechanism::RunReport report = mechanism::inspect(one.scene, {});
-    mechanism::drop_told_notes(report, told);
+    mechanism::drop_reported_notes(report, reported);
     say(fmt::format("{}: {}{}: no errors found\n{}", arguments.scene, scene.name,
                     one.name.empty() ? "" : fmt::format(": {}", one.name),
                     mechanism::report_text(report, scene.units)));
@@ -206,13 +206,15 @@ int study(const mechanism::StudyRequest& request) {
 void add_study(CLI::App& app, mechanism::StudyRequest& request, int& code) {
   CLI::App* command = add_command(app, "study", about_study);
   command->add_option("study", request.file, "study file (formats/STUDY.md)")->required();
-  command->add_option("-o,--output", request.folder, "folder of what has run and of tables; default: <study>.study");
-  command->add_option("--tolerance", request.tolerance, "the cheapest setting whose errors stay within it")
+  command->add_option("-o,--output", request.folder, "folder for runs and tables; default: <study>.study");
+  command
+      ->add_option("--tolerance", request.tolerance, "print the cheapest setting whose errors do not exceed this value")
       ->check(CLI::PositiveNumber);
-  command->add_option("--of", request.quantity, "with --tolerance: this quantity; default: all");
+  command->add_option("--of", request.quantity, "with --tolerance: the quantity to consider; default: all");
   command->add_flag_callback(
       "--slurm", [&] { request.place = mechanism::StudyPlace::slurm; }, "run the settings as a job array of Slurm");
-  command->add_option("--task", request.task, "only the setting of this number, from 0: a job of the array");
+  command->add_option("--task", request.task,
+                      "run only the setting with this number, from 0, as a job of the array does");
   command->callback([&] { code = study(request); });
 }
 
@@ -221,30 +223,36 @@ void add_ledger(CLI::App& app, LedgerArguments& arguments, int& code) {
   CLI::App* command = add_command(app, "ledger", about_ledger);
   add_run_arguments(*command, arguments.run);
   command->add_option("--analysis", arguments.run.analysis,
-                      "one of the scene's `analyses`; default: the last of dynamics");
+                      "one of the scene's `analyses`; default: the last one of type dynamics");
   command->add_option("--results", ledger.results,
-                      "results of this scene whose instants begin the windows; default: a run without results");
-  command->add_option("--windows", ledger.windows.windows, "how many, evenly over the run")->check(CLI::Range(1, 1000));
-  command->add_option("--share", ledger.windows.share, "of the run that they cover together; 1: all of it")
+                      "results file of this scene whose instants are the starts of windows; default: the scene runs "
+                      "without storing results");
+  command->add_option("--windows", ledger.windows.windows, "number of windows, evenly distributed over the run")
+      ->check(CLI::Range(1, 1000));
+  command
+      ->add_option("--share", ledger.windows.share,
+                   "share of the run that the windows cover together; 1: the whole run")
       ->check(CLI::Range(1e-6, 1.0));
-  command->add_option("--repeats", ledger.repeats, "of each window, for its time")->check(CLI::Range(1, 1000));
+  command->add_option("--repeats", ledger.repeats, "repetitions of each window to measure its time")
+      ->check(CLI::Range(1, 1000));
   command
       ->add_option("--channel,-c", ledger.channels,
-                   "channel, group or pattern that is compared; default: positions, deflections and forces of joints")
+                   "channel, group or pattern to compare; default: positions, deflections and forces of joints")
       ->allow_extra_args(false);
   command->add_option("--effect", ledger.choice.effects, "only this effect, or inertia; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--of", ledger.choice.owners, "only of this body, joint or spring; may be repeated")
       ->allow_extra_args(false);
-  command->add_flag("--json", arguments.json, "the same as JSON, with all figures");
+  command->add_flag("--json", arguments.json, "print the table as JSON with all values");
   command->callback([&] { code = ::ledger(arguments); });
 }
 
 void add_page_options(CLI::App& command, mechanism::ViewRequest& page) {
   command.add_option("--title", page.title, "title; default: names of the scenes");
-  command.add_option("--instants", page.instants, "the most instants of a run, evenly chosen")
+  command.add_option("--instants", page.instants, "largest number of instants of a run, evenly chosen")
       ->check(CLI::Range(2, 1'000'000));
-  command.add_flag("--stress", page.shapes.stress, "stress of bodies with recovery files, to colour them by");
+  command.add_flag("--stress", page.shapes.stress,
+                   "add the von Mises stress of bodies with recovery files as a colour");
   command.add_option("--recovery", page.shapes.recovery, "recovery file of a superelement of the run")
       ->allow_extra_args(false);
 }
@@ -259,27 +267,34 @@ void add_picture(CLI::App& app, PictureArguments& arguments) {
   CLI::App* command = add_command(app, "picture", about_picture);
   mechanism::add_series_arguments(*command, arguments.runs);
   add_page_options(*command, request.page);
-  command->add_option("-o,--output", request.output, "picture, .png; default: arm.png beside arm.results.h5");
-  CLI::Option* time = command->add_option("--time,-t", request.times, "instant; several: states from left to right");
+  command->add_option("-o,--output", request.output, "picture file, .png; default: arm.png next to arm.results.h5");
+  CLI::Option* time =
+      command->add_option("--time,-t", request.times, "instant to draw; several: states from left to right");
   time->allow_extra_args(false);
-  command->add_option("--mode", request.mode, "this mode of a `modes` analysis, from 1, in place of instants")
+  command->add_option("--mode", request.mode, "number of a mode of a `modes` analysis, from 1, instead of instants")
       ->check(CLI::PositiveNumber)
       ->excludes(time);
-  command->add_option("--phase", request.phases_deg, "of the mode [deg]; several: states from left to right")
+  command->add_option("--phase", request.phases_deg, "phase of the mode [deg]; several: states from left to right")
       ->allow_extra_args(false);
-  command->add_option("--size", request.size, "width and height in pixels, default 1200 700");
+  command->add_option("--size", request.size, "width and height in pixels; default: 1200 700");
   command->add_option("--view", request.view,
                       "iso, front, back, left, right, top, bottom, or azimuth,elevation of the camera in degrees");
-  command->add_option("--zoom", request.zoom, "1: what is shown fills the picture")->check(CLI::Range(0.01, 1000.0));
-  command->add_option("--exaggerate", request.exaggeration, "factor on deformations; default: 1, more if nothing moves")
+  command->add_option("--zoom", request.zoom, "zoom factor; 1: the shown objects fill the picture")
+      ->check(CLI::Range(0.01, 1000.0));
+  command
+      ->add_option("--exaggerate", request.exaggeration,
+                   "factor on deformations; default: 1, or more if the motion is invisible")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--follow", request.follow, "body that the camera follows; default: the heaviest, if all travel");
-  command->add_option("--stress-unit", request.stress_unit, "Pa, kPa, MPa or GPa; default: of the scene, MPa for mm")
+  command->add_option("--follow", request.follow,
+                      "body that the camera follows, or none; default: the heaviest body if all travel");
+  command
+      ->add_option("--stress-unit", request.stress_unit,
+                   "Pa, kPa, MPa or GPa; default: the unit of the scene, MPa if lengths are in mm")
       ->check(CLI::IsMember(mechanism::picture_stress_units));
   command->add_flag_callback(
       "--no-sandbox", [&] { request.sandbox = mechanism::Sandbox::off; },
-      "run Chromium without its sandbox, which it does not have for root");
-  command->add_option("--colour", request.colouring, "body, displacement, deformation or stress")
+      "run Chromium without its sandbox, which does not work for root");
+  command->add_option("--colour", request.colouring, "colour by body, displacement, deformation or stress")
       ->check(CLI::IsMember(mechanism::picture_colourings));
   command->add_option("--trace", request.traces, "node whose path is drawn")->allow_extra_args(false);
   for (auto& [option, things] : {std::pair{"--show", &request.shown}, std::pair{"--hide", &request.hidden}})
@@ -287,7 +302,7 @@ void add_picture(CLI::App& app, PictureArguments& arguments) {
         ->allow_extra_args(false)
         ->check(CLI::IsMember(mechanism::picture_things()));
   command->add_flag_callback(
-      "--bare", [&] { request.captions = mechanism::Captions::none; }, "without title and times");
+      "--bare", [&] { request.captions = mechanism::Captions::none; }, "draw no title and no times");
   command->callback([&] {
     request.page.shown = mechanism::complete_for_page(arguments.runs);
     if (request.output.empty()) request.output = mechanism::default_page(request.page.shown.files, ".png");
@@ -297,7 +312,7 @@ void add_picture(CLI::App& app, PictureArguments& arguments) {
 }
 
 /// Prints what is wrong with the command line, and the nearest valid words.
-int tell_usage(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+int report_usage(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   std::vector<std::string> commands, options;
   const CLI::App* command = nullptr;
   for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; })) {
@@ -325,19 +340,20 @@ int command_line(int argc, char** argv) {
   CLI::App* run_command = add_command(app, "run", about_run);
   add_run_arguments(*run_command, run_arguments);
   run_command->add_option("-o,--output", run_arguments.output,
-                          "results file; default: <scene>.results.h5 beside the scene");
-  run_command->add_option("--analysis", run_arguments.analysis,
-                          "one of the scene's `analyses`, after those that it starts from; default: all, in order");
+                          "results file; default: <scene>.results.h5 next to the scene");
+  run_command->add_option(
+      "--analysis", run_arguments.analysis,
+      "run only one of the scene's `analyses`, after those from which it starts; default: all, in order");
   run_command->add_option("--restart", run_arguments.restart,
-                          "go on from a checkpoint, or from an instant of a results file; needs -o or --append");
+                          "continue from a checkpoint or from an instant of a results file; needs -o or --append");
   run_command->add_option("--at", run_arguments.at,
                           "with --restart: a stored instant of a results file; default: the last");
   run_command->add_flag_callback(
       "--append", [&] { run_arguments.joining = mechanism::Joining::appended; },
-      "with --restart: begin with the rows until then; without -o in place of the results that are gone on from");
+      "with --restart: also store the rows of the previous run; without -o, the new file replaces its results");
   run_command->add_flag_callback(
       "--changed", [&] { run_arguments.changed = mechanism::ChangedValues::accepted; },
-      "with --restart: go on although values of the scene have changed since");
+      "with --restart: continue although values of the scene have changed");
   run_command->callback([&] { code = run(run_arguments); });
 
   RunArguments check_arguments;
@@ -359,8 +375,9 @@ int command_line(int argc, char** argv) {
   CLI::App* view_command = add_command(app, "view", about_view);
   mechanism::add_series_arguments(*view_command, view_arguments);
   CLI::Option* page = view_command->add_option("-o,--output", view_request.output,
-                                               "page, .html; default: arm.html beside arm.results.h5");
-  view_command->add_option("--paraview", paraview, "folder for files of ParaView (.pvd, .vtu) instead of a page")
+                                               "page, .html; default: arm.html next to arm.results.h5");
+  view_command
+      ->add_option("--paraview", paraview, "write files for ParaView (.pvd, .vtu) to this folder instead of a page")
       ->excludes(page);
   add_page_options(*view_command, view_request);
   view_command->callback([&] {
@@ -377,7 +394,7 @@ int command_line(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return error.get_exit_code() == 0 ? app.exit(error) : tell_usage(app, error, argc, argv);
+    return error.get_exit_code() == 0 ? app.exit(error) : report_usage(app, error, argc, argv);
   }
   return code;
 }

@@ -39,7 +39,7 @@ RunReport inspect(const formats::Scene& scene, const RunControl& control) {
   if (uses.empty() || scene.analysis != formats::AnalysisKind::dynamics) return run.report;
   AutomaticEffects automatic(scene, std::move(uses));
   automatic.begin(run, std::nullopt);
-  automatic.tell_begin(run.report);
+  automatic.report_begin(run.report);
   return run.report;
 }
 

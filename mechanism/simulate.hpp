@@ -9,13 +9,14 @@
 
 namespace tisserand::mechanism {
 
-/// Builds the model, starts, runs the analysis and writes its results. Throws Error for errors in the input.
+/// Builds the model, starts, runs the analysis and writes its results. Returns the report and the last state. Throws
+/// Error for errors in the input.
 RunEnd simulate(const RunRequest& request, const RunControl& control);
 
 /// Runs a scene with one analysis and writes the results to `path`. Throws Error.
 RunReport simulate(const formats::Scene& scene, const std::string& path, const RunControl& control);
 
-/// Builds and starts the model without running it. Returns counts and notes.
+/// Builds and starts the model without running it. Returns a report with counts and notes. Throws Error.
 RunReport inspect(const formats::Scene& scene, const RunControl& control);
 
 }  // namespace tisserand::mechanism

@@ -65,8 +65,8 @@ std::vector<formats::Override> overrides(const Arguments& arguments) {
                                                            : is_geometry(kind) ? "geometry"
                                                                                : "mesh"),
               file,
-              fmt::format("write {} beside it with `mesh: {{file: {}}}`, {}`boundary` and `modes` (formats/PART.md); "
-                          "`reducer groups` and `reducer view` take the file as it is",
+              fmt::format("write a part file {} in its folder, with `mesh: {{file: {}}}`, {}`boundary` and `modes` "
+                          "(formats/PART.md); `reducer groups` and `reducer view` read this file directly",
                           std::filesystem::path(name).replace_extension(".part.yaml").string(), name,
                           deck ? "" : "`materials`, `solids` or `shells`, "));
 }
@@ -112,7 +112,7 @@ std::string times_text(const Phases& phases) {
   std::string text = fmt::format("{:<19}{}\n{:<19}{}\n{:<19}{}\n", "time", phases.text(), "processor time",
                                  phases.processor_text(), "peak memory", phases.memory_text());
   if (rank_count() > 1)
-    return text + fmt::format("{:<19}{}, times and memory of the first\n", "processes", rank_count());
+    return text + fmt::format("{:<19}{}; times and memory are those of the first process\n", "processes", rank_count());
   if (phases.columns() > 0) text += fmt::format("{:<19}{}\n", "substitutions", phases.solutions_text());
   return text;
 }
@@ -135,16 +135,16 @@ std::string clear_companion(const std::string& path, const std::string& content_
   const std::optional<formats::CompanionOwner> owner = formats::companion_owner(path);
   const bool fits = owner && owner->superelement == content_id;
   if (!owner || !owner->producer.starts_with("Tisserand reducer"))
-    return fmt::format("{:<19}{} (not written by this program), {}\n", "lies beside it", path,
-                       fits    ? "which mechanisms take: it belongs to this superelement"
-                       : owner ? "which mechanisms refuse: it belongs to another superelement; remove it"
-                               : "which mechanisms refuse: it is no companion file; remove it");
+    return fmt::format("{:<19}{} (not written by this program), {}\n", "in the same folder", path,
+                       fits    ? "which `mechanism` reads: it belongs to this superelement"
+                       : owner ? "which `mechanism` refuses: it belongs to another superelement; remove it"
+                               : "which `mechanism` refuses: it is not a companion file; remove it");
   std::error_code fault;
   std::filesystem::remove(path, fault);
   if (fault)
-    throw Error("the companion of an earlier run cannot be removed: " + fault.message(), path,
-                "remove it: mechanisms would take it, or refuse the new superelement beside it");
-  return fmt::format("{:<19}{} of an earlier run: this one writes none\n", "removed", path);
+    throw Error("the companion file of an earlier run cannot be removed: " + fault.message(), path,
+                "remove it, because `mechanism` would read it with the new superelement, or refuse both");
+  return fmt::format("{:<19}{} of an earlier run, because this run writes no companion file\n", "removed", path);
 }
 
 PhaseListener listener_of(Phases& phases) {
@@ -193,7 +193,7 @@ int run(const Arguments& arguments, std::optional<SolverSession>& session) {
   phases.end();
   say(certificate_text(reduction.superelement, reduction.file, reduction.model));
   if (!part.supports.empty())
-    say(fmt::format("{:<19}supports: they are for `reducer solve`; the superelement is that of the free part\n",
+    say(fmt::format("{:<19}supports: only `reducer solve` uses them; the superelement is that of the free part\n",
                     "not used"));
   say(fmt::format("{:<19}{}\n{:<19}{}\n", "written", output, "", certificate_path(output)));
   for (const auto& [path, recovery] : recoveries) say(fmt::format("{:<19}{}\n", "", path));
@@ -326,7 +326,8 @@ int groups(const Arguments& arguments) {
 
 int section(const Arguments& arguments) {
   const formats::Part part = part_of(arguments);
-  if (part.sections.empty()) throw Error("the part has no sections", arguments.input, "give some under `sections:`");
+  if (part.sections.empty())
+    throw Error("the part has no sections to print", arguments.input, "define sections under `sections:`");
   say(formats::section_report(part.sections, part.units));
   return 0;
 }

@@ -26,9 +26,9 @@ struct Arguments {
   exchange::ExportRequest export_request;
 };
 
-/// Runs a command and returns the exit code; throws Error. It has two definitions: commands.cpp does the work (program
-/// reducer-solver), launch.cpp starts that program (program reducer). So help and usage errors need not load 110 shared
-/// libraries.
+/// Runs a command and returns the exit code. Throws Error. The function has two definitions. The one in commands.cpp
+/// does the work (program reducer-solver). The one in launch.cpp starts that program (program reducer). So help and
+/// usage errors need not load 110 shared libraries.
 int perform(const Arguments& arguments, char** argv);
 
 }  // namespace tisserand::reducer

@@ -8,8 +8,9 @@
 
 namespace tisserand::reducer {
 
-/// Works until the leader ends. Needs a SolverSession. `made` is the mesh of the leader's part. If it holds an error or
-/// differs from the leader's, all processes end when the leader needs its elements.
+/// Runs a follower process until the leader ends: it does the work that the leader calls for. Requires a
+/// SolverSession. `made`: mesh of the leader's part. If it holds an error or differs from the leader's mesh, all
+/// processes end when the leader needs its elements.
 void follow_leader(std::future<Mesh> made);
 
 }  // namespace tisserand::reducer

@@ -29,7 +29,7 @@ int perform(const Arguments&, char** argv) {
   const std::string solver = solver_path();
   execv(solver.c_str(), argv);
   throw Error(std::string("cannot start the solver: ") + std::strerror(errno), solver,
-              "keep reducer-solver in the folder of reducer, or install anew");
+              "keep reducer-solver in the folder of reducer, or install both programs again");
 }
 
 }  // namespace tisserand::reducer

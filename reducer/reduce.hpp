@@ -23,12 +23,13 @@ struct Reduction {
   std::optional<formats::ModalBody> modal_body;  ///< floating-frame body of this part, if it requests one
 };
 
-/// Reduces a part. `recover` receives the sources of recovery files, for superelement and modal body, if the part
-/// requests them. Needs a SolverSession. Throws Error for any fault of the part.
+/// Reduces a part to its superelement and certificate. `begin` receives the phases. `recover` receives the sources of
+/// recovery files, for superelement and modal body, if the part requests them. Requires a SolverSession. Throws Error
+/// for any fault of the part.
 Reduction reduce(const formats::Part& part, const PhaseListener& begin, const RecoveryListener& recover);
 inline Reduction reduce(const formats::Part& part, const PhaseListener& begin) { return reduce(part, begin, nullptr); }
 
-/// Reduces a mesh. `part` gives name, units and the choice of modes.
+/// Reduces a mesh as reduce() reduces a part. `part` gives name, units and the choice of modes.
 Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin,
                       const RecoveryListener& recover);
 inline Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin) {

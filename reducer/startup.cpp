@@ -60,7 +60,7 @@ void use_parts_of_archive() {
   const std::string root = program_folder() + "..", libraries = root + "/lib/tisserand";
   if (access((libraries + "/openmpi3").c_str(), X_OK) != 0) return;
   if (rank_of_launcher() != nullptr)
-    throw Error("mpirun or srun started this process, but the archive of Tisserand has no parts for several processes",
+    throw Error("mpirun or srun started this process, but the archive of Tisserand runs with one process only",
                 program_folder() + "reducer",
                 "start it without a launcher; for several processes install the Debian packages or build the sources");
   setenv("OPAL_PREFIX", root.c_str(), replace);

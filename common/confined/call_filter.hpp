@@ -10,13 +10,14 @@
 
 namespace tisserand {
 
-/// List of rules, of which the first that matches a call decides. Without a match the call fails as in a kernel that
-/// does not know it, so libraries use their fallback.
+/// Filter of system calls (seccomp): a list of rules, of which the first that matches a call decides. A call without a
+/// match fails as in a kernel that does not know it, so libraries use their fallback.
 class CallFilter {
  public:
   enum class Action : std::uint32_t { allow, kill_process, no_terminal };
 
-  /// Holds if (argument & mask) == value. `wide`: compares all 64 bits; otherwise the lower 32.
+  /// Condition on argument number `argument` of a call: (argument & mask) == value. `wide`: compares all 64 bits;
+  /// otherwise the lower 32.
   struct Condition {
     unsigned argument = 0;
     std::uint32_t mask = 0;
@@ -28,7 +29,8 @@ class CallFilter {
   void add(Action action, std::initializer_list<long> calls);
   void add(Action action, long call, const Condition& condition);
 
-  /// Activates the rules for all threads and children. False if the kernel, a container or the processor forbids it.
+  /// Activates the rules for all threads and children of this process. Returns false if the kernel, a container or the
+  /// processor forbids it.
   [[nodiscard]] bool install() const;
 
  private:

@@ -16,6 +16,7 @@
 
 namespace tisserand {
 
+/// Packs numbers, texts, lists and errors into bytes, which Unpacker reads in the order of packing.
 class Packer {
  public:
   template <class T>
@@ -38,9 +39,11 @@ class Packer {
   std::string bytes;
 };
 
+/// Reads the values that Packer packed, from untrusted bytes. Throws Error if the bytes do not fit.
 class Unpacker {
  public:
-  /// `made`: beginning of the error message if the bytes do not fit, for example "what gmsh made of it is no mesh".
+  /// `bytes`: packed data; requires that `file` outlives this object. `made`: beginning of the error message if the
+  /// bytes do not fit, for example "what gmsh made of it is no mesh".
   Unpacker(std::string_view bytes, const std::string& file, const char* made)
       : left_(bytes), file_(file), made_(made) {}
 
@@ -66,7 +69,7 @@ class Unpacker {
     const std::string what = text(), where = text(), remedy = text();
     return Error(what, where, remedy);
   }
-  /// Reads a number of items, and checks that the remaining bytes can hold that many of `least` bytes each.
+  /// Reads a number of items. Throws Error unless the remaining bytes can hold that many items of `least` bytes each.
   std::size_t size(std::size_t least) {
     const auto count = value<std::size_t>();
     require(count <= left_.size() / least && count <= std::numeric_limits<int>::max(), "it is too short");
@@ -74,7 +77,7 @@ class Unpacker {
   }
   void require(bool fits, const char* what) const {
     if (!fits)
-      throw Error(fmt::format("{}: {}", made_, what), file_, "the file is damaged, or made to do harm: do not use it");
+      throw Error(fmt::format("{}: {}", made_, what), file_, "the file is damaged or malicious: do not use it");
   }
   bool is_at_end() const { return left_.empty(); }
   void end() const { require(is_at_end(), "it is too long"); }

@@ -11,13 +11,13 @@
 
 namespace tisserand::mechanism {
 
-/// Run of non-zero blocks in one column: rows 4 `first` to 4 (`first` + `blocks`) − 1.
+/// Run of non-zero blocks in one column of BlockColumns. Its rows are 4 `first` to 4 (`first` + `blocks`) − 1.
 struct ColumnRun {
   int column = 0;
   int first = 0, blocks = 0;
 };
 
-/// Matrix as columns in blocks of four rows. Blocks of zeros are not stored.
+/// Matrix stored by columns, in blocks of four rows. Blocks of zeros are not stored.
 struct BlockColumns {
   static constexpr int block = 4;  ///< rows of a block, one register
 
@@ -26,10 +26,10 @@ struct BlockColumns {
   std::vector<double> entry;  ///< entries of the runs in their order, `block` numbers per block
 };
 
-/// Block form of A. Entries with a magnitude up to `nothing` count as zero.
+/// Matrix A in blocks. Entries with a magnitude of at most `nothing` count as zero.
 BlockColumns block_columns(const Eigen::MatrixXd& A, double nothing);
 
-/// y += A x; y has the rows of A.
+/// Adds A x to y. Requires that y has BlockColumns::rows entries.
 template <class S>
 void multiply_add(const BlockColumns& A, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x,
                   Eigen::Matrix<S, Eigen::Dynamic, 1>& y) {
@@ -48,7 +48,7 @@ void multiply_add(const BlockColumns& A, const Eigen::Matrix<S, Eigen::Dynamic, 
   }
 }
 
-/// y += A x and z += A w in one pass.
+/// Adds A x to y and A w to z in one pass over A. Requires that y and z have BlockColumns::rows entries.
 template <class S>
 void multiply_add(const BlockColumns& A, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x,
                   Eigen::Matrix<S, Eigen::Dynamic, 1>& y, const Eigen::Matrix<S, Eigen::Dynamic, 1>& w,
@@ -72,7 +72,7 @@ void multiply_add(const BlockColumns& A, const Eigen::Matrix<S, Eigen::Dynamic, 
   }
 }
 
-/// out += Aᵀ x; x has the rows of A.
+/// Adds Aᵀ x to out. Requires that x has BlockColumns::rows entries.
 template <class S>
 void multiply_transposed_add(const BlockColumns& A, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x,
                              Eigen::Matrix<S, Eigen::Dynamic, 1>& out) {

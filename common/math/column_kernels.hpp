@@ -8,8 +8,8 @@ namespace tisserand::mechanism {
 
 namespace column_kernels {
 
-/// Four doubles, the unit of all loops here (one register of AVX, two of SSE). It is a `typedef`, because clang ignores
-/// the alignment of 8 in an alias declaration and then uses aligned moves.
+/// Four doubles, processed at once by the loops of this header (one register of AVX, two of SSE). It is a `typedef`,
+/// because clang ignores the alignment of 8 in an alias declaration and then uses aligned moves.
 typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
 
 inline const Four& load(const double* p) { return *reinterpret_cast<const Four*>(p); }
@@ -17,8 +17,8 @@ inline void store(double* p, const Four& v) { *reinterpret_cast<Four*>(p) = v; }
 
 enum class Write { assign, add };
 
-/// Computes out (rows x 3) = or += in (rows x 3) B. The number of rows is the leading dimension of both. `Rows` is
-/// this number, or Eigen::Dynamic.
+/// Computes out = in B or out += in B, with `in` and `out` (rows x 3, column by column). The number of rows is `Rows`,
+/// or `free_rows` if `Rows` is Eigen::Dynamic. It is also the leading dimension of both.
 template <int Rows, Write write>
 inline void multiply3(const double* in, const Eigen::Matrix3d& B, int free_rows, double* out) {
   const int rows = Rows == Eigen::Dynamic ? free_rows : Rows;
@@ -40,7 +40,8 @@ inline void multiply3(const double* in, const Eigen::Matrix3d& B, int free_rows,
   }
 }
 
-/// Computes out = inᵀ. Both are rows x rows and must not overlap.
+/// Computes out = inᵀ for matrices (rows x rows). Requires that they do not overlap. The number of rows is `Rows`, or
+/// `free_rows` if `Rows` is Eigen::Dynamic.
 template <int Rows>
 inline void transpose(const double* in, int free_rows, double* out) {
   const int rows = Rows == Eigen::Dynamic ? free_rows : Rows;
@@ -63,7 +64,8 @@ inline void transpose(const double* in, int free_rows, double* out) {
     for (int i = j < blocked ? blocked : 0; i < rows; ++i) out[i * rows + j] = in[j * rows + i];
 }
 
-/// Computes y += A x with A (Rows x columns, Rows a multiple of 2). Two independent sums hide latency.
+/// Adds A x to y with A (Rows x columns, column by column). Requires an even number `Rows`. Two independent sums hide
+/// latency.
 template <int Rows>
 inline void multiply_add_fixed(const double* A, Eigen::Index columns, const double* x, double* y) {
   using Column = Eigen::Matrix<double, Rows, 1>;

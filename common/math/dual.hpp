@@ -9,7 +9,8 @@
 
 namespace tisserand {
 
-/// Dual number value + derivative ε with ε² = 0. Kernels that are templates on the scalar get exact derivatives by it.
+/// Dual number value + derivative ε with ε² = 0. A kernel that is a template on its scalar returns exact derivatives if
+/// this is the scalar.
 struct Dual {
   double value = 0.0;
   double derivative = 0.0;
@@ -81,7 +82,8 @@ inline long double real_part(long double a) { return a; }
 inline double atan2_scalar(double y, double x) { return std::atan2(y, x); }
 inline long double atan2_scalar(long double y, long double x) { return std::atan2(y, x); }
 inline Dual atan2_scalar(const Dual& y, const Dual& x) { return atan2(y, x); }
-/// atan2 for the small imaginary parts of a complex step: atan2 of the real parts plus its first derivative.
+/// atan2 of complex numbers with the small imaginary parts of a complex step: atan2 of the real parts plus its first
+/// derivative.
 inline std::complex<double> atan2_scalar(const std::complex<double>& y, const std::complex<double>& x) {
   const double n = x.real() * x.real() + y.real() * y.real();
   return {std::atan2(y.real(), x.real()), (x.real() * y.imag() - y.real() * x.imag()) / n};

@@ -19,7 +19,7 @@ using Vec3 = Eigen::Matrix<S, 3, 1>;
 template <class S>
 using Mat3 = Eigen::Matrix<S, 3, 3>;
 
-/// skew(a) b = a × b.
+/// Matrix skew(a) = a~ of the cross product: skew(a) b = a × b.
 template <class S>
 Mat3<S> skew(const Vec3<S>& a) {
   Mat3<S> m;
@@ -27,13 +27,13 @@ Mat3<S> skew(const Vec3<S>& a) {
   return m;
 }
 
-/// a × b without conjugation, valid for complex scalars.
+/// Cross product a × b without conjugation, valid for complex scalars.
 template <class S>
 Vec3<S> cross(const Vec3<S>& a, const Vec3<S>& b) {
   return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
 }
 
-/// a · b without conjugation, valid for complex scalars.
+/// Scalar product a · b without conjugation, valid for complex scalars.
 template <class S>
 S dot3(const Vec3<S>& a, const Vec3<S>& b) {
   return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
@@ -69,7 +69,8 @@ struct AngleFunctions {
   }
 };
 
-/// exp(skew(ψ)) = 1 + s ψ~ + c ψ~².
+/// Rotation matrix of the rotation vector ψ: exp(ψ~) = 1 + s ψ~ + c ψ~² with ψ~ = skew(ψ) and s, c of AngleFunctions at
+/// |ψ|.
 template <class S>
 Mat3<S> exp_so3(const Vec3<S>& psi) {
   const AngleFunctions<S> f(dot3(psi, psi));
@@ -77,7 +78,8 @@ Mat3<S> exp_so3(const Vec3<S>& psi) {
   return Mat3<S>::Identity() + f.s * P + f.c * (P * P);
 }
 
-/// T(ψ) = 1 − c ψ~ + d ψ~²: δΘ = T(ψ) δψ (material increment of exp(ψ~)).
+/// Tangent T(ψ) = 1 − c ψ~ + d ψ~² of the rotation vector, with ψ~ = skew(ψ) and c, d of AngleFunctions. δΘ = T(ψ) δψ
+/// is the material increment of exp(ψ~).
 template <class S>
 Mat3<S> tangent_so3(const Vec3<S>& psi) {
   const AngleFunctions<S> f(dot3(psi, psi));
@@ -85,7 +87,8 @@ Mat3<S> tangent_so3(const Vec3<S>& psi) {
   return Mat3<S>::Identity() - f.c * P + f.d * (P * P);
 }
 
-/// T⁻¹(ψ) = 1 + ψ~/2 + e ψ~², valid for |ψ| < 2π. T⁻¹(−ψ) = T⁻ᵀ(ψ).
+/// Inverse of tangent_so3(): T⁻¹(ψ) = 1 + ψ~/2 + e ψ~² with ψ~ = skew(ψ) and e of AngleFunctions. It is valid for |ψ| <
+/// 2π. T⁻¹(−ψ) = T⁻ᵀ(ψ).
 template <class S>
 Mat3<S> inverse_tangent_so3(const Vec3<S>& psi) {
   const AngleFunctions<S> f(dot3(psi, psi));
@@ -126,7 +129,8 @@ Eigen::Matrix<S, 4, 1> quaternion_wxyz(const Mat3<S>& R) {
   return q;
 }
 
-/// Rotation vector ψ with exp(ψ~) = R and |ψ| ≤ π, accurate at every angle (through the quaternion).
+/// Rotation vector ψ of the rotation matrix R: exp(skew(ψ)) = R and |ψ| ≤ π. It is accurate at every angle (computed
+/// from the quaternion).
 template <class S>
 Vec3<S> log_so3(const Mat3<S>& R) {
   using std::sqrt;

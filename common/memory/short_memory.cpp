@@ -47,7 +47,7 @@ void put(const char* text) { [[maybe_unused]] const auto written = ::write(STDER
 [[noreturn]] void end_without_memory() {
   if (::getpid() == own_process) (void)remove_temporaries();  // a forked reader must keep its parent's files
   put(name_of_program);
-  put(": out of memory; raise the limit (`ulimit -v`), close other programs, or make the model smaller\n");
+  put(": out of memory; close other programs, raise the limit (`ulimit -v`), or make the model smaller\n");
   ::_exit(1);
 }
 

@@ -4,10 +4,10 @@
 
 namespace tisserand::processor {
 
-/// Register state that a feature needs and the kernel must save (bits of XCR0).
+/// Register state that a processor feature requires and that the kernel must save (bits of XCR0).
 enum class State : unsigned { none = 0, avx = 0x6, avx512 = 0xe6 };
 
-/// One bit of cpuid that must be set. Example AVX2: leaf 7, subleaf 0, register b, bit 5.
+/// Processor feature: one bit of cpuid that must be set. Example AVX2: leaf 7, subleaf 0, register b, bit 5.
 struct Feature {
   char name[16];
   unsigned leaf;
@@ -17,9 +17,9 @@ struct Feature {
   State state;
 };
 
-/// Features that the other units of the program may use; the last one has an empty name.
+/// Processor features that the program's other units may use. The last one has an empty name.
 extern const Feature required_features[];
-/// -march of the build, for example "x86-64-v3".
+/// Value of -march of the build, for example "x86-64-v3".
 extern const char built_for[];
 
 }  // namespace tisserand::processor

@@ -10,7 +10,7 @@ namespace tisserand {
 /// Version of the project, "0.2.0".
 std::string version();
 
-/// Producer of a file, "Tisserand reducer 0.2.0". `program`: reducer or mechanism.
+/// Name of the producer of a file, "Tisserand reducer 0.2.0". `program`: reducer or mechanism.
 std::string producer(std::string_view program);
 
 /// HTML head element that names the producer of the page.

@@ -37,7 +37,7 @@ void read_matrices(const hdf5::InputFile& file, const std::string& dataset, std:
     throw Error(
         fmt::format("has shape {}, expected {} ({})", hdf5::shape_text(found), expected, meaning),
         fmt::format("{}: {}", file.path(), dataset),
-        "compare the file with formats/COMPANION.md, or let the program that made the superelement write it again");
+        "compare the file with formats/COMPANION.md, or write it again with the program that made the superelement");
   }
   std::vector<double> values(std::accumulate(found.begin(), found.end(), std::uint64_t{1}, std::multiplies<>()));
   file.read(dataset, found, meaning, values.data());

@@ -13,18 +13,19 @@
 
 namespace tisserand::formats {
 
-/// Entries (k, l) with k ≤ l, row by row: n(n + 1)/2 per matrix, one matrix after the other.
+/// Upper triangles of symmetric n x n matrices as one list: entries (k, l) with k ≤ l, row by row, n(n + 1)/2 per
+/// matrix, one matrix after the other.
 std::vector<double> upper_triangles(std::span<const Eigen::MatrixXd> matrices);
 
-/// Reads symmetric n x n matrices of shape count x n(n + 1)/2 (upper triangles) or count x n x n (whole). check()
-/// reports whole ones that are not symmetric.
+/// Reads symmetric n x n matrices of a dataset of shape count x n(n + 1)/2 (upper triangles) or count x n x n (whole).
+/// The function accepts whole matrices that are not symmetric; check() reports them.
 void read_symmetric(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n,
                     std::span<Eigen::MatrixXd> matrices);
 
-/// Reads one symmetric matrix of shape n(n + 1)/2 or n x n.
+/// Reads one symmetric n x n matrix of a dataset of shape n(n + 1)/2 (upper triangle) or n x n (whole).
 Eigen::MatrixXd read_symmetric(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n);
 
-/// Reads n x n matrices, row by row, of shape count x n x n.
+/// Reads n x n matrices of a dataset of shape count x n x n, row by row.
 void read_general(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n,
                   std::span<Eigen::MatrixXd> matrices);
 

@@ -24,7 +24,7 @@ constexpr double gram_accepted = 1e-9;         // negative scaled eigenvalues
 constexpr double integral_accepted = 1e-6;     // mass, S0, S1 compared with M̄, as the rigid mass of superelements
 constexpr double weight_accepted = 1e-9;       // sum of weights
 constexpr double largest_usable = 1e100;       // limit of entries: products of three stay finite
-constexpr const char* other_program = "let the program that made the superelement write the companion again";
+constexpr const char* other_program = "write the companion file again with the program that made the superelement";
 
 /// Companion under check, with file name and scales.
 struct Inspection {
@@ -49,15 +49,15 @@ struct Inspection {
 void check_owner(const Inspection& at) {
   const std::string &quoted = at.companion.content_id, &own = at.superelement.content_id;
   if (quoted != own)
-    throw Error(fmt::format("belongs to the superelement {}..., not to '{}' with {}...", printable_line(quoted, 12),
-                            printable_line(at.superelement.name, 60), own.substr(0, 12)),
+    throw Error(fmt::format("belongs to the superelement with content_id {}..., but '{}' has content_id {}...",
+                            printable_line(quoted, 12), printable_line(at.superelement.name, 60), own.substr(0, 12)),
                 at.dataset("attribute 'superelement'"),
-                "give the companion that was written with this superelement file, reduce the part again, remove the "
-                "companion, or write 'second_order: off' at the body");
+                "give the companion file that was written with this superelement file, or reduce the part again; to "
+                "run without it, remove it or write 'second_order: off' in the body");
   const Units &a = at.companion.units, &b = at.superelement.units;
   if (a.length.factor != b.length.factor || a.mass.factor != b.mass.factor || a.time.factor != b.time.factor)
     throw Error(
-        fmt::format("units are {:g} m, {:g} kg, {:g} s, but those of the superelement {:g} m, {:g} kg, {:g} s",
+        fmt::format("the units are {:g} m, {:g} kg, {:g} s, but those of the superelement {:g} m, {:g} kg, {:g} s",
                     a.length.factor, a.mass.factor, a.time.factor, b.length.factor, b.mass.factor, b.time.factor),
         at.dataset("attribute 'length_unit'"), "write both files in the same units");
 }
@@ -71,7 +71,7 @@ void check_square(const Inspection& at, const std::string& dataset, const Eigen:
       if (!(std::abs(matrix(k, l)) < largest_usable))
         throw Error(fmt::format("[{}, {}] = {} is not a usable number: {}, column of {}", k, l, matrix(k, l),
                                 row_text(at.superelement, k), row_text(at.superelement, l)),
-                    at.dataset(dataset), "write finite numbers");
+                    at.dataset(dataset), "write finite numbers below 1e100");
 }
 
 void check_symmetric(const Inspection& at, const std::string& dataset, const Eigen::MatrixXd& matrix,
@@ -119,7 +119,7 @@ void check_weights(const Inspection& at) {
   for (Eigen::Index i = 0; i < c.weights.size(); ++i)
     if (!(std::abs(c.weights[i]) < largest_usable) || (!translates[i] && c.weights[i] != 0.0))
       throw Error(fmt::format("[{}] = {}: node '{}' {}", i, c.weights[i], element.node_name[i],
-                              translates[i] ? "needs a finite weight" : "has no translations to be weighted"),
+                              translates[i] ? "needs a finite weight" : "has no translations, so its weight must be 0"),
                   at.dataset("/frame/weights"), "write finite weights, and 0 for nodes without translations");
   if (!(std::abs(c.weights.sum() - 1.0) <= weight_accepted))
     throw Error(fmt::format("the weights have the sum {}, expected 1", c.weights.sum()), at.dataset("/frame/weights"),
@@ -137,7 +137,7 @@ void check_integrals(const Inspection& at) {
   const Companion& c = at.companion;
   const RigidProperties rigid = rigid_properties(at.superelement);
   const auto fail = [&](const char* dataset, const std::string& what) {
-    throw Error(what + ", as /mass of the superelement has it", at.dataset(dataset), other_program);
+    throw Error(what + ", computed from /mass of the superelement", at.dataset(dataset), other_program);
   };
   if (!(std::abs(c.mass - rigid.mass) <= integral_accepted * rigid.mass))
     fail("/mass", fmt::format("is {}, expected {}", c.mass, rigid.mass));
@@ -161,13 +161,13 @@ void check_integrals(const Inspection& at) {
 void check_rigid_stress(const Inspection& at) {
   const RigidStress stress = rigid_stress(at.companion, at.superelement);
   if (!(stress.largest <= largest_of_stiffness * stress.stiffness))
-    throw Error(fmt::format("its largest entry is {:.3e} of the stiffness over the length (at most {:g}): no stress "
-                            "stiffens a body so much",
+    throw Error(fmt::format("its largest entry is {:.3e} times the stiffness divided by the length (at most {:g}), "
+                            "which no real stress causes",
                             stress.largest / stress.stiffness, largest_of_stiffness),
                 at.dataset("/H"), other_program);
   if (stress.residual <= rigid_accepted * stress.scale()) return;
-  throw Error(fmt::format("a rigid motion has stress: {} gives {:.3e} of the largest entry and {:.3e} of the stiffness "
-                          "over the length (at most {:g} of the larger one)",
+  throw Error(fmt::format("a rigid-body motion causes stress: {} gives {:.3e} times the largest entry, and {:.3e} "
+                          "times the stiffness divided by the length (at most {:g} times the larger one)",
                           motion_text(stress.motion), stress.residual / stress.largest,
                           stress.residual / stress.stiffness, rigid_accepted),
               at.dataset("/H"), other_program);
@@ -183,15 +183,17 @@ void check_trapped(const Inspection& at) {
     const double residual = (scaled * R).cwiseAbs().maxCoeff(), largest = scaled.cwiseAbs().maxCoeff();
     const double of_stiffness = largest * at.scales.length / std::sqrt(at.scales.stiffness_scale);
     if (!(of_stiffness * of_stiffness <= largest_of_stiffness))
-      throw Error(
-          fmt::format("its largest entry traps {:.3e} times the energy of the stiffness in a deformation by the "
-                      "length of the body (at most {:g})",
-                      of_stiffness * of_stiffness, largest_of_stiffness),
-          at.dataset(dataset), "reduce the part again; if it comes again, without `double_curvature`");
+      throw Error(fmt::format("its largest entry gives {:.3e} times the strain energy of the stiffness in a "
+                              "deformation as large as the body (at most {:g})",
+                              of_stiffness * of_stiffness, largest_of_stiffness),
+                  at.dataset(dataset),
+                  "reduce the part again; if the error returns, remove `double_curvature` from the part file");
     if (!(residual <= trapped_accepted * largest))
-      throw Error(fmt::format("a rigid motion bends: Lambda R is {:.3e} of the largest entry (at most {:g})",
-                              residual / largest, trapped_accepted),
-                  at.dataset(dataset), other_program);
+      throw Error(
+          fmt::format(
+              "a rigid-body motion causes membrane stress: Lambda R is {:.3e} times the largest entry (at most {:g})",
+              residual / largest, trapped_accepted),
+          at.dataset(dataset), other_program);
   }
 }
 
@@ -222,8 +224,8 @@ void check_gram(const Inspection& at) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
     Eigen::Index row = 0;
     eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&row);
-    throw Error(fmt::format("kinetic energy is not positive: spinning about ({:.3g}, {:.3g}, {:.3g}), the matrix "
-                            "[M C; C' E] has the scaled eigenvalue {:.3e} (largest {:.3e}), mainly {}",
+    throw Error(fmt::format("the kinetic energy is not positive: for rotation about ({:.3g}, {:.3g}, {:.3g}), the "
+                            "matrix [M C; C' E] has the scaled eigenvalue {:.3e} (largest {:.3e}), mainly in {}",
                             Omega[0], Omega[1], Omega[2], eigen.eigenvalues()[0], eigen.eigenvalues()[2 * n - 1],
                             row_text(at.superelement, row % n)),
                 at.dataset("/E"), other_program);
@@ -256,15 +258,16 @@ void check_load_cases(const Inspection& at) {
   for (const LoadCase& load : at.companion.load_cases) {
     const std::string group = "/load_cases/" + printable_line(load.name, 60);
     if (!valid_name(load.name) || !(before < load.name))
-      throw Error("is no name of its own of a load case", at.dataset(group),
-                  "use letters, digits, _ and -, beginning with a letter or _, each name once, ascending");
+      throw Error(
+          "is not a valid name of a load case, or is not in ascending order", at.dataset(group),
+          "use letters, digits, _ and -, beginning with a letter or _; write each name once, in ascending order");
     before = load.name;
     if (load.force.size() > 0 && load.force.size() != at.size())
       fail_size(at, group + "/force", load.force.size(), 1, fmt::format("{}", at.size()));
     for (Eigen::Index k = 0; k < load.force.size(); ++k)
       if (!(std::abs(load.force[k]) < largest_usable))
         throw Error(fmt::format("[{}] = {} is not a usable number: {}", k, load.force[k], row_text(at.superelement, k)),
-                    at.dataset(group + "/force"), "write finite numbers");
+                    at.dataset(group + "/force"), "write finite numbers below 1e100");
     if (load.stiffness.size() > 0) check_symmetric(at, group + "/stiffness", load.stiffness, at.force_row);
   }
 }

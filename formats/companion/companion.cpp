@@ -59,8 +59,7 @@ void read_trapped(const hdf5::InputFile& file, std::uint64_t n, Companion& c) {
   if (shape.empty() || shape[0] < 1 || shape[0] > max_trapped_rows || shape[0] * n * n > most * most * most)
     throw Error(fmt::format("has shape {}, expected 1 to {} matrices of n = {} coordinates", hdf5::shape_text(shape),
                             std::min(max_trapped_rows, most * most * most / (n * n)), n),
-                file.path() + ": /Lambda",
-                "keep the largest rows alone, or compare the file with formats/COMPANION.md");
+                file.path() + ": /Lambda", "keep only the largest rows, or compare the file with formats/COMPANION.md");
   c.Lambda.resize(shape[0]);
   read_symmetric(file, "/Lambda", n, c.Lambda);
 }
@@ -68,7 +67,7 @@ void read_trapped(const hdf5::InputFile& file, std::uint64_t n, Companion& c) {
 void read_second_order(const hdf5::InputFile& file, Companion& c) {
   for (const std::string& dataset : second_order_datasets)
     if (!file.has(dataset))
-      throw Error("is missing, although other arrays of the second order are there", file.path() + ": " + dataset,
+      throw Error("is missing, but other second-order arrays are present", file.path() + ": " + dataset,
                   "write all of H, C, E, N, T, S0, S1 and mass, or none of them");
   const std::uint64_t n = coordinates_of(file);
   c.mass = read_vector(file, "/mass", 1, "one number")[0];
@@ -102,8 +101,8 @@ void read_load_cases(const hdf5::InputFile& file, Companion& c) {
     }
     if (file.has(stiffness)) {
       if (load.force.size() == 0)
-        throw Error("stands alone", fmt::format("{}: {}", file.path(), stiffness),
-                    "write the dataset 'force' beside it");
+        throw Error("has no dataset 'force' in its group", fmt::format("{}: {}", file.path(), stiffness),
+                    "write the dataset 'force' too");
       load.stiffness = read_symmetric(file, stiffness, static_cast<std::uint64_t>(load.force.size()));
     }
     c.load_cases.push_back(std::move(load));
@@ -238,10 +237,10 @@ Companion read_companion(const std::string& path, const Superelement& supereleme
   check(c, superelement, path);
   c.companion_id = companion_id(c);
   if (!file.stated_id.empty() && file.stated_id != c.companion_id)
-    throw Error(fmt::format("is {}..., but the contents have {}...: the file was changed after it was written",
+    throw Error(fmt::format("is {}..., but the contents give {}...: the file was changed after it was written",
                             printable_line(file.stated_id, 12), c.companion_id.substr(0, 12)),
                 path + ": attribute 'content_id'",
-                "reduce the part again, or compute the attribute anew after a change by hand");
+                "reduce the part again; after a change by hand, compute the attribute again");
   return std::move(file.companion);
 }
 

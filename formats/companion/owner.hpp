@@ -7,13 +7,13 @@
 
 namespace tisserand::formats {
 
-/// Attributes of a companion file: who wrote it, and for which superelement.
+/// Owner of a companion file by its attributes: the program that wrote it, and the superelement to which it belongs.
 struct CompanionOwner {
   std::string producer;
-  std::string superelement;  ///< content_id
+  std::string superelement;  ///< content_id of the superelement
 };
 
-/// Owner by the attributes of the file alone. Empty if it is not a readable companion file.
+/// Owner of a companion file, read from its attributes alone. Nothing if the file is not a readable companion file.
 std::optional<CompanionOwner> companion_owner(const std::string& path);
 
 }  // namespace tisserand::formats

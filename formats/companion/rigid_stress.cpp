@@ -60,10 +60,12 @@ void remove_rigid_stress(Companion& companion, const Superelement& superelement,
   const RigidStress stress = rigid_stress(companion, superelement);
   if (!(stress.residual <= std::max(removed_of_largest * stress.largest, removed_of_stiffness * stress.stiffness)))
     throw Error(
-        fmt::format("the second order of the part is not right: {} has a stress of {:.1e} of the largest entry "
-                    "of H, and {:.1e} of the stiffness, which round-off does not explain",
+        fmt::format("the second-order terms of the part are wrong: {} gives a stress of {:.1e} times the largest entry "
+                    "of H, and {:.1e} times the stiffness divided by the length, which is more than round-off",
                     motion_text(stress.motion), stress.residual / stress.largest, stress.residual / stress.stiffness),
-        where, "say `second_order: no` in the part file to reduce it as a linear body, and report the part");
+        where,
+        "write `second_order: no` in the part file to reduce it as a linear body; please report this with the part "
+        "file");
   const ScaledMatrices scales = scale(superelement);
   const MatrixXd R = scaled_rigid_motions(superelement, scales.stiffness_row, scales.length);
   const MatrixXd W = R.completeOrthogonalDecomposition().pseudoInverse().transpose();

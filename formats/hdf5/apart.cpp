@@ -97,10 +97,11 @@ void leave_the_parent(int socket, pid_t parent) {
 bool close_door() {
   using enum CallFilter::Action;
   CallFilter filter;
-  filter.add(allow, {SYS_read, SYS_write, SYS_pread64, SYS_munmap, SYS_brk, SYS_mremap, SYS_madvise, SYS_mprotect,
-                     SYS_futex, SYS_clock_gettime, SYS_sched_yield, SYS_getpid, SYS_gettid, SYS_sysinfo,
+  filter.add(allow, {SYS_read,           SYS_write,        SYS_pread64,         SYS_munmap,  SYS_brk,
+                     SYS_mremap,         SYS_madvise,      SYS_mprotect,        SYS_futex,   SYS_clock_gettime,
+                     SYS_sched_yield,    SYS_getpid,       SYS_gettid,          SYS_sysinfo,
                      SYS_sigaltstack,  // sanitizers call it before they throw
-                     SYS_rt_sigprocmask, SYS_rt_sigreturn, SYS_restart_syscall, SYS_exit, SYS_exit_group});
+                     SYS_rt_sigprocmask, SYS_rt_sigreturn, SYS_restart_syscall, SYS_exit,    SYS_exit_group});
   filter.add(allow, SYS_mmap, {3, MAP_TYPE, MAP_PRIVATE, false});
   return filter.install();
 }
@@ -205,21 +206,20 @@ double seconds_of(clockid_t clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-void tell_unconfined() {
-  static bool told = false;
-  if (!told)
-    complain(
-        "note",
-        "HDF5 files are read by a process that keeps all its rights: this system lacks seccomp or forbids it. A crafted "
-        "file could do more harm");
-  told = true;
+void report_unconfined() {
+  static bool reported = false;
+  if (!reported)
+    complain("note",
+             "HDF5 files are read without a sandbox, because this system lacks seccomp or forbids it. A malicious file "
+             "could do more harm");
+  reported = true;
 }
 
 Place place_in(std::string& text, const std::string& path) {
   return [&](std::uint64_t bytes) {
     if (bytes > most_text)
       throw Error(fmt::format("holds more than {} bytes of names", most_text), path,
-                  "compare it with its specification");
+                  "compare the file with its specification");
     text.resize(bytes);
     return text.data();
   };
@@ -275,7 +275,7 @@ Apart::Apart(const std::vector<std::string>& paths, const ReadingLimits& limits)
     return;
   }
   impl_->end();
-  throw Error(fmt::format("no process can be started to read it: {}", std::strerror(number)), paths.front(),
+  throw Error(fmt::format("cannot start a process that reads the file: {}", std::strerror(number)), paths.front(),
               remedy_of_errno(number));
 }
 
@@ -294,7 +294,7 @@ void Apart::Impl::end() {
 void Apart::Impl::give_up() {
   end();
   if ((WIFEXITED(status) && WEXITSTATUS(status) == left_without_memory) || !is_memory_left())
-    throw Error("there is no memory to read it: it is damaged, or memory is short", path,
+    throw Error("there is not enough memory to read the file: it is damaged, or memory is short", path,
                 "close other programs, raise the limit (`ulimit -v`), or write the file again");
   throw Error("is an HDF5 file, but so damaged that HDF5 cannot read it", path, "write or copy the file again");
 }
@@ -314,9 +314,9 @@ Head Apart::Impl::next_head() {
     if (now - *computed > limits.processor_seconds) give_up();
     if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < limits.wall_seconds) continue;
     end();
-    throw Error(fmt::format("could not be read within {} s: it is damaged, or its disk does not answer",
+    throw Error(fmt::format("could not be read within {} s: it is damaged, or its disk does not respond",
                             std::ceil(limits.wall_seconds)),
-                path, "copy it to another disk, or write it again");
+                path, "copy the file to another disk, or write it again");
   }
 }
 
@@ -344,7 +344,7 @@ void Apart::Impl::receive(const Place& place) {
     }
     std::memcpy(to + done, window, std::min(window_bytes, bytes - done));
   }
-  if (head.answer == Answer::opening_unconfined) tell_unconfined();
+  if (head.answer == Answer::opening_unconfined) report_unconfined();
   if (head.answer == Answer::complaint) throw Unpacker(complaint, path, "HDF5 cannot read it").error();
 }
 
@@ -369,7 +369,7 @@ void Apart::ask(std::size_t file, const std::string& request, const Place& place
   impl_->path = impl_->paths.at(file);
   const std::string bytes = bytes_of(file, asks, request);
   if (bytes.size() > longest_request)
-    throw Error("is asked for an object with too long a name", impl_->path, "shorten the name");
+    throw Error("cannot look up an object, because its name is too long", impl_->path, "shorten the name");
   impl_->send(bytes.data(), bytes.size());
   impl_->receive(place);
 }

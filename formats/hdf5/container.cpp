@@ -26,8 +26,8 @@ constexpr std::size_t max_text = 1u << 20;
 constexpr std::size_t max_report = 1u << 26;
 constexpr std::size_t conversion_bytes = 16u << 10;
 constexpr const char* damaged_values =
-    "the file is damaged (checksums tell) or uses a filter that is not installed; write or copy it again";
-constexpr const char* write_again = "the file is damaged; write it again";
+    "the file is damaged, or uses a filter that is not installed; write or copy the file again";
+constexpr const char* write_again = "the file is damaged; write or copy the file again";
 
 std::string type_in_words(Id type) {
   const std::size_t bits = 8 * H5Tget_size(type);
@@ -175,7 +175,7 @@ int number_of_last_error() {
 /// Problem of the HDF5 call that just failed. Damaged sizes can request any amount of memory.
 Problem last_problem(const std::string& action, const std::string& remedy) {
   if (number_of_last_error() == ENOMEM)
-    return {action + ": no memory for it", remedy + "; where memory is short, raise the limit (`ulimit -v`)"};
+    return {action + ": not enough memory", remedy + "; if memory is short, raise the limit (`ulimit -v`)"};
   const Error error = last_error(action, "", remedy);
   return {error.message(), error.remedy()};
 }
@@ -272,7 +272,7 @@ OpenFile::OpenFile(const std::string& path)
   if (descriptor_ < 0) {
     const int number = errno;
     throw Error(fmt::format("cannot open the file: {}", std::strerror(number)), path,
-                number == ENOENT ? "check the name; relative names count from the file that names them"
+                number == ENOENT ? "check the name; a relative name starts at the folder of the file that contains it"
                                  : "check the name and the permissions of the file");
   }
   struct stat status {};
@@ -291,7 +291,7 @@ Container::Container(const OpenFile& file, Completeness completeness) : path_(fi
   silence();
   if (!has_signature(file))
     throw Error(fmt::format("is not an HDF5 file ({} bytes without the HDF5 signature)", file.size()), path_,
-                "give a file written by reducer, mechanism, or another program that follows the specification");
+                "give a file written by reducer, mechanism, or another program that writes this file format");
   const Handle access = access_through(file.descriptor(), file.size());
   constexpr const char* name = "/file";  // absolute, so that HDF5 does not ask for the current folder
   file_ = Handle(H5Fopen(name, H5F_ACC_RDONLY, access.id()), H5Fclose);
@@ -304,8 +304,8 @@ Container::Container(const OpenFile& file, Completeness completeness) : path_(fi
     if (!file_.valid()) file_ = Handle(H5Fopen(name, H5F_ACC_RDWR, access.id()), H5Fclose);
   }
   if (!file_.valid())
-    throw last_error("is an HDF5 file, but it is damaged, cut short, or was not closed by the program that wrote it",
-                     path_, "write or copy it again");
+    throw last_error("is an HDF5 file, but it is damaged or truncated, or the program that wrote it did not close it",
+                     path_, "write or copy the file again");
   texts_ = std::make_unique<VariableTexts>(file.descriptor(), file_.id());
 }
 
@@ -321,7 +321,8 @@ ObjectEntry Container::describe(const std::string& object) const {
     const htri_t found = H5Lexists(file_.id(), object.c_str(), H5P_DEFAULT);
     if (found <= 0) {
       entry.state = found < 0 ? ObjectState::unknown : ObjectState::absent;
-      if (found < 0) entry.problem = last_problem("cannot be looked up", "the file is damaged; write or copy it again");
+      if (found < 0)
+        entry.problem = last_problem("cannot be looked up", "the file is damaged; write or copy the file again");
       return entry;
     }
     entry.state = ObjectState::link;
@@ -427,7 +428,7 @@ std::vector<std::string> Container::read_texts(const std::string& name, std::uin
   const Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
   if (kind_of(type.id()) != ElementKind::text ||
       H5Sget_simple_extent_npoints(space.id()) != static_cast<hssize_t>(count))
-    throw Error("does not hold the expected texts", place(name), damaged_values);
+    throw Error("does not hold the expected strings", place(name), damaged_values);
   if (count == 0) return {};
   const auto read = [&](Id as, void* to) { return H5Dread(dataset, as, H5S_ALL, H5S_ALL, H5P_DEFAULT, to) >= 0; };
   if (H5Tis_variable_str(type.id()) > 0) return texts_->read(count, max_report, place(name), read);

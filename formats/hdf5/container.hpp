@@ -12,8 +12,8 @@
 
 namespace tisserand::formats::hdf5 {
 
-/// An ordinary file opened for reading, before anything is read. Throws Error: no such file, no permission, a folder,
-/// no bytes.
+/// Regular file opened for reading, before any of its bytes are read. The constructor throws Error: no such file, no
+/// permission, a folder, no bytes.
 class OpenFile {
  public:
   explicit OpenFile(const std::string& path);
@@ -30,15 +30,18 @@ class OpenFile {
   std::uint64_t size_ = 0;
 };
 
+/// HDF5 file opened in the reading process, which reads and describes its objects.
 class Container {
  public:
-  /// Throws Error: not HDF5, cut short, not closed properly. `file` must outlive this object.
+  /// Opens the HDF5 file. Requires that `file` outlives this object. Throws Error: not HDF5, cut short, not closed
+  /// properly.
   Container(const OpenFile& file, Completeness completeness);
 
   const std::string& path() const { return path_; }
   bool closed_properly() const { return closed_properly_; }
   ObjectEntry describe(const std::string& object) const;
-  /// Whether a dataset cannot grow and has at most `bytes` bytes (texts of variable length: bytes of references).
+  /// Whether a dataset cannot grow and has at most `bytes` bytes. Texts of variable length count with the bytes of
+  /// their references.
   bool is_fixed_and_below(const std::string& dataset, std::uint64_t bytes) const;
   // Both throw Error, also if the number of values differs from the expected one.
   std::vector<std::string> read_texts(const std::string& dataset, std::uint64_t count) const;
@@ -46,7 +49,7 @@ class Container {
 
  private:
   std::string place(const std::string& object) const;
-  /// The open dataset `name`. It stays open until another one is requested.
+  /// Identifier of the open dataset `name`. The dataset stays open until another one is requested.
   Id dataset(const std::string& name) const;
   void describe_attributes(Id object, ObjectEntry& entry) const;
   AttributeEntry describe_attribute(Id object, const std::string& name) const;

@@ -6,8 +6,8 @@
 
 namespace tisserand::formats::hdf5 {
 
-/// Access properties that read `size` bytes from `descriptor`, whatever name H5Fopen() gets. If the file is opened for
-/// writing too, what HDF5 writes stays in memory.
+/// Access properties for H5Fopen() with which HDF5 reads `size` bytes from `descriptor`, whatever file name it gets. If
+/// the file is opened for writing too, what HDF5 writes stays in memory.
 Handle access_through(int descriptor, std::uint64_t size);
 
 }  // namespace tisserand::formats::hdf5

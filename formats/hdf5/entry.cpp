@@ -29,7 +29,7 @@ Problem unpack_problem(Unpacker& from) {
 template <class T>
 T unpack_choice(Unpacker& from, T last) {
   const auto value = from.value<std::uint8_t>();
-  from.require(value <= static_cast<std::uint8_t>(last), "it has a kind that is not known");
+  from.require(value <= static_cast<std::uint8_t>(last), "its kind is unknown");
   return static_cast<T>(value);
 }
 
@@ -195,7 +195,7 @@ std::string opening_of(const Container& container) {
 }
 
 void answer(const Container& container, std::string_view request, const Place& place) {
-  Unpacker from(request, container.path(), "this is no request");
+  Unpacker from(request, container.path(), "the request is not valid");
   switch (unpack_choice(from, Question::values)) {
     case Question::entry: {
       Packer to;

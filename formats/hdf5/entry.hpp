@@ -22,14 +22,15 @@ struct DatasetInfo {
   std::string type_text;           ///< description, for example "32-bit float"
   Shape shape;                     ///< empty: scalar
   bool written = true;             ///< false: some of its storage was never written
-  bool filtered = false;           ///< compressed or packed otherwise; checksums do not count
-  std::uint64_t stored_bytes = 0;  ///< without checksums
+  bool filtered = false;           ///< compressed or packed otherwise; a checksum alone is no filter
+  std::uint64_t stored_bytes = 0;  ///< stored size without checksums
 };
 
-/// Files that may be opened: only properly closed ones, or also those of a run that still writes or was killed.
+/// Files that may be opened. closed: properly closed files only. any: also files of a run that still writes or was
+/// killed.
 enum class Completeness { closed, any };
 
-/// Limit of the listed names of a group or of an object's attributes.
+/// Largest number of listed members of a group, or of listed attributes of an object.
 inline constexpr std::uint64_t max_members = 10000;
 
 /// Reason why something is unavailable; empty if it is available.
@@ -37,6 +38,7 @@ struct Problem {
   std::string message, remedy;
 };
 
+/// Description of an attribute, with its value if it is one text or one number.
 struct AttributeEntry {
   enum class Kind : std::uint8_t { text, number, other };
 
@@ -51,19 +53,21 @@ struct AttributeEntry {
 
 enum class ObjectState : std::uint8_t { absent, unknown, link, broken, group, dataset, other };
 
+/// Description of an object of a file: a group, a dataset, or why it cannot be read.
 struct ObjectEntry {
   std::string name;  ///< absolute path
   ObjectState state = ObjectState::absent;
-  Problem problem;                         ///< for unknown or broken objects, lists of groups, infos of datasets
+  Problem problem;                         ///< reason for unknown or broken objects, lists of groups, infos of datasets
   std::vector<std::string> members;        ///< sorted; at most max_members
   std::vector<AttributeEntry> attributes;  ///< at most max_members
   Problem attribute_problem;
   DatasetInfo info;
-  std::string whole;  ///< answer for all values or texts of a small dataset, sent at the opening; or empty
+  /// Answer for all values or texts of a small dataset, which is sent when the file is opened; or empty.
+  std::string whole;
 };
 
 void pack(Packer& to, const ObjectEntry& entry);
-/// Reads an entry. Throws Error if the bytes do not form one.
+/// Reads an entry that pack() wrote. Throws Error if the bytes do not form an entry.
 ObjectEntry unpack_entry(Unpacker& from);
 
 /// Requested values of a dataset: all, or rows [first, first + count) with all columns or with one.
@@ -86,9 +90,11 @@ std::string texts_request(const std::string& dataset, std::uint64_t count);
 std::string values_request(const ValuesRequest& request);
 
 class Container;
-/// First answer of the reading process, sent when a file is opened: how it was closed, and its first objects.
+/// First answer of the reading process, sent when a file is opened: whether the file was closed properly, and its first
+/// objects.
 std::string opening_of(const Container& container);
-/// Stores the answer to one of the requests above. Throws Error.
+/// Stores at `place` the answer to a request made by entry_request(), texts_request() or values_request(). Throws
+/// Error.
 void answer(const Container& container, std::string_view request, const Place& place);
 
 }  // namespace tisserand::formats::hdf5

@@ -31,7 +31,7 @@ void throw_problem(const Problem& problem, const std::string& where) {
   if (!problem.message.empty()) throw Error(problem.message, where, problem.remedy);
 }
 
-constexpr const char* no_answer = "what HDF5 made of it is no answer";
+constexpr const char* no_answer = "the data that HDF5 returned are not valid";
 
 Unpacker unpack(const std::string& bytes, const std::string& path) { return {bytes, path, no_answer}; }
 
@@ -107,7 +107,7 @@ const ObjectEntry& InputFile::open(const std::string& object) const {
   const ObjectEntry* found = find(object);
   if (found == nullptr) throw Error("is missing", place(object), "compare the file with its specification");
   if (found->state == ObjectState::link)
-    throw Error("is a link to somewhere else", place(found->name), "store the object itself in the file");
+    throw Error("is a link to another object or file", place(found->name), "store the object itself in the file");
   if (found->state == ObjectState::broken) throw_problem(found->problem, place(found->name));
   return *found;
 }
@@ -123,7 +123,8 @@ bool InputFile::has_attribute(const std::string& object, const std::string& name
 
 std::vector<std::string> InputFile::members(const std::string& group) const {
   const ObjectEntry& found = open(group);
-  if (found.state != ObjectState::group) throw Error("is not a group", place(group), "compare with the specification");
+  if (found.state != ObjectState::group)
+    throw Error("is not a group", place(group), "compare the file with its specification");
   throw_problem(found.problem, place(group));
   return found.members;
 }
@@ -187,8 +188,8 @@ void InputFile::values(const ValuesRequest& request, void* values) const {
   }
   apart_->ask(number_, values_request(request), [&](std::uint64_t size) {
     if (size != bytes)
-      throw Error(fmt::format("{}: it has {} bytes in place of {}", no_answer, size, bytes), place(request.dataset),
-                  "the file is damaged, or made to do harm: do not use it");
+      throw Error(fmt::format("{}: {} bytes instead of {}", no_answer, size, bytes), place(request.dataset),
+                  "the file is damaged or malicious: do not use it");
     return static_cast<char*>(values);
   });
 }

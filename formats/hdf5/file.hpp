@@ -30,7 +30,7 @@ class Handle {
 
   Id id() const { return id_; }
   bool valid() const { return id_ >= 0; }
-  /// Closes now. Negative if HDF5 failed (for a file: its last data may be missing).
+  /// Closes the identifier now. The result is negative if HDF5 failed (for a file: its last data may be missing).
   int reset();
   /// Releases the identifier without closing it, so that the file on disk stays as it is.
   void abandon() { id_ = -1; }
@@ -48,12 +48,12 @@ Error last_error(const std::string& action, const std::string& where, const std:
 
 class Apart;
 
-/// File opened for reading by a process that lives as long as this object. Object names are absolute paths; "/" is the
-/// root group. Functions other than read...() return the state at the opening or at the first request.
+/// HDF5 file opened for reading by a process that lives as long as this object. Object names are absolute paths; "/" is
+/// the root group. Functions other than read...() return the state at the opening or at the first request.
 class InputFile {
  public:
-  /// Throws Error: no such file, no permission, a folder, not HDF5, cut short, not closed properly, or so damaged that
-  /// HDF5 cannot read it.
+  /// Opens the file. Throws Error: no such file, no permission, a folder, not HDF5, cut short, not closed properly, or
+  /// so damaged that HDF5 cannot read it.
   InputFile(const std::string& path, Completeness completeness);
   ~InputFile();
 
@@ -68,9 +68,9 @@ class InputFile {
 
   // All of these also throw Error if HDF5 crashes or exceeds a limit, since it can loop forever. Limits are ten times
   // the processor time of an ordinary read, or much more than a slow disk needs.
-  /// Attribute of one string (variable or fixed length, at most 1 MiB).
+  /// Value of an attribute that is one string (variable or fixed length, at most 1 MiB).
   std::string text_attribute(const std::string& object, const std::string& name) const;
-  /// Attribute of one number, integer or floating, as double.
+  /// Value of an attribute that is one integer or floating-point number, as double.
   double number_attribute(const std::string& object, const std::string& name) const;
 
   /// Description of a dataset. Throws Error if it is missing, a group, a link, or stored outside of this file.
@@ -110,11 +110,12 @@ class InputFile {
   mutable std::map<std::string, ObjectEntry> known_;
 };
 
-/// Storage of large arrays: `none` uncompressed, `small` shuffled and deflated (for many zeros), `fast` likewise but in
+/// Storage of large arrays. none: uncompressed. small: shuffled and deflated (for many zeros). fast: like small, but in
 /// larger pieces and in a third of the time.
 enum class Packing { none, small, fast };
 
-/// Destination of writes: a file or group, the name of the file in messages, and the storage of large arrays.
+/// Destination of writes: the identifier of a file or group, the name of the file in messages, and the storage of large
+/// arrays.
 struct Output {
   Id id = -1;
   std::string where;
@@ -123,28 +124,30 @@ struct Output {
 
 // Writing, used by the writers of superelements and results. Missing groups of a path are created. Texts are UTF-8. All
 // throw Error.
-/// Creates the groups of a dataset's path, without times, so that equal contents give equal bytes.
+/// Creates the groups on the path of a dataset, without time stamps, so that equal contents give equal bytes.
 void create_groups(Id file, const std::string& dataset);
 void write_attribute(const Output& out, const std::string& object, const std::string& name, const std::string& value);
 void write_attribute(const Output& out, const std::string& object, const std::string& name, double value);
 void write_attribute(const Output& out, const std::string& object, const std::string& name, std::int32_t value);
 void write_dataset(const Output& out, const std::string& dataset, const Shape& shape, const double* values);
 void write_dataset(const Output& out, const std::string& dataset, const Shape& shape, const std::int32_t* values);
-/// Writes all values of a list or vector.
+/// Writes all values of a list or vector as a dataset of one dimension.
 template <class List>
 void write_dataset(const Output& out, const std::string& dataset, const List& values) {
   write_dataset(out, dataset, {static_cast<std::uint64_t>(values.size())}, values.data());
 }
-/// Writes fixed-length, zero-padded strings (the longest value sets the length), shape [values.size()].
+/// Writes texts as a dataset of fixed-length, zero-padded strings, of shape [values.size()]. The longest text sets the
+/// length.
 void write_texts(const Output& out, const std::string& dataset, const std::vector<std::string>& values);
-/// Writes one scalar string and replaces an existing one.
+/// Writes one scalar string dataset and replaces an existing one.
 void write_text(const Output& out, const std::string& dataset, const std::string& value);
 
-/// New file in memory (core driver, nothing on disk). file_image() closes it and returns its bytes.
+/// New HDF5 file in memory (core driver, nothing on disk). file_image() closes the file and returns its bytes.
 Handle create_in_memory(const std::string& where);
 std::string file_image(Handle file, const std::string& where);
 
-/// Disables HDF5's own error messages and its work at exit. Every opening function calls it.
+/// Disables HDF5's own error messages and its work at the exit of the program. Every function that opens a file calls
+/// it.
 void silence();
 
 }  // namespace tisserand::formats::hdf5

@@ -31,11 +31,12 @@ void check_unit(const Units& units, const Unit& unit, const std::string& name, U
                 const std::string& where) {
   const std::string place = fmt::format("{}attribute '{}'", where.empty() ? "" : where + ": ", name);
   if (!std::isfinite(unit.factor) || unit.factor < 0.0)
-    throw Error(fmt::format("is {}, expected a factor to SI, or 0 for consistent and unnamed units", unit.factor),
+    throw Error(fmt::format("is {}, expected a factor to SI, or 0 for consistent units without names", unit.factor),
                 place, "correct the number");
   if ((unit.factor > 0.0) != units.named())
-    throw Error(fmt::format("is {}, although length_unit is {}", unit.factor, units.length.factor), place,
-                "name all three units, or write 0 for all three");
+    throw Error(fmt::format("is {}, but length_unit is {}: units have either all three a factor or all three 0",
+                            unit.factor, units.length.factor),
+                place, "write factors of length, mass and time, or 0 for all three");
   if (unit.factor == 0.0) return;
   Unit known;
   try {

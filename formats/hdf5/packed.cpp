@@ -54,7 +54,7 @@ OutputFile::~OutputFile() {
 std::string OutputFile::stage() {
   if (file_.reset() < 0) {
     ::unlink(temporary_.c_str());
-    throw last_error("cannot be written to its end", path_, packed_remedy);
+    throw last_error("cannot be written completely", path_, packed_remedy);
   }
   return temporary_;
 }

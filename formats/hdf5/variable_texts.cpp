@@ -18,7 +18,7 @@ constexpr std::uint64_t most_collection = 1u << 27;
 constexpr std::uint64_t other_reference_bytes = 8;  // length before the address, index after it
 
 [[noreturn]] void refuse_texts(const std::string& what, const std::string& where) {
-  throw Error(what, where, "the file is damaged, or made to do harm: do not use it");
+  throw Error(what, where, "the file is damaged or malicious: do not use it");
 }
 
 std::uint64_t rounded_up(std::uint64_t size) { return (size + 7) / 8 * 8; }
@@ -66,19 +66,20 @@ void VariableTexts::load(std::uint64_t address, const std::string& where) {
   const auto read = [&](std::uint64_t size) {
     collection_.resize(size);
     const ssize_t count = ::pread(descriptor_, collection_.data(), size, static_cast<off_t>(begin_ + address));
-    if (count != static_cast<ssize_t>(size)) refuse_texts("refers to texts beyond the end of the file", where);
+    if (count != static_cast<ssize_t>(size)) refuse_texts("refers to strings beyond the end of the file", where);
   };
   loaded_ = 0;
   items_.clear();
   read(head);
   const std::uint64_t size = number(&collection_[8], length_bytes_);
   if (!collection_.starts_with("GCOL") || size < head || size > most_collection)
-    refuse_texts("refers to texts where there are none", where);
+    refuse_texts("refers to a place in the file that holds no strings", where);
   read(size);
   for (std::uint64_t at = head; size - at >= item_head;) {
     const Item item{number(&collection_[at], 2), at + item_head, number(&collection_[at + 8], length_bytes_)};
     if (item.index == 0) break;  // the rest is free
-    if (item.size > size - item.begin) refuse_texts("refers to a text that is longer than its place", where);
+    if (item.size > size - item.begin)
+      refuse_texts("refers to a string that is longer than its space in the file", where);
     items_.push_back(item);
     at = std::min(size, item.begin + rounded_up(item.size));
   }
@@ -90,9 +91,9 @@ std::string VariableTexts::text_at(std::uint64_t address, std::uint64_t index, s
                                    const std::string& where) {
   if (loaded_ != address) load(address, where);
   const auto found = std::ranges::lower_bound(items_, index, {}, &Item::index);
-  if (found == items_.end() || found->index != index) refuse_texts("refers to a text that is not there", where);
+  if (found == items_.end() || found->index != index) refuse_texts("refers to a string that does not exist", where);
   if (found->size != length)
-    refuse_texts(fmt::format("has a text of {} bytes, which is said to have {}", found->size, length), where);
+    refuse_texts(fmt::format("has a string of {} bytes, but its reference says {} bytes", found->size, length), where);
   const char* text = &collection_[found->begin];
   return std::string(text, ::strnlen(text, length));
 }
@@ -103,14 +104,15 @@ std::vector<std::string> VariableTexts::read(std::uint64_t count, std::uint64_t 
   const Handle type = reference_type(size);
   std::string references(size * count, '\0');
   if (!read(type.id(), references.data()))
-    throw last_error("cannot be read", where, "the file is damaged; write or copy it again");
+    throw last_error("cannot be read", where, "the file is damaged; write or copy the file again");
   std::vector<std::string> texts;
   std::uint64_t bytes = 0;
   for (const char* at = references.data(); texts.size() < count; at += size) {
     const std::uint64_t address = number(at + 4, address_bytes_);
     texts.push_back(address == 0 ? "" : text_at(address, number(at + 4 + address_bytes_, 4), number(at, 4), where));
     bytes += texts.back().size();
-    if (bytes > most) throw Error(fmt::format("holds more than {} bytes of text", most), where, "shorten the texts");
+    if (bytes > most)
+      throw Error(fmt::format("holds strings of more than {} bytes", most), where, "shorten the strings");
   }
   return texts;
 }

@@ -12,14 +12,15 @@
 
 namespace tisserand::formats::hdf5 {
 
+/// Reader of texts of variable length in an HDF5 file.
 class VariableTexts {
  public:
   /// `descriptor` is the open file that HDF5 knows as `file`.
   VariableTexts(int descriptor, Id file);
 
-  /// `count` texts, each cut off at its first zero byte. `read` fills a buffer with the references of the file, as
-  /// elements of `type`. Throws Error at `where` if a reference does not match its text, or if all texts exceed `most`
-  /// bytes.
+  /// Reads `count` texts, each cut off at its first zero byte. `read`: fills a buffer with the references of the file,
+  /// as elements of `type`. Throws Error at `where` if a reference does not match its text, or if all texts exceed
+  /// `most` bytes.
   std::vector<std::string> read(std::uint64_t count, std::uint64_t most, const std::string& where,
                                 const std::function<bool(Id type, void* references)>& read);
 

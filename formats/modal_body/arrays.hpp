@@ -9,7 +9,8 @@
 
 namespace tisserand::formats {
 
-/// Array of 3 x 3 blocks. A column has 9 numbers per block, column by column in memory and row by row in the file.
+/// Array of 3 x 3 blocks, of which a column holds 9 numbers per block. In memory the 9 numbers are column by column, in
+/// the file row by row.
 template <class Array>
 struct Blocks {
   Array& array;
@@ -19,7 +20,7 @@ struct ModalSizes {
   std::uint64_t n, m, f;  ///< nodes, modes, components of the residual
 };
 
-/// Calls visit(dataset, shape, meaning of the shape, array) for each array.
+/// Calls visit(dataset, shape, meaning of the shape, array) for each array of a modal body.
 template <class Body, class Visit>
 void for_each_array(Body& body, const ModalSizes& sizes, const Visit& visit) {
   const auto [n, m, f] = sizes;

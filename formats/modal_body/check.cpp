@@ -53,12 +53,14 @@ void check_sizes(const ModalBody& b, const FilePlace& place) {
   const bool whole = b.node_position.rows() == rows && b.node_mass.size() == rows && b.node_inertia.size() == n &&
                      b.X.size() == n &&
                      std::all_of(b.X.begin(), b.X.end(), [m](const auto& X) { return X.cols() == m; });
-  if (!whole) place.fail("/nodes", "its datasets differ in length", "write one row per name");
+  if (!whole) place.fail("/nodes", "its datasets differ in length", "write one row per name in /nodes/name");
   if (b.zeta.size() != m)
-    place.fail("/modes/zeta", fmt::format("{} ratios for {} modes", b.zeta.size(), m), "write one per mode");
+    place.fail("/modes/zeta", fmt::format("has {} damping ratios for {} modes", b.zeta.size(), m),
+               "write one ratio per mode");
   const ModalIntegrals& s = b.integrals;
   if (s.C1.cols() != m || s.P1.size() != 9 * m || s.P2.rows() != 9 * m || s.P2.cols() != m || s.N_mu.cols() != m)
-    place.fail("/integrals", "its datasets have other sizes than the modes", "write the sums of formats/MODAL_BODY.md");
+    place.fail("/integrals", "its datasets have other sizes than the modes",
+               "write the sums that formats/MODAL_BODY.md defines");
 }
 
 void check_names(const ModalBody& b, const FilePlace& place) {
@@ -66,11 +68,11 @@ void check_names(const ModalBody& b, const FilePlace& place) {
   for (std::size_t i = 0; i < b.node_name.size(); ++i) {
     const std::string& name = b.node_name[i];
     if (!is_name(name) || name.size() > 255)
-      place.fail("/nodes/name", fmt::format("entry {} is no name of a node", i),
+      place.fail("/nodes/name", fmt::format("entry {} is not a valid name of a node", i),
                  "use letters, digits, _ and -, beginning with a letter or _");
     if (!seen.insert(name).second)
       place.fail("/nodes/name", fmt::format("entry {} is '{}', the name of an earlier node", i, name),
-                 "give each node a name of its own");
+                 "give each node its own name");
   }
   for (const auto& [attribute, text] : {std::pair{"name", &b.name}, std::pair{"producer", &b.producer}}) {
     const bool clean =
@@ -86,7 +88,7 @@ void check_finite(const Matrix& values, const std::string& dataset, const FilePl
     for (Index i = 0; i < values.rows(); ++i)
       if (!(std::abs(values(i, j)) < largest_value))
         place.fail(dataset, fmt::format("[{}, {}] = {} is not a usable number", i, j, values(i, j)),
-                   "write finite numbers");
+                   "write finite numbers below 1e100");
 }
 
 void check_finite(double value, const std::string& dataset, const FilePlace& place) {
@@ -123,7 +125,7 @@ void check_masses(const ModalBody& b, const FilePlace& place) {
   for (std::size_t k = 0; k < b.node_name.size(); ++k) {
     const double mass = b.node_mass[k];
     if (mass < 0.0)
-      place.fail("/nodes/mass", fmt::format("entry {} is {}, expected no negative mass", k, mass), "correct it");
+      place.fail("/nodes/mass", fmt::format("entry {} is {}, but a mass must not be negative", k, mass), "correct it");
     if (!is_inertia(b.node_inertia[k]))
       place.fail("/nodes/inertia",
                  fmt::format("entry {} (node '{}') is not symmetric and positive semidefinite", k, b.node_name[k]),
@@ -135,11 +137,13 @@ void check_modes(const ModalBody& b, const FilePlace& place) {
   for (Index j = 0; j < b.modes(); ++j) {
     if (!(b.omega2[j] > 0.0))
       place.fail("/modes/omega2", fmt::format("entry {} is {}, expected a positive number", j, b.omega2[j]),
-                 "leave rigid motions out: the frame carries them");
+                 "remove rigid-body modes: the body frame already has these motions");
     if (j > 0 && b.omega2[j] < b.omega2[j - 1])
-      place.fail("/modes/omega2", fmt::format("entry {} is smaller than the one before", j), "sort the modes");
+      place.fail("/modes/omega2", fmt::format("entry {} is smaller than the entry before it", j),
+                 "sort the modes by frequency");
     if (b.zeta[j] < 0.0)
-      place.fail("/modes/zeta", fmt::format("entry {} is {}, expected no negative ratio", j, b.zeta[j]), "correct it");
+      place.fail("/modes/zeta", fmt::format("entry {} is {}, but a damping ratio must not be negative", j, b.zeta[j]),
+                 "correct it");
   }
 }
 
@@ -161,7 +165,7 @@ void check_node_reference(const ModalBody& b, const FilePlace& place) {
     place.fail("/reference/node", "there are not six reference conditions", "fix exactly six components of nodes");
   for (std::size_t i = 0; i < 6; ++i) {
     if (b.reference_node[i] < 0 || b.reference_node[i] >= count_of(b.node_name))
-      place.fail("/reference/node", fmt::format("entry {} is no row of /nodes/name", i), "correct the number");
+      place.fail("/reference/node", fmt::format("entry {} is not a row of /nodes/name", i), "correct the number");
     if (b.reference_component[i] < 0 || b.reference_component[i] > 5)
       place.fail("/reference/component", fmt::format("entry {} is not 0 to 2 (translation) or 3 to 5 (rotation)", i),
                  "correct the number");
@@ -174,7 +178,7 @@ void check_node_reference(const ModalBody& b, const FilePlace& place) {
         fmt::format(
             "the six conditions do not fix the frame to the body (smallest singular value {:.1e} of the largest)",
             regularity),
-        "fix components that no rigid motion leaves unmoved, such as 3 + 2 + 1 translations at three nodes");
+        "fix six components that prevent every rigid-body motion, such as 3 + 2 + 1 translations at three nodes");
   for (std::size_t i = 0; i < 6 && b.modes() > 0; ++i) {
     const auto node = static_cast<std::size_t>(b.reference_node[i]);
     const int component = b.reference_component[i];
@@ -200,8 +204,9 @@ void check_mean_axis(const ModalBody& b, const FilePlace& place) {
     if (translation > reference_tolerance * unit || rotation > reference_tolerance * unit * length)
       place.fail(
           "/modes/X",
-          fmt::format("mode {} moves or turns the mean axis: {:.3g}, {:.3g}, expected 0", j, translation, rotation),
-          "use elastic modes of the free body, orthogonal to its rigid motions in the lumped masses");
+          fmt::format("mode {} moves the mean axis: translation {:.3g}, rotation {:.3g}, expected 0", j, translation,
+                      rotation),
+          "use elastic modes of the free body that are orthogonal to its rigid-body motions with the lumped masses");
   }
 }
 
@@ -216,13 +221,13 @@ void check_integrals(const ModalBody& b, const FilePlace& place, std::vector<std
                "put the frame at the centre of mass of the undeformed body");
   const Matrix3d J = s.P0.trace() * Matrix3d::Identity() - s.P0 + s.J_mu;
   if (!is_inertia(s.P0) || !is_inertia(s.J_mu))
-    place.fail("/integrals/P0", "with J_mu is no inertia: not symmetric and positive semidefinite",
+    place.fail("/integrals/P0", "P0 and J_mu must be symmetric and positive semidefinite",
                "write the sums over the nodes");
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(J);
   if (eigen.eigenvalues()[0] <= 1e-12 * eigen.eigenvalues()[2])
     warnings.push_back(
-        fmt::format("The body has no inertia about the axis ({:.6g}, {:.6g}, {:.6g}) of its frame; a mechanism must "
-                    "hold it against turning about this axis.",
+        fmt::format("The body has no inertia about the axis ({:.6g}, {:.6g}, {:.6g}) of its frame. The mechanism must "
+                    "prevent rotation about this axis.",
                     eigen.eigenvectors()(0, 0), eigen.eigenvectors()(1, 0), eigen.eigenvectors()(2, 0)));
   for (Index i = 0; i < b.modes(); ++i)
     for (Index j = 0; j <= i; ++j) {
@@ -243,7 +248,7 @@ void check_against_nodes(const ModalBody& b, const FilePlace& place) {
     if (!(difference <= integral_tolerance * scale))
       place.fail(std::string("/integrals/") + name,
                  fmt::format("differs from the sum over the nodes by {:.3g}", difference),
-                 "write the sums over all nodes, or set all_nodes to 0 if some nodes were left out");
+                 "write the sums over all nodes, or set all_nodes to 0 if the file omits some nodes");
   };
   using One = Eigen::Matrix<double, 1, 1>;
   agree("mass", One(s.mass), One(sums.mass), mass);
@@ -270,14 +275,15 @@ void check_against_nodes(const ModalBody& b, const FilePlace& place) {
 /// Checks indices, sizes and symmetry of the residual.
 void check_residual(const ModalBody& body, const FilePlace& place) {
   const ModalResidual& r = body.residual;
-  const char* const remedy = "write the answers of formats/MODAL_BODY.md";
+  const char* const remedy = "write the residual that formats/MODAL_BODY.md defines";
   const auto f = static_cast<Index>(r.node.size());
   if (r.component.size() != r.node.size() || r.flexibility.rows() != f || r.flexibility.cols() != f ||
       r.mass.rows() != f || r.mass.cols() != f || r.coupling.cols() != f || (f > 0 && r.coupling.rows() != 6))
     place.fail("/residual", "its datasets differ in length", remedy);
   for (std::size_t k = 0; k < r.node.size(); ++k) {
     if (r.node[k] < 0 || r.node[k] >= count_of(body.node_name))
-      place.fail(fmt::format("/residual/node[{}]", k), fmt::format("is {}, no row of /nodes/name", r.node[k]), remedy);
+      place.fail(fmt::format("/residual/node[{}]", k),
+                 fmt::format("is {}, which is not a row of /nodes/name", r.node[k]), remedy);
     if (r.component[k] < 0 || r.component[k] > 5)
       place.fail(fmt::format("/residual/component[{}]", k), fmt::format("is {}, expected 0 to 5", r.component[k]),
                  remedy);

@@ -12,31 +12,34 @@
 
 namespace tisserand::formats {
 
-/// Inertia integrals as sums over all nodes: masses m, inertias μ, positions x, rows Xd and Xt (3 x m) of the modes.
+/// Inertia integrals of a modal body, as sums over all its nodes with masses m, inertias μ and positions x. Xd and Xt
+/// (3 x modes) are the translations and rotations of the modes at the node; index j names a mode.
 struct ModalIntegrals {
-  double mass = 0.0;                               ///< Σ m
-  Eigen::Vector3d c0 = Eigen::Vector3d::Zero();    ///< Σ m x
-  Eigen::Matrix3Xd C1;                             ///< Σ m Xd
-  Eigen::Matrix3d P0 = Eigen::Matrix3d::Zero();    ///< Σ m x xᵀ
-  Eigen::VectorXd P1;                              ///< 9 m: block j is Σ m x Xd_jᵀ, column by column
-  Eigen::MatrixXd P2;                              ///< 9 m x m: block j of column i is Σ m Xd_i Xd_jᵀ
+  double mass = 0.0;                             ///< Σ m
+  Eigen::Vector3d c0 = Eigen::Vector3d::Zero();  ///< Σ m x
+  Eigen::Matrix3Xd C1;                           ///< Σ m Xd
+  Eigen::Matrix3d P0 = Eigen::Matrix3d::Zero();  ///< Σ m x xᵀ
+  Eigen::VectorXd P1;                            ///< (9 · modes) block j is Σ m x Xd_jᵀ, column by column
+  /// (9 · modes x modes) block j of column i is Σ m Xd_i Xd_jᵀ, column by column.
+  Eigen::MatrixXd P2;
   Eigen::Matrix3d J_mu = Eigen::Matrix3d::Zero();  ///< Σ μ
   Eigen::Matrix3Xd N_mu;                           ///< Σ μ Xt
 };
 
 enum class ModalReference { nodes, mean_axis };
 
-/// Residual of the modes: static answers w = K⁺ f − Φ ω⁻² Φᵀ f, on the reference, to f unit forces at components of
-/// some nodes.
+/// Residual flexibility of a modal body: static displacements K⁺ p − Φ ω⁻² Φᵀ p, relative to the reference node, under
+/// unit forces p at components of some nodes. There are f of them. K: stiffness matrix; Φ: modes; ω: their frequencies.
 struct ModalResidual {
-  std::vector<int> node;        ///< f: rows of node_name
-  std::vector<int> component;   ///< f: 0-2 translations, 3-5 rotations, axes of the body frame
-  Eigen::MatrixXd flexibility;  ///< f x f: fᵀ w
-  Eigen::MatrixXd mass;         ///< f x f: wᵀ M w
-  Eigen::MatrixXd coupling;     ///< 6 x f: Rᵀ M w of the rigid motions about the origin of the frame
+  std::vector<int> node;        ///< (f) rows of node_name
+  std::vector<int> component;   ///< (f) 0-2 translations, 3-5 rotations, axes of the body frame
+  Eigen::MatrixXd flexibility;  ///< (f x f) fᵀ w
+  Eigen::MatrixXd mass;         ///< (f x f) wᵀ M w
+  Eigen::MatrixXd coupling;     ///< (6 x f) Rᵀ M w for the rigid motions R about the origin of the frame
 };
 
-/// Modal body with n nodes and m modes. Vectors in axes of the body frame. Modes are mass-normalised (√mass length).
+/// Modal body with n nodes and m modes. Vectors are in axes of the body frame. Modes are mass-normalised (unit of modal
+/// coordinates: √mass length).
 struct ModalBody {
   std::string name;
   std::string producer;  ///< program and version
@@ -61,13 +64,13 @@ struct ModalBody {
   Eigen::Index modes() const { return omega2.size(); }
 };
 
-/// SHA-256 (hex) of modes and nodes, by which recovery and results files refer to the body.
+/// SHA-256 (hex) of the modes and nodes of a modal body, by which recovery and results files refer to it.
 std::string content_id(const ModalBody& body);
 
-/// Integrals computed from the listed nodes.
+/// Inertia integrals computed from the listed nodes of a modal body.
 ModalIntegrals integrals_of(const ModalBody& body);
 
-/// Checks all rules of MODAL_BODY.md and returns warnings as sentences. `where`: file name in messages. Throws Error.
+/// Checks all rules of MODAL_BODY.md. Returns warnings as sentences. `where`: file name in messages. Throws Error.
 std::vector<std::string> check(const ModalBody& body, const std::string& where);
 
 struct LoadedModalBody {
@@ -75,13 +78,13 @@ struct LoadedModalBody {
   std::vector<std::string> warnings;
 };
 
-/// Reads and checks a file. Throws Error that names dataset, indices, value and meaning.
+/// Reads and checks a modal body file. Throws Error that names dataset, indices, value and meaning.
 LoadedModalBody read_modal_body(const std::string& path);
 
-/// Checks and returns the bytes of the file.
+/// Bytes of the modal body file. Checks the body first.
 std::string modal_body_image(const std::string& path, const ModalBody& body);
 
-/// Checks, writes the file under a temporary name and renames it.
+/// Checks the body, writes its file under a temporary name and renames it to `path`.
 void write_modal_body(const std::string& path, const ModalBody& body);
 
 }  // namespace tisserand::formats

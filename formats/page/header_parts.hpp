@@ -12,23 +12,24 @@
 
 namespace tisserand::formats {
 
+/// Shape of a body as the header of a page describes it.
 struct PageShape {
   const Surface& surface;  ///< without vertices: a marker
   std::string source;
   bool points = false;   ///< whether the vertices are drawn too
   int all_vertices = 0;  ///< number of vertices before thinning
-  /// Length that represents a unit of stress in the modes; 0: no stress. Rows of stress ([xx yy zz], [xy yz zx] per
-  /// vertex) follow those of displacement.
+  /// Length that represents a unit of stress in the modes; 0: no stress. With stress, rows of stress ([xx yy zz], [xy
+  /// yz zx] per vertex) follow the rows of displacement.
   double stress_scale = 0.0;
   std::vector<int> elements{};  ///< element of each triangle; empty: unknown
 };
 
 Json shape_json(const PageShape& shape, const FewModes& few, PageBlocks& blocks);
 
-/// Diagonal of the bounding box.
+/// Length of the diagonal of the surface's bounding box.
 double size_of(const Surface& surface);
 
-/// Labels of length, time, angle, force, moment, stress, energy, mass.
+/// Unit labels of length, time, angle, force, moment, stress, energy and mass.
 Json units_json(const Units& units);
 
 /// Pascals per unit of stress; null if the units have no names.

@@ -9,13 +9,14 @@
 
 namespace tisserand::formats {
 
-/// Viewer built from web/ (dist/view.html). Data replace one line of it.
+/// HTML of the viewer, built from web/ (dist/view.html). page_text() replaces one line of it by data.
 std::string_view viewer_bundle();
 
-/// Text of JSON without characters that could end the HTML element or the script line around it.
+/// Text of a JSON header without characters that could end the HTML element or the script line around it.
 std::string header_text(const Json& header);
 
-/// `bundle` with its line `<!-- tisserand-data -->` replaced by the data. Without this line the program aborts.
+/// Page: `bundle` with its line `<!-- tisserand-data -->` replaced by header and blocks. Without this line the program
+/// aborts.
 std::string page_text(std::string_view bundle, Json header, const PageBlocks& blocks);
 
 }  // namespace tisserand::formats

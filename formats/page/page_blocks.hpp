@@ -16,28 +16,32 @@ using Json = nlohmann::ordered_json;
 /// Numbers row by row, as pages store them.
 using PageRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Collects blocks. Arrays added between two next() calls share a block. Each add function returns a header object.
+/// Collects the data blocks of a page. Arrays added between two next() calls share a block. Each add function returns
+/// the header object of its array.
 class PageBlocks {
  public:
-  /// Adds 32-bit numbers and keeps not-a-number. `shape`: its last extent is the number of columns of `values`.
+  /// Adds 32-bit floats, which may be NaN. `shape`: shape of the array, whose last extent is the number of columns of
+  /// `values`.
   Json add_floats(const PageRows& values, const std::vector<std::int64_t>& shape);
-  /// Adds times as differences from the first.
+  /// Adds times as differences from the first time.
   Json add_times(const Eigen::VectorXd& times);
-  /// Adds one row per instant as 32-bit differences from the first row, so that positions far away keep their digits. A
-  /// single row if nothing moves.
+  /// Adds one row per instant as 32-bit differences from the first row, so that positions far away keep their digits.
+  /// Adds a single row if no row differs.
   Json add_track(const PageRows& values);
-  /// Adds 16-bit integers: value = offset + scale × stored, with one scale and offset per column (the last extent).
+  /// Adds numbers as 16-bit integers: value = offset + scale × integer, with one scale and offset per column.
   Json add_positions(const PageRows& values);
-  /// Adds unit quaternions [w x y z] per row, continuous in sign, scale 1/32767. A single row if nothing turns.
+  /// Adds unit quaternions [w x y z] per row as integers of scale 1/32767, with signs that make them continuous. Adds a
+  /// single row if no row differs.
   Json add_rotations(const PageRows& values);
-  /// Adds m blocks of V x 3, block k in steps of `step[k]`. All values finite, |value| <= 32767 step.
+  /// Adds m modes of V x 3 values, mode k as integers in steps of `step[k]`. Requires finite values with |value| <=
+  /// 32767 step.
   Json add_modes(const PageRows& values, const std::vector<double>& step);
   /// Adds indices in rows of `width`.
   Json add_indices(const std::vector<std::uint32_t>& values, int width);
 
   /// Ends the current block if it is not empty.
   void next();
-  /// Table [[offset, length], ...] of the compressed blocks in stream().
+  /// Table [[offset, length], ...] of the compressed blocks in stream() [bytes].
   Json table() const;
   const std::string& stream() const { return stream_; }
 

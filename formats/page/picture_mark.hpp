@@ -6,8 +6,8 @@
 
 namespace tisserand::formats {
 
-/// `picture` with its producer: text "Software" in PNG, a comment in SVG and PDF, the line %%Creator in EPS. Other
-/// files, and files without the place for it, are returned unchanged.
+/// `picture` with the name of its producer: text "Software" in PNG, a comment in SVG and PDF, the line %%Creator in
+/// EPS. Other files, and files without the place for it, are returned unchanged.
 std::string with_producer(std::string picture, const std::string& producer);
 
 }  // namespace tisserand::formats

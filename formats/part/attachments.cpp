@@ -27,8 +27,8 @@ void read_division(const MapReader& map, BeamLine& beam) {
 void read_line(const MapReader& map, BeamLine& beam, const Part& part) {
   if (const YamlNode* on = map.find("on")) {
     beam.on = read_texts(map.context(), *on, "on");
-    map.refuse({"from", "to", "through", "elements", "size", "to_section"}, "beside 'on'",
-               "beams on a group take their lines and elements from it");
+    map.refuse({"from", "to", "through", "elements", "size", "to_section"}, "cannot be combined with 'on'",
+               "remove it: beams on a group get their lines and elements from the group");
     return;
   }
   if (const YamlNode* from = map.require("from")) beam.from = read_place(map.context(), *from, "from", part);
@@ -139,7 +139,7 @@ std::vector<ModalBodyRequest::Held> read_reference(const MapReader& map) {
     const bool all = entry->kind == YamlKind::scalar && entry->text == "all";
     held.push_back({entry->key, all ? 0b111111U : read_component_bits(map.context(), *entry, "component")});
   }
-  if (held.empty()) map.context().fail(node->place, "reference holds nothing", "name a place, or mean_axis");
+  if (held.empty()) map.context().fail(node->place, "reference holds no component", "name a place, or mean_axis");
   return held;
 }
 
@@ -231,7 +231,7 @@ std::vector<KeySet> attachment_key_sets() {
         {"at", "at", "place of the spider's own node, or `centroid` of the group", "`centroid`"},
         {"on", "text | integer | [text | integer]", "groups, or node numbers", "required"},
         choice<&SpiderLine::weights, spider_weights>(
-            "weights", "of averaging spiders: the `area` (or length, volume) that belongs to each node, or `equal`")}},
+            "weights", "for averaging spiders: the `area` (or length, volume) that belongs to each node, or `equal`")}},
       {"boundary_entry",
        {{"at", "at", ""},
         {"node", "integer", ""},

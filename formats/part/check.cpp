@@ -53,14 +53,15 @@ void check_section_of_beam(const Part& part, const BeamLine& beam, const Subject
                                       : "give shear_area_y and shear_area_z, or set theory: euler_bernoulli");
   const bool by_stiffness = section != part.sections.end() && section->by_stiffness;
   if (by_stiffness && !beam.material.empty())
-    subject.add("material", "'material' beside a section by stiffness", "remove it: the section needs none");
+    subject.add("material", "'material' cannot be combined with a section by stiffness",
+                "remove it: the section needs none");
   if (!by_stiffness && beam.material.empty())
     subject.faults.add(beam.where, "", subject.name + " has no 'material'", "add it, or give the section by stiffness");
   const auto second = std::ranges::find(part.sections, beam.to_section, &Section::name);
   if (section != part.sections.end() && second != part.sections.end() && second->by_stiffness != section->by_stiffness)
     subject.add("to_section",
                 fmt::format("only one of sections '{}' and '{}' is given by stiffness", section->name, second->name),
-                "give both by stiffness or none");
+                "give both sections by stiffness, or neither");
   subject.finite("angle_deg", beam.angle);
   if (!beam.from_offset.allFinite() || !beam.to_offset.allFinite()) subject.add("offset", "offsets must be finite");
 }
@@ -97,10 +98,11 @@ void check_modes(const Part& part, Faults& faults) {
   const ModeSelection& modes = part.modes;
   const Subject subject{"", modes.where, faults};
   if (modes.count < 0)
-    subject.add("modes", fmt::format("modes {} must not be negative", modes.count), "modes: 0 gives Guyan reduction");
+    subject.add("modes", fmt::format("modes {} must not be negative", modes.count),
+                "write modes: 0 for Guyan reduction");
   if (part.double_curvature < 0 || part.double_curvature > 100)
     subject.add("double_curvature", fmt::format("double_curvature {} must be 0 to 100 shapes", part.double_curvature),
-                "20 hold what plates need");
+                "20 shapes are enough for plates");
   subject.positive("cutoff", modes.cutoff);
   if (modes.moments && *modes.moments < 0)
     subject.add("moments", fmt::format("moments {} must not be negative", *modes.moments));
@@ -112,15 +114,15 @@ void check_modes(const Part& part, Faults& faults) {
   if (modes.mechanism == Mechanisms::allow && (free_modes || part.modal_body))
     subject.add("mechanism",
                 free_modes ? "mechanism: allow needs modes with the boundary held"
-                           : "mechanism: allow has no modal body: its modes have stiffness",
+                           : "mechanism: allow cannot be combined with `modal_body`, whose modes need stiffness",
                 free_modes ? "write method: craig_bampton" : "remove `modal_body`, or `mechanism`");
   if (!modes.accuracy) return;
   if (modes.moments.value_or(0) > 0)
-    subject.add("moments", "'accuracy' chooses how many moment vectors there are",
-                "remove `moments`, or write moments: 0 for internal modes alone");
+    subject.add("moments", "'accuracy' chooses the number of moment vectors itself",
+                "remove `moments`, or write moments: 0 for internal modes only");
   if (!(modes.accuracy->error > 0.0 && modes.accuracy->error < 1.0))
     subject.add("error", fmt::format("error {:g} must be between 0 and 1", modes.accuracy->error),
-                "0.001 is a thousandth of each frequency");
+                "for example 0.001, which is 0.1 % of each frequency");
   subject.positive("up_to", modes.accuracy->up_to);
 }
 
@@ -130,7 +132,7 @@ void check_modal_body(const Part& part, PartNames names, Faults& faults) {
   const Subject subject{"modal_body", body.where, faults};
   if (body.modes < 1)
     subject.add("modes", fmt::format("modes {} must be 1 or more", body.modes),
-                "the superelement beside it, or a rigid body of the scene, has none");
+                "for a body without modes, use the superelement, or a rigid body of the scene");
   subject.not_negative("damping", body.damping);
   int held = 0;
   for (const BoundaryNode& node : part.boundary) names.places.push_back(node.name);
@@ -141,14 +143,14 @@ void check_modal_body(const Part& part, PartNames names, Faults& faults) {
   }
   if (!body.held.empty() && held != 6)
     subject.add("reference", fmt::format("{} components are held", held),
-                "hold six: fewer leave the frame loose, more stiffen the body");
+                "hold six components: fewer do not fix the frame, more stiffen the body");
 }
 
 void check_boundary(const Part& part, const PartNames& names, Faults& faults) {
   const bool solved = !part.supports.empty() || !part.load_cases.empty();
   if (part.boundary.empty() && part.mesh.file.empty() && !solved)
     faults.add(part.file, "boundary", "the part has no boundary node",
-               "list the points at which it is joined or loaded, boundary: [base, tip]");
+               "list the points at which it is joined or loaded: boundary: [base, tip]");
   std::vector<std::string> seen;
   for (const BoundaryNode& node : part.boundary) {
     const Subject subject = check_name("boundary node", node, seen, faults);

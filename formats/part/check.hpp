@@ -10,30 +10,30 @@
 
 namespace tisserand::formats {
 
-/// Names that references may use.
+/// Names of a part file to which its entries may refer.
 struct PartNames {
   std::vector<std::string> materials;  ///< isotropic materials
-  std::vector<std::string> layers;     ///< all materials
+  std::vector<std::string> layers;     ///< all materials, which layers of a laminate may use
   std::vector<std::string> sections;
   std::vector<std::string> places;  ///< points, then spiders
   std::vector<std::string> groups;  ///< groups of the part file: defined ones, patches and their edges
 };
 
-/// All faults of a part. check(part) throws them.
+/// All faults of a part. check(part) throws them as one Error.
 Faults find_faults(const Part& part);
 
-/// Edge groups of a patch: "deck/edge1", "tube/start", ...
+/// Names of the edge groups of a patch: "deck/edge1", "tube/start", ...
 std::vector<std::string> edge_groups(const ShellPatch& patch);
 
-/// Pieces of find_faults(): patches, layouts, shells, solids; mesh file and groups; springs and spiders; supports,
-/// load cases.
+/// Parts of find_faults(). check_shells(): patches, layouts, shells, solids. check_mesh_and_groups(): mesh file and
+/// groups. check_attachments(): springs and spiders. check_loads(): supports and load cases.
 void check_shells(const Part& part, const PartNames& names, Faults& faults);
 void check_mesh_and_groups(const Part& part, const PartNames& names, Faults& faults);
 void check_attachments(const Part& part, const PartNames& names, Faults& faults);
 void check_loads(const Part& part, PartNames names, Faults& faults);
 void check_place(const Part& part, const PartNames& names, const Place& place, const std::string& key,
                  const Subject& subject);
-/// Checks names of groups. They must be known, unless a mesh file may define them.
+/// Checks that the groups `on` are known, unless a mesh file may define them.
 void check_group_names(const Part& part, const PartNames& names, const std::vector<std::string>& on,
                        const std::string& key, const Subject& subject);
 

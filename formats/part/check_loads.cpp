@@ -11,7 +11,7 @@ namespace {
 /// Checks the place of a load or support. It must be an existing node, so it cannot be a centroid.
 void check_loaded_place(const Part& part, const PartNames& names, const Place& place, const Subject& subject) {
   if (place.kind == PlaceKind::centroid) {
-    subject.add("at", "a centroid has no node of the part",
+    subject.add("at", "a centroid is not a node of the part",
                 "put a spider there and name it: spiders: {pad: {kind: averaging, on: ...}}");
     return;
   }

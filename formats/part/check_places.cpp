@@ -64,12 +64,13 @@ void check_stiffness(const SpringLine& spring, const Subject& subject) {
 
 void check_spider(const Part& part, const PartNames& names, const SpiderLine& spider, Faults& faults) {
   const Subject subject = subject_of("spider", spider, faults);
-  if (spider.on.empty() && spider.nodes.empty()) subject.add("on", "is on nothing", "name a group: on: left_hole");
+  if (spider.on.empty() && spider.nodes.empty())
+    subject.add("on", "is attached to nothing", "name a group: on: left_hole");
   check_group_names(part, names, spider.on, "on", subject);
   const bool own_centroid = spider.at.kind == PlaceKind::centroid && spider.at.name.empty();
   if (!own_centroid) check_place(part, names, spider.at, "at", subject);
   if (!spider.nodes.empty() && part.mesh.file.empty())
-    subject.add("on", "numbers of nodes without a mesh file", "name a group");
+    subject.add("on", "node numbers are given, but there is no mesh file", "name a group");
 }
 
 }  // namespace
@@ -84,7 +85,7 @@ void check_place(const Part& part, const PartNames& names, const Place& place, c
   if (place.kind == PlaceKind::centroid)
     check_group_names(part, names, {place.name}, key, subject);
   else if (place.kind != PlaceKind::position && part.mesh.file.empty())
-    subject.add(key, fmt::format("'{}' without a mesh file", place.kind == PlaceKind::node ? "node" : "near"),
+    subject.add(key, fmt::format("'{}' needs a mesh file", place.kind == PlaceKind::node ? "node" : "near"),
                 "name a point, or give mesh: {file: ...}");
   if (place.tolerance && !(*place.tolerance >= 0.0 && std::isfinite(*place.tolerance)))
     subject.add(key, fmt::format("tolerance {:g} must not be negative", *place.tolerance));

@@ -23,7 +23,7 @@ void check_orthotropic(const OrthotropicMaterial& m, Faults& faults) {
   if (m.E1 > 0.0 && m.E2 > 0.0 && !(m.nu12 * m.nu12 < m.E1 / m.E2))
     subject.add("nu12",
                 fmt::format("nu12 {:g} must be below sqrt(E1/E2) = {:g} in magnitude", m.nu12, std::sqrt(m.E1 / m.E2)),
-                "nu12 is the strain along 2 over that along 1 for tension along 1");
+                "nu12 is the contraction along 2 divided by the strain along 1, under tension along 1");
 }
 
 void check_layout(const ShellLayout& layout, const PartNames& names, const Subject& subject) {
@@ -55,7 +55,7 @@ void check_start(const std::optional<Eigen::Vector3d>& start, const Eigen::Vecto
 
 void check_turn(double angle, const Subject& subject, const std::string& key) {
   if (!(std::abs(angle) > 0.0 && std::abs(angle) <= 2.0 * M_PI * (1.0 + 1e-12)))
-    subject.add(key, fmt::format("angle_deg {:g} must be within 360 and not 0", angle * 180.0 / M_PI));
+    subject.add(key, fmt::format("angle_deg {:g} must be between -360 and 360, and not 0", angle * 180.0 / M_PI));
 }
 
 struct ShapeCheck {
@@ -140,7 +140,7 @@ void check_division(const ShellPatch& patch, const Subject& subject) {
 void check_has_layout(const Part& part, const ShellPatch& patch, const Subject& subject) {
   if (patch.layout || !part.shells.empty()) return;
   subject.add(
-      "thickness", "neither thickness and material nor a laminate",
+      "thickness", "neither thickness and material nor a laminate is given",
       fmt::format("give thickness and material here, or a shell: shells: {{skin: {{on: {}, ...}}}}", patch.name));
 }
 

@@ -8,10 +8,10 @@
 
 namespace tisserand::formats {
 
-/// Lists of fields, one for each kind of map.
+/// Fields of part.yaml: one KeySet for each kind of map.
 std::vector<KeySet> part_key_sets();
 
-/// Types that the lists name in addition to these kinds of maps.
+/// Types that the fields of part_key_sets() use, in addition to its kinds of maps.
 std::vector<NamedType> part_types();
 
 }  // namespace tisserand::formats

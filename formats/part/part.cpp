@@ -135,7 +135,7 @@ std::vector<Field> part_fields() {
        "-"},
       plain<&ModeSelection::moments>(
           "moments", "number_of",
-          "number of moment vectors, in addition to the internal modes: answers of the interior to accelerations of "
+          "number of moment vectors, in addition to the internal modes: responses of the interior to accelerations of "
           "the boundary. They improve low frequencies far more than the same number of modes",
           "0; with `accuracy`: as many as it needs"),
       choice<&ModeSelection::method, method_words>(

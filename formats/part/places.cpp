@@ -62,7 +62,9 @@ void read_numbered(const MapReader& map, GroupDefinition& group) {
       ++kinds;
     }
   if (kinds > 1) map.fail("entities of different kinds are given", "make one group of each kind");
-  if (kinds == 1) map.refuse({"of"}, "beside numbers of entities", "remove it: the key says what they are");
+  if (kinds == 1)
+    map.refuse({"of"}, "cannot be combined with numbers of entities",
+               "remove it: the key of the numbers gives their kind");
 }
 
 void read_group(const MapReader& map, const Part& part, GroupDefinition& group) {
@@ -80,7 +82,7 @@ Eigen::Vector3d read_position(const Context& context, const YamlNode& node, cons
   if (!index) return unreadable();
   if (!part.points[*index].place) return part.points[*index].position;
   context.fail(node.place, fmt::format("{}: point '{}' is a node of the mesh file", what, node.text),
-               "geometry is drawn between points that are given by coordinates");
+               "use a point that is given by coordinates");
   return unreadable();
 }
 
@@ -89,9 +91,10 @@ Place read_place_keys(const MapReader& map, const Part& part) {
   const int given =
       static_cast<int>(map.has("node")) + static_cast<int>(map.has("near")) + static_cast<int>(map.has("centroid"));
   if (given != 1)
-    map.fail(given == 0 ? "none of 'node', 'near', 'centroid' is given" : "more than one of 'node', 'near', 'centroid'",
+    map.fail(given == 0 ? "none of 'node', 'near', 'centroid' is given"
+                        : "more than one of 'node', 'near', 'centroid' is given",
              "give one: {near: [x, y, z]}");
-  if (!map.has("near")) map.refuse({"tolerance"}, "without 'near'", "remove it");
+  if (!map.has("near")) map.refuse({"tolerance"}, "has no effect without 'near'", "remove it");
   if (const YamlNode* node = map.find("node")) {
     place.kind = PlaceKind::node;
     place.node = read_integer(map.context(), *node, "node").value_or(0);

@@ -17,18 +17,20 @@ inline constexpr Choice<MassMatrix> mass_matrices[] = {{"consistent", MassMatrix
 inline constexpr Choice<Cells> cell_words[] = {{"quadrilaterals", Cells::quadrilaterals},
                                                {"triangles", Cells::triangles}};
 
-/// Coordinates, or the position of a named point, which must come earlier and have coordinates. Not-a-number after an
-/// error.
+/// Reads coordinates [x, y, z], or the name of a point and returns its position. Requires that this point comes earlier
+/// and has coordinates. Returns NaN after an error.
 Eigen::Vector3d read_position(const Context& context, const YamlNode& node, const std::string& what, const Part& part);
 
-/// Reads a name, [x, y, z], or a map with one of node, near, centroid.
+/// Reads a place: a name, [x, y, z], or a map with one of the keys node, near, centroid.
 Place read_place(const Context& context, const YamlNode& node, const std::string& what, const Part& part);
-/// Reads the keys node, near, tolerance, centroid of a map that has exactly one of node, near, centroid.
+/// Reads a place from the keys node, near, tolerance and centroid of a map. Requires that the map has exactly one of
+/// node, near and centroid.
 Place read_place_keys(const MapReader& map, const Part& part);
 
-/// Reads one of x, y, z, rx, ry, rz, or a list. Bit 0-2 translations, bit 3-5 rotations.
+/// Reads directions: one of x, y, z, rx, ry, rz, or a list of them. Returns bit 0-2 for translations and bit 3-5 for
+/// rotations.
 unsigned read_component_bits(const Context& context, const YamlNode& node, const std::string& what);
-/// Reads an angle in degrees and returns radians. `fallback` is in radians.
+/// Reads an angle [degrees] and returns it in [rad]. `fallback`: value without the key [rad].
 double read_angle(const MapReader& map, double fallback);
 
 void read_part_materials(const MapReader& map, Part& part);
@@ -41,7 +43,8 @@ void read_beams(const MapReader& map, Part& part);
 void read_attachments(const MapReader& map, Part& part);
 void read_boundary(const MapReader& map, Part& part);
 void read_modal_body(const MapReader& map, Part& part);
-/// Reads loads. Call it after points, spiders and boundary, since names of places have priority over names of groups.
+/// Reads supports and load cases. Requires that points, spiders and boundary were read, since names of places have
+/// priority over names of groups.
 void read_loads(const MapReader& map, Part& part);
 
 // Lists of fields, each defined with the functions that read them.

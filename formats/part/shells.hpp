@@ -13,7 +13,7 @@ namespace tisserand::formats {
 
 enum class MassMatrix { consistent, lumped };
 
-/// Engineering constants in the axes of a ply: 1 along the fibres, 2 across, 3 normal.
+/// Orthotropic material, by engineering constants in the axes of a ply: 1 along the fibres, 2 across, 3 normal.
 struct OrthotropicMaterial {
   std::string name;
   double E1 = 0.0;
@@ -26,8 +26,8 @@ struct OrthotropicMaterial {
   std::string where;
 };
 
-/// One layer of a laminate. The angle is from the x axis of the laminate to direction 1, right-handed about the normal
-/// [rad].
+/// One layer of a laminate. `angle` turns the x axis of the laminate to direction 1 of the material, right-handed about
+/// the shell's normal [rad].
 struct Ply {
   std::string material;  ///< isotropic or orthotropic
   double thickness = 0.0;
@@ -39,9 +39,10 @@ struct Ply {
 struct ShellLayout {
   double thickness = 0.0;
   std::string material;
-  std::vector<Ply> plies;            ///< empty: one layer
-  double offset = 0.0;               ///< from the mesh to the middle surface along the normal
-  std::optional<Eigen::Vector3d> x;  ///< projects to the laminate's x axis; absent: first edge of an element
+  std::vector<Ply> plies;  ///< empty: one layer
+  double offset = 0.0;     ///< distance from the mesh to the middle surface, along the normal
+  std::optional<Eigen::Vector3d>
+      x;  ///< direction whose projection is the laminate's x axis; absent: first edge of an element
   MassMatrix mass_matrix = MassMatrix::consistent;
 };
 
@@ -67,7 +68,7 @@ struct Plate {
   std::vector<Eigen::Vector3d> corners;
 };
 
-/// Circular disc or ring. Divisions: around, radial. `start` is the direction of angle 0.
+/// Circular disc or ring. Its two numbers of elements are: around, radial. `start` is the direction of angle 0.
 struct Disc {
   Eigen::Vector3d center, normal;
   std::optional<Eigen::Vector3d> start;
@@ -75,7 +76,8 @@ struct Disc {
   double inner_radius = 0.0;
 };
 
-/// Wall of a cylinder or cone, or a segment of it. The normal points outwards. Divisions: around, along.
+/// Wall of a cylinder or cone, or a segment of it. The normal points outwards. Its two numbers of elements are: around,
+/// along the axis.
 struct Cylinder {
   Eigen::Vector3d from, to;
   double radius = 0.0;
@@ -84,14 +86,14 @@ struct Cylinder {
   double angle = 0.0;                    ///< (0, 2 pi]
 };
 
-/// Rotation about an axis through a point [rad].
+/// Circular path: rotation by `angle` [rad] about the direction `axis` through the point `through`.
 struct ArcPath {
   Eigen::Vector3d through, axis;
   double angle = 0.0;
 };
 
-/// Polyline swept along a vector or an arc. The normal is (direction of the polyline) x (direction of the path).
-/// Divisions: each segment of the polyline, along the path.
+/// Polyline swept along a vector or an arc. The normal is (direction of the polyline) x (direction of the path). Its
+/// numbers of elements are: for each segment of the polyline, then along the path.
 struct Extrusion {
   std::vector<Eigen::Vector3d> section;  ///< closed if the last point is the first one
   std::variant<Eigen::Vector3d, ArcPath> path;
@@ -99,11 +101,11 @@ struct Extrusion {
 
 enum class Cells { quadrilaterals, triangles };
 
-/// Wall defined in the part file. It creates the group of faces `name` and groups of edges (PART.md).
+/// Meshed wall defined in the part file. It creates the group of faces `name` and groups of edges (PART.md).
 struct ShellPatch {
   std::string name;
   std::variant<Plate, Disc, Cylinder, Extrusion> shape;
-  std::vector<int> elements;  ///< two counts, or empty: from size
+  std::vector<int> elements;  ///< numbers of elements as the shape orders them; empty: from `size`
   double size = 0.0;          ///< largest length of an element's edge
   Cells cells = Cells::quadrilaterals;
   std::optional<ShellLayout> layout;  ///< absent: given by a ShellGroup

@@ -40,17 +40,17 @@ class Inspector {
   void finite(const std::string& dataset, const double* values, std::size_t count) const {
     for (std::size_t i = 0; i < count; ++i)
       if (!(std::abs(values[i]) < largest_number))
-        fail(dataset, fmt::format("entry {} is {}, expected a number below {:g}", i, values[i], largest_number));
+        fail(dataset, fmt::format("entry {} is {}, expected a finite number below {:g}", i, values[i], largest_number));
   }
   /// Checks that axes are orthonormal and right-handed.
   void axes(const std::string& dataset, const std::vector<Eigen::Matrix3d>& axes) const {
     for (std::size_t i = 0; i < axes.size(); ++i)
       if (!axes[i].allFinite() || !axes[i].isUnitary(1e-6) || axes[i].determinant() < 0.0)
-        fail(dataset, fmt::format("entry {} is no set of right-handed orthonormal axes", i));
+        fail(dataset, fmt::format("entry {} is not a set of right-handed orthonormal axes", i));
   }
   /// Checks that offsets ascend from 0 to `end`.
   void offsets(const std::string& dataset, const std::vector<int>& values, std::size_t groups, std::size_t end) const {
-    size(dataset, values.size(), groups + 1, "one more than groups");
+    size(dataset, values.size(), groups + 1, "the number of groups, plus 1");
     if (values.front() != 0 || !std::is_sorted(values.begin(), values.end()) ||
         static_cast<std::size_t>(values.back()) != end)
       fail(dataset, fmt::format("does not ascend from 0 to {}", end));
@@ -67,10 +67,11 @@ bool is_content_id(const std::string& text) {
 void check_head(const Recovery& r, const Inspector& inspect) {
   for (const std::string& text : {r.name, r.producer})
     if (printable_line(text, 255) != text)
-      inspect.fail("attributes 'name', 'producer'", "are no lines of at most 255 bytes");
-  if (!is_content_id(r.content_id)) inspect.fail("attribute 'content_id'", "is no SHA-256 in 64 hexadecimal digits");
+      inspect.fail("attributes 'name', 'producer'", "must each be one line of at most 255 bytes");
+  if (!is_content_id(r.content_id)) inspect.fail("attribute 'content_id'", "is not a SHA-256 of 64 hexadecimal digits");
   for (const std::string& id : r.mirror_content_id)
-    if (!is_content_id(id)) inspect.fail("/mirror/content_id", "holds no SHA-256 in 64 hexadecimal digits");
+    if (!is_content_id(id))
+      inspect.fail("/mirror/content_id", "holds an entry that is not a SHA-256 of 64 hexadecimal digits");
 }
 
 void check_coordinates(const Recovery& r, const Inspector& inspect) {
@@ -80,7 +81,8 @@ void check_coordinates(const Recovery& r, const Inspector& inspect) {
   std::set<std::string> seen;
   for (const std::string& name : r.boundary_name)
     if (!is_name(name) || !seen.insert(name).second)
-      inspect.fail("/boundary/name", fmt::format("holds '{}', no name or one given twice", printable_line(name, 60)));
+      inspect.fail("/boundary/name",
+                   fmt::format("holds '{}', which is not a valid name or is given twice", printable_line(name, 60)));
   inspect.size("/boundary/node", r.boundary_node.size(), r.boundary_name.size(), "names of boundary nodes");
   inspect.range("/boundary/node", r.boundary_node, 0, r.nodes() - 1);
   inspect.size("/dof/component", r.dof_component.size(), n, "entries of /dof/node");
@@ -90,7 +92,8 @@ void check_coordinates(const Recovery& r, const Inspector& inspect) {
   for (std::size_t k = 0; k < n; ++k) {
     const int component = r.dof_component[k], most = r.dof_node[k] < 0 ? internal : 6;
     if (component < 0 || component >= most || !coordinates.insert({r.dof_node[k], component}).second)
-      inspect.fail("/dof/component", fmt::format("entry {} is {}, no component or one given twice", k, component));
+      inspect.fail("/dof/component",
+                   fmt::format("entry {} is {}, which is not a valid component or is given twice", k, component));
   }
 }
 
@@ -106,12 +109,14 @@ void check_elements(const Recovery& r, const Inspector& inspect) {
   int beams = 0, shells = 0, last = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const int shape = static_cast<int>(e.shape[i]), kind = shape == 0 ? 0 : shape < 3 ? 1 : 2;
-    if (shape < 0 || shape >= element_shapes) inspect.fail("/elements/shape", fmt::format("entry {} is {}", i, shape));
+    if (shape < 0 || shape >= element_shapes)
+      inspect.fail("/elements/shape", fmt::format("entry {} is {}, which is not a known shape", i, shape));
     if (e.first[i + 1] - e.first[i] != node_count(e.shape[i]))
-      inspect.fail("/elements/first", fmt::format("element {} has {} nodes, its shape has {}", i,
+      inspect.fail("/elements/first", fmt::format("element {} has {} nodes, but its shape has {}", i,
                                                   e.first[i + 1] - e.first[i], node_count(e.shape[i])));
     if (kind < last)
-      inspect.fail("/elements/shape", fmt::format("entry {}: beams come first, then shells, then solids", i));
+      inspect.fail("/elements/shape",
+                   fmt::format("entry {} is in the wrong order: beams come first, then shells, then solids", i));
     last = kind;
     beams += kind == 0 ? 1 : 0;
     shells += kind == 1 ? 1 : 0;
@@ -135,7 +140,8 @@ void check_beams_and_shells(const Recovery& r, const Inspector& inspect) {
     const double constants[] = {s.area,       s.second_moment_y, s.second_moment_z, s.second_moment_yz,
                                 s.centroid_y, s.centroid_z};
     inspect.finite("/sections/constants", constants, std::size(constants));
-    if (s.area < 0.0) inspect.fail("/sections/constants", fmt::format("holds the area {}", s.area));
+    if (s.area < 0.0)
+      inspect.fail("/sections/constants", fmt::format("holds the area {}, but an area must not be negative", s.area));
     for (const Eigen::Vector2d& point : s.outline) inspect.finite("/sections/outline", point.data(), 2);
   }
 }
@@ -146,11 +152,13 @@ void check_applied(const RecoveryLoads& loads, const Inspector& inspect) {
     const AppliedLoad& load = loads.applied[k];
     const bool is_case = !load.load_case.empty();
     if (is_case == !load.node.empty())
-      inspect.fail("/applied/load_case", fmt::format("entry {} names a load case and a node, or neither", k));
+      inspect.fail("/applied/load_case", fmt::format("entry {} must name either a load case or a node", k));
     if (printable_line(is_case ? load.load_case : load.node, 255) != (is_case ? load.load_case : load.node))
-      inspect.fail("/applied/load_case, /applied/node", fmt::format("entry {} is no line of at most 255 bytes", k));
+      inspect.fail("/applied/load_case, /applied/node",
+                   fmt::format("entry {} must be one line of at most 255 bytes", k));
     if (load.component < 0 || load.component >= (is_case ? 1 : 6))
-      inspect.fail("/applied/component", fmt::format("entry {} is {}", k, load.component));
+      inspect.fail("/applied/component",
+                   fmt::format("entry {} is {}, which is not a valid component", k, load.component));
     if (!seen.insert({load.load_case, load.node, load.component}).second)
       inspect.fail("/applied/load_case, /applied/node", fmt::format("entry {} is given twice", k));
   }
@@ -176,7 +184,7 @@ void check_loads(const Recovery& r, const Inspector& inspect) {
                                k, value));
   inspect.finite("/loads/left_out", &loads.left_out, 1);
   if (loads.left_out < 0.0)
-    inspect.fail("/loads/left_out", fmt::format("is {}, expected no negative number", loads.left_out));
+    inspect.fail("/loads/left_out", fmt::format("is {}, but must not be negative", loads.left_out));
   if (!loads.has_forces()) return;
   const auto boundary = n - static_cast<std::size_t>(r.internal());
   inspect.size("/loads/boundary_stiffness", static_cast<std::size_t>(loads.boundary_stiffness.size()),
@@ -184,7 +192,9 @@ void check_loads(const Recovery& r, const Inspector& inspect) {
   inspect.finite("/loads/boundary_stiffness", loads.boundary_stiffness.data(), boundary * boundary);
   // Readers take the first coordinates as those of the boundary.
   for (std::size_t k = 0; k < boundary; ++k)
-    if (r.dof_node[k] < 0) inspect.fail("/dof/node", fmt::format("entry {} is internal before one of the boundary", k));
+    if (r.dof_node[k] < 0)
+      inspect.fail("/dof/node",
+                   fmt::format("entry {} is an internal coordinate, but boundary coordinates come first", k));
 }
 
 void check_forms(const Recovery& r, const std::string& dataset, const std::vector<Eigen::MatrixXd>& forms,
@@ -193,8 +203,9 @@ void check_forms(const Recovery& r, const std::string& dataset, const std::vecto
   for (std::size_t k = 0; k < forms.size(); ++k) {
     const Eigen::MatrixXd& form = forms[k];
     if (form.rows() != n || form.cols() != n)
-      inspect.fail(dataset, fmt::format("matrix {} has {} rows and {} columns, expected {}, the coordinates", k,
-                                        form.rows(), form.cols(), n));
+      inspect.fail(dataset,
+                   fmt::format("matrix {} has {} rows and {} columns, expected {} of each, the number of coordinates",
+                               k, form.rows(), form.cols(), n));
     inspect.finite(dataset, form.data(), static_cast<std::size_t>(form.size()));
     if (form != form.transpose()) inspect.fail(dataset, fmt::format("matrix {} is not symmetric", k));
   }
@@ -210,9 +221,9 @@ void check_second_order(const Recovery& r, const Inspector& inspect) {
   inspect.range("/second_order/coordinate", forms.coordinate, 0, r.coordinates() - 1);
   for (std::size_t k = 0; k < forms.coordinate.size(); ++k)
     if (r.dof_node[static_cast<std::size_t>(forms.coordinate[k])] >= 0)
-      inspect.fail(
-          "/second_order/coordinate",
-          fmt::format("entry {} is {}, a coordinate of the boundary, expected internal ones", k, forms.coordinate[k]));
+      inspect.fail("/second_order/coordinate",
+                   fmt::format("entry {} is {}, a boundary coordinate, expected an internal coordinate", k,
+                               forms.coordinate[k]));
 }
 
 }  // namespace

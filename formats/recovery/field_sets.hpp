@@ -12,7 +12,8 @@ namespace tisserand::formats {
 
 inline constexpr const char* recovery_format = "tisserand-recovery";
 
-/// Dataset of a field per coordinate or per load: items x width x columns.
+/// Dataset of a recovery file that holds a field (items x width x columns). A column belongs to a coordinate, a load or
+/// a second-order shape.
 struct FieldSet {
   std::string dataset;
   int items, width, columns;
@@ -25,14 +26,16 @@ struct FieldSet {
 FieldSet of_coordinates(const Recovery& recovery, RecoveryField field);
 FieldSet of_loads(const Recovery& recovery, RecoveryField field);
 FieldSet of_forces(const Recovery& recovery, NodalForce force);
-/// Dataset of second-order shapes. `field`: translation or rotation.
+/// Dataset of a field of second-order shapes. `field`: translation or rotation.
 FieldSet of_second_order(const Recovery& recovery, RecoveryField field);
 
-/// Datasets of applied loads (RecoveryLoads::applied). `force`: load_force or load_moment.
+/// Datasets of applied loads (RecoveryLoads::applied): of_applied() for a field, of_applied_forces() for forces on
+/// nodes. `force`: load_force or load_moment.
 FieldSet of_applied(const Recovery& recovery, RecoveryField field);
 FieldSet of_applied_forces(const Recovery& recovery, NodalForce force);
 
-/// All datasets of a file: coordinates, second-order shapes, inertia loads, forces on nodes, applied loads.
+/// All datasets of fields of a recovery file: per coordinate, second-order shapes, inertia loads, forces on nodes,
+/// applied loads.
 std::vector<FieldSet> field_sets(const Recovery& recovery);
 
 }  // namespace tisserand::formats

@@ -39,7 +39,7 @@ class Tables {
     std::vector<int> values(wide.size());
     for (std::size_t i = 0; i < wide.size(); ++i) {
       if (wide[i] < std::numeric_limits<int>::min() || wide[i] > std::numeric_limits<int>::max())
-        throw Error(fmt::format("entry {} is {}, beyond 32-bit integers", i, wide[i]),
+        throw Error(fmt::format("entry {} is {}, outside the range of 32-bit integers", i, wide[i]),
                     fmt::format("{}: {}", file_.path(), dataset), "write the file again");
       values[i] = static_cast<int>(wide[i]);
     }
@@ -123,8 +123,8 @@ void read_applied(const Tables& tables, std::uint64_t coordinates, RecoveryLoads
   const std::uint64_t count = cases.size();
   const std::vector<int> component = tables.integers("/applied/component", {count});
   if (nodes.size() != count || count > most_applied)
-    throw Error(fmt::format("has {} entries beside {} load cases, expected as many, {} at most", nodes.size(), count,
-                            most_applied),
+    throw Error(fmt::format("has {} entries, but /applied/load_case has {}; expected equal numbers of at most {}",
+                            nodes.size(), count, most_applied),
                 tables.path() + ": /applied/node", "compare the file with formats/RECOVERY.md");
   for (std::size_t k = 0; k < cases.size(); ++k) loads.applied.push_back({cases[k], nodes[k], component[k]});
   const Numbers share = tables.numbers("/applied/share", {coordinates, count});
@@ -209,7 +209,7 @@ void check_field_shapes(const hdf5::InputFile& file, const Recovery& recovery) {
     const hdf5::DatasetInfo info = file.info(set.dataset);
     if (info.kind != hdf5::ElementKind::float32 || info.shape != set.shape() || !info.written)
       throw Error(fmt::format("holds {} of shape {}{}, expected 32-bit floating numbers of shape {}", info.type_text,
-                              hdf5::shape_text(info.shape), info.written ? "" : ", not all of them written",
+                              hdf5::shape_text(info.shape), info.written ? "" : " (not all were written)",
                               hdf5::shape_text(set.shape())),
                   fmt::format("{}: {}", file.path(), set.dataset), "reduce the part again with `recovery: yes`");
   }

@@ -69,10 +69,12 @@ Eigen::Vector3d require_same_superelement(const Recovery& recovery, const std::s
   if (content_id == recovery.content_id) return Eigen::Vector3d::Ones();
   for (int image = 0; image < 7; ++image)
     if (content_id == recovery.mirror_content_id[static_cast<std::size_t>(image)]) return mirror_axes(image);
-  throw Error(fmt::format("belongs to the superelement or modal body {}..., body '{}' was simulated with {}...",
-                          recovery.content_id.substr(0, 12), printable_line(body, 60),
-                          printable_line(content_id.substr(0, 12), 12)),
-              where, "give the recovery file of the part that was simulated, or simulate again with the present one");
+  throw Error(
+      fmt::format("belongs to the superelement or modal body {}..., but body '{}' was simulated with {}...",
+                  recovery.content_id.substr(0, 12), printable_line(body, 60),
+                  printable_line(content_id.substr(0, 12), 12)),
+      where,
+      "give the recovery file of the part that was simulated, or simulate again with the part of this recovery file");
 }
 
 void to_part(const Recovery& recovery, const Eigen::Vector3d& mirror, double length, Eigen::MatrixXd& y) {

@@ -148,9 +148,10 @@ struct RecoveryWriter::Impl {
                      set.items);
     const FieldRows values = rows.cast<float>();
     if (!values.allFinite())
-      throw Error(
-          fmt::format("a value for {} is {:.3g}, beyond 32-bit numbers", set.dataset, rows.cwiseAbs().maxCoeff()),
-          file.path(), "use units in which the numbers of the part are of ordinary size");
+      throw Error(fmt::format("a value for {} is {:.3g}, outside the range of 32-bit floating numbers", set.dataset,
+                              rows.cwiseAbs().maxCoeff()),
+                  file.path(),
+                  "choose units in which lengths, forces and masses are neither very large nor very small");
     if (count > 0)
       hdf5::write_packed_rows(growing.dataset, static_cast<std::uint64_t>(growing.written),
                               static_cast<std::uint64_t>(count), values.data(), file.path());

@@ -372,7 +372,7 @@ std::vector<bool> chosen_nodes(const ResultsLayout& layout, const std::string& w
     if (!found) {
       const std::string member = dataset_and_member(entry).second;
       throw Error(fmt::format("output channel '{}': there is no node '{}'", entry, member), where,
-                  "the nearest nodes are " + listed(nearest_names(member, known)));
+                  "nodes with similar names are " + listed(nearest_names(member, known)));
     }
   }
   if (whole || !any) chosen.assign(chosen.size(), true);
@@ -404,9 +404,9 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
   const std::string message = fmt::format("output channel '{}' does not exist", entry);
   const std::string dataset = dataset_and_member(entry).first;
   if (std::ranges::find(known, dataset) != known.end())
-    return {{message, fmt::format("single members can be named of nodes; choose all of '{}'", dataset)}};
+    return {{message, fmt::format("single members can be chosen only for nodes; choose all of '{}'", dataset)}};
   const std::optional<std::string> near = nearest(bare(entry), known);
-  return {{message, near ? fmt::format("did you mean '{}'?", *near) : "choose among " + join(known, ", ")}};
+  return {{message, near ? fmt::format("did you mean '{}'?", *near) : "choose one of " + join(known, ", ")}};
 }
 
 std::vector<Block> chosen_blocks(const ResultsLayout& layout, const std::string& where) {

@@ -46,8 +46,8 @@ std::string format_of(const hdf5::InputFile& file) {
 double count_attribute(const hdf5::InputFile& file, const std::string& name, double most) {
   const double value = file.number_attribute("/", name);
   if (value >= 0.0 && value <= most) return value;
-  throw Error(fmt::format("is damaged: attribute '{}' is {}, which counts nothing", name, value), file.path(),
-              "take an older checkpoint");
+  throw Error(fmt::format("is damaged: attribute '{}' is {}, which is not a valid number of items", name, value),
+              file.path(), "use an older checkpoint");
 }
 
 Checkpoint read_unchecked(const std::string& path) {
@@ -55,7 +55,7 @@ Checkpoint read_unchecked(const std::string& path) {
   const std::string format = format_of(file);
   if (format != format_name)
     throw Error(format.empty()
-                    ? "is an HDF5 file, but no checkpoint (it has no attribute 'format')"
+                    ? "is an HDF5 file, but not a checkpoint (it has no attribute 'format')"
                     : fmt::format("is a file of the kind '{}', expected '{}'", format.substr(0, 60), format_name),
                 path, "give a *.checkpoint.h5 file");
   const std::string version = file.text_attribute("/", "version");
@@ -81,7 +81,7 @@ Checkpoint read_unchecked(const std::string& path) {
                       std::ranges::all_of(c.state, [](double x) { return std::isfinite(x); }) &&
                       std::ranges::all_of(c.schedule, [](double x) { return std::isfinite(x); });
   if (!finite || file.text_attribute("/", "content_id") != content_id(c))
-    throw Error("is damaged: its contents are not those that were written", path, "take an older checkpoint");
+    throw Error("is damaged: its contents changed after it was written", path, "use an older checkpoint");
   return c;
 }
 

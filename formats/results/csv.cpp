@@ -37,8 +37,8 @@ void export_csv(const ResultsReader& reader, const std::vector<std::string>& sel
   for (const Channel& channel : chosen) {
     if (channel.name == "time") continue;
     if ((channel.rows == Rows::modes) != of_modes)
-      throw Error(fmt::format("'{}' is over {}, '{}' over {}", chosen.front().name, of_modes ? "modes" : "time",
-                              channel.name, of_modes ? "time" : "modes"),
+      throw Error(fmt::format("'{}' has one row per {}, but '{}' has one row per {}", chosen.front().name,
+                              of_modes ? "mode" : "instant", channel.name, of_modes ? "instant" : "mode"),
                   reader.path(), "write them into two files");
     names.push_back(channel.name);
     header += ',' + header_cell(channel.name, channel.unit);

@@ -32,8 +32,8 @@ Hold hold(int file) {
 }
 
 [[noreturn]] void refuse(const std::string& path) {
-  throw Error("a running program writes these results", path,
-              "wait for its end, end it, or give -o another name; what it has stored can be read meanwhile");
+  throw Error("another program is writing these results now", path,
+              "wait until it ends, stop it, or choose another name with -o; the stored results can be read meanwhile");
 }
 
 [[noreturn]] void fail_to_publish(const std::string& path, int number) {
@@ -87,7 +87,7 @@ HeldFile HeldFile::publish(const std::string& from, const std::string& to) {
   }
 }
 
-void HeldFile::require_unheld(const std::string& path, const std::string& told) {
+void HeldFile::require_unheld(const std::string& path, const std::string& reported) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return;
   struct flock lock {};
@@ -97,7 +97,7 @@ void HeldFile::require_unheld(const std::string& path, const std::string& told) 
   lock.l_len = 1;
   const bool held = ::fcntl(file, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
   ::close(file);
-  if (held) refuse(told);
+  if (held) refuse(reported);
 }
 
 void HeldFile::synchronise() const {

@@ -6,9 +6,9 @@
 
 namespace tisserand::formats {
 
-/// File that this program holds until its end, however it ends: an open-file-description lock of the kernel on a byte
-/// far beyond the data. It cannot become stale, and does not affect readers or HDF5's own locks. On disks without
-/// locks no file is held or refused.
+/// File that this program holds until its end, however it ends. The hold is an open-file-description lock of the kernel
+/// on a byte far beyond the data. The lock cannot become stale, and affects neither readers nor HDF5's own locks. On
+/// disks without locks no file is held or refused.
 class HeldFile {
  public:
   HeldFile() = default;
@@ -16,11 +16,11 @@ class HeldFile {
   HeldFile& operator=(HeldFile&& other) noexcept;
   ~HeldFile();
 
-  /// Renames `from`, a complete file of this program, to `to` and holds it. Throws Error if another program holds the
-  /// file of that name.
+  /// Renames the complete file `from` of this program to `to`, and holds it. Throws Error if another program holds the
+  /// file `to`.
   static HeldFile publish(const std::string& from, const std::string& to);
-  /// Throws Error if another program holds the file `path`. `told`: its name in the message.
-  static void require_unheld(const std::string& path, const std::string& told);
+  /// Throws Error if another program holds the file `path`. `told`: name of the file in the message.
+  static void require_unheld(const std::string& path, const std::string& reported);
 
   /// Waits until the data written to the file are on the disk.
   void synchronise() const;

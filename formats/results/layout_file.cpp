@@ -113,8 +113,9 @@ std::vector<int> read_offsets(const hdf5::InputFile& file, const std::string& da
   const bool valid = wide.size() == owners + 1 && wide.front() == 0 && std::is_sorted(wide.begin(), wide.end()) &&
                      wide.back() <= static_cast<std::int64_t>(max_names);
   if (!valid)
-    throw Error(fmt::format("is no ascending list from 0 with one entry more than the {} names", owners),
-                fmt::format("{}: {}", file.path(), dataset), compare);
+    throw Error(
+        fmt::format("is not an ascending list that starts at 0 and has one entry more than the {} names", owners),
+        fmt::format("{}: {}", file.path(), dataset), compare);
   return std::vector<int>(wide.begin(), wide.end());
 }
 
@@ -133,7 +134,7 @@ std::vector<int> read_stiffened(const hdf5::InputFile& file, std::size_t owners)
 Unit read_unit(const hdf5::InputFile& file, const std::string& name) {
   const double factor = file.number_attribute("/", name);
   if (!std::isfinite(factor) || factor < 0.0)
-    throw Error(fmt::format("is {}, expected a factor to SI, or 0", factor),
+    throw Error(fmt::format("is {}, expected a factor to SI, or 0 for units without names", factor),
                 fmt::format("{}: attribute '{}'", file.path(), name), "write or copy the file again");
   return {factor, file.text_attribute("/", name + "_label")};
 }
@@ -146,7 +147,7 @@ std::vector<ResultsLayout::Alias> read_aliases(const hdf5::InputFile& file, std:
   file.read("/nodes/alias_of", {node.size()}, "indices of nodes", node.data());
   const auto exists = [nodes](std::int64_t i) { return i >= 0 && i < static_cast<std::int64_t>(nodes); };
   if (node.size() != words.size() || !std::all_of(node.begin(), node.end(), exists))
-    throw Error(fmt::format("does not hold the indices of {} of the {} nodes", words.size(), nodes),
+    throw Error(fmt::format("does not hold {} indices of the {} nodes", words.size(), nodes),
                 file.path() + ": /nodes/alias_of", compare);
   std::vector<ResultsLayout::Alias> list;
   for (std::size_t i = 0; i < words.size(); ++i) list.push_back({words[i], static_cast<int>(node[i])});
@@ -219,7 +220,7 @@ ResultsLayout read_layout(const hdf5::InputFile& file) {
     l.*one.list = read_offsets(file, one.dataset, (l.*one.owners).size());
     const std::size_t end = (l.*one.list).empty() ? 0 : static_cast<std::size_t>((l.*one.list).back());
     if (one.owned != nullptr && (l.*one.owned).size() != end)
-      throw Error(fmt::format("holds {} names, its offsets end with {}", (l.*one.owned).size(), end),
+      throw Error(fmt::format("holds {} names, but its offsets end with {}", (l.*one.owned).size(), end),
                   fmt::format("{}: {}", file.path(), one.owned_dataset), compare);
   }
   const std::size_t boundary = l.boundary_offset.empty() ? 0 : static_cast<std::size_t>(l.boundary_offset.back());

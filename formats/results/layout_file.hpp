@@ -9,10 +9,10 @@
 
 namespace tisserand::formats {
 
-/// Writes names and offsets of each group of which a dataset is stored. Throws Error.
+/// Writes the names and offsets of columns for each group of which `blocks` has a dataset. Throws Error.
 void write_names(const hdf5::Output& out, const ResultsLayout& layout, const std::vector<Block>& blocks);
 
-/// Writes names and aliases of nodes, which files of modes need even without motion. Throws Error.
+/// Writes names and aliases of nodes. Files of modes require them even without node datasets over time. Throws Error.
 void write_node_names(const hdf5::Output& out, const ResultsLayout& layout);
 
 /// Reads the layout of a file, with the simulated scene. Throws Error.

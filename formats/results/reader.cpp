@@ -34,8 +34,8 @@ void check_format(const hdf5::InputFile& file) {
 
 [[noreturn]] void refuse_rows(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t found,
                               std::uint64_t expected) {
-  throw Error(fmt::format("holds {} instants, expected {}: the file is damaged", found, expected),
-              fmt::format("{}: {}", file.path(), dataset), "write or copy it again");
+  throw Error(fmt::format("holds {} instants, expected {}; the file is damaged", found, expected),
+              fmt::format("{}: {}", file.path(), dataset), "write or copy the file again");
 }
 
 /// Number of available rows of a dataset: its first extent, limited by its storage. They differ only after a killed
@@ -144,7 +144,7 @@ void ResultsReader::Impl::check_times() const {
   file.read_column("/time", 0, rows, time.data());
   for (std::size_t i = 0; i < time.size(); ++i)
     if (!std::isfinite(time[i]) || (i > 0 && time[i] < time[i - 1]))
-      throw Error(i == 0 ? fmt::format("begins with {}", time[0])
+      throw Error(i == 0 ? fmt::format("begins with {}, expected a finite time", time[0])
                          : fmt::format("holds {:.9g} after {:.9g}; instants must ascend", time[i], time[i - 1]),
                   file.path() + ": /time", "write or copy the file again");
 }
@@ -195,7 +195,7 @@ bool ResultsReader::completed() const { return impl_->file.number_attribute("/",
 std::string ResultsReader::reason() const {
   const std::string reason = impl_->file.text_attribute("/", "reason");
   if (!reason.empty() || completed()) return reason;
-  return "the program that wrote the file still runs, or ended without closing it";
+  return "the program that wrote the file is still running, or ended without closing it";
 }
 
 std::string ResultsReader::report_json() const {

@@ -14,16 +14,16 @@
 
 namespace tisserand::formats {
 
-/// Contents of the file of a run, fixed before the first row.
+/// Layout of the results file of a run: names of its columns in their order, fixed before the first row.
 struct ResultsLayout {
   std::string scene;  ///< name of the scene
   std::string producer;
   Units units;
   std::vector<std::string> nodes;
-  /// A second name, not a second column: columns would be stored twice and match every pattern twice.
+  /// Second name of a node. It is no second column: columns would be stored twice and match every pattern twice.
   struct Alias {
     std::string name;  ///< "rod/end"
-    int node = 0;      ///< its index in `nodes`
+    int node = 0;      ///< index of the node in ResultsLayout::nodes
   };
   std::vector<Alias> node_aliases;
   std::vector<std::string> superelements;
@@ -36,7 +36,7 @@ struct ResultsLayout {
   std::vector<std::string> modal_bodies;
   std::vector<int> modal_offset;         ///< modal_bodies.size() + 1 offsets into the columns of w
   std::vector<int> modal_node_offset;    ///< modal_bodies.size() + 1 offsets into modal_nodes
-  std::vector<std::string> modal_nodes;  ///< loaded nodes of each modal body, by their own names
+  std::vector<std::string> modal_nodes;  ///< names of the loaded nodes of each modal body, without the body's name
   std::vector<std::string> joints;
   struct Coordinate {
     std::string name;     ///< "hinge", or "slide/z" for a joint with several
@@ -49,16 +49,16 @@ struct ResultsLayout {
     bool second_length = false;
   };
   std::vector<Coupling> couplings;  ///< gears, racks and pinions
-  std::vector<Coordinate> motions;  ///< driven coordinates, by the name of the drive
-  std::vector<Coordinate> springs;  ///< by name; kind of the coordinate along which they act
+  std::vector<Coordinate> motions;  ///< driven coordinates; the name is that of the drive
+  std::vector<Coordinate> springs;  ///< springs; `length` is that of the coordinate along which they act
   std::vector<Coordinate> stops;    ///< springs with stops
   std::vector<std::string> bushings;
   std::vector<std::string> frictions;  ///< joints with friction
   std::vector<std::string> tyres;
-  bool strained = false;          ///< some superelements have second-order strain: y_strain
-  std::vector<int> stiffened;     ///< of each superelement: 1 with stiffening, 0 without; empty before version 1.13
-  bool treads = false;            ///< some tyres relax: tread deflections
-  std::vector<Coordinate> loads;  ///< forces (length) and moments (angle)
+  bool strained = false;          ///< some superelements have second-order strain: y_strain is stored
+  std::vector<int> stiffened;     ///< per superelement 1 with stiffening, 0 without; empty before version 1.13
+  bool treads = false;            ///< some tyres have relaxation lengths: tread deflections are stored
+  std::vector<Coordinate> loads;  ///< loads; `length` is true for a force and false for a moment
   struct Quantity {
     std::string name;
     std::string unit;
@@ -68,45 +68,46 @@ struct ResultsLayout {
   std::vector<std::string> superelement_content_ids;
   SimulatedScene simulated;
 
-  /// Whether a superelement has stiffening; nothing in files before version 1.13.
+  /// Whether the superelement with this index has stiffening; nothing in files before version 1.13.
   std::optional<bool> is_stiffened(std::size_t superelement) const {
     return stiffened.empty() ? std::nullopt : std::optional(stiffened[superelement] != 0);
   }
 };
 
-/// Motion of the frames of modal bodies, in axes of their parts (acceleration of the origin less gravity, angular
-/// velocity and acceleration), and loads [force; moment about the node] on each of layout.modal_nodes.
+/// Motion of the floating frames of modal bodies, and the loads on their nodes, in axes of each body's part. The
+/// acceleration is that of the frame's origin, less gravity. `node_force` holds [force; moment about the node] for each
+/// of layout.modal_nodes.
 struct ModalFrames {
   Eigen::Matrix3Xd acceleration, angular_velocity, angular_acceleration;
   Eigen::Matrix<double, 6, Eigen::Dynamic> node_force;
 };
 
-/// Values at one instant, sized once by resize(layout). World frame unless stated. Forces and moments of joints,
-/// bushings and friction act from A's body on B's body, at B's origin, in A's axes. Boundary force: wrench on each
-/// boundary node from the rest of the mechanism, world axes.
+/// Values at one instant, sized once by resize(layout), in the world frame unless stated. Forces and moments of joints,
+/// bushings and friction act from the body of marker A on the body of marker B, at the origin of B, in axes of A.
+/// `boundary_force` is the load [force; moment] of the rest of the mechanism on each boundary node, in world axes.
 struct ResultsRow {
   double time = 0.0;
   Eigen::Matrix3Xd node_position, node_velocity, node_angular_velocity, node_acceleration, node_angular_acceleration;
-  Eigen::Matrix4Xd node_rotation;  ///< w x y z, Q_WN
+  Eigen::Matrix4Xd node_rotation;  ///< quaternions w x y z of the rotations from node to world axes
   Eigen::Matrix3Xd frame_position;
   Eigen::Matrix4Xd frame_rotation;
-  Eigen::VectorXd y;         ///< all superelements, file coordinates, modes_offset
+  Eigen::VectorXd y;         ///< coordinates of all superelements as in their files; offsets: modes_offset
   Eigen::VectorXd y_rate;    ///< rates of y
-  Eigen::VectorXd y_strain;  ///< y with second-order strain, for stresses; empty unless strained
-  /// Motion of floating frames, in axes of the part: acceleration of the origin less gravity, angular velocity, its
-  /// rate.
+  Eigen::VectorXd y_strain;  ///< y with second-order strain, for stresses; empty unless layout.strained
+  /// Motion of the floating frames of superelements, in part axes: acceleration of the origin less gravity, angular
+  /// velocity, angular acceleration.
   Eigen::Matrix3Xd frame_acceleration, frame_angular_velocity, frame_angular_acceleration;
   Eigen::VectorXd load_factor;                              ///< factors of layout.load_cases
   Eigen::Matrix<double, 6, Eigen::Dynamic> boundary_force;  ///< [force; moment]
-  Eigen::VectorXd w;                                        ///< all modal bodies, modal_offset
-  Eigen::VectorXd w_rate;                                   ///< rates of w
+  Eigen::VectorXd w;       ///< modal coordinates of all modal bodies; offsets: modal_offset
+  Eigen::VectorXd w_rate;  ///< rates of w
   ModalFrames modal;
   Eigen::Matrix3Xd joint_force, joint_moment;
-  Eigen::VectorXd joint_coordinate, joint_rate;                 ///< of layout.coordinates
-  Eigen::VectorXd coupling_first_force, coupling_second_force;  ///< along the two coordinates, as for springs
+  Eigen::VectorXd joint_coordinate, joint_rate;                 ///< values and rates of layout.coordinates
+  Eigen::VectorXd coupling_first_force, coupling_second_force;  ///< along the first and the second coordinate of a gear
   Eigen::VectorXd motion_force;                                 ///< force or moment of each drive of layout.motions
-  Eigen::VectorXd spring_force, stop_force;  ///< along the coordinate, on b; stops are part of springs
-  Eigen::Matrix3Xd bushing_force, bushing_moment, friction_force, friction_moment;  ///< as for joints
+  Eigen::VectorXd spring_force, stop_force;  ///< along the coordinate, on marker b; a spring's force includes its stops
+  Eigen::Matrix3Xd bushing_force, bushing_moment, friction_force, friction_moment;  ///< from A on B, as for joints
   Eigen::Matrix3Xd tyre_force, tyre_moment;    ///< on the wheel, about the contact centre, in tyre axes (ISO 8855)
   Eigen::Matrix3Xd tyre_contact, tyre_normal;  ///< contact centre, normal of the road
   Eigen::VectorXd tyre_slip, tyre_slip_angle, tyre_camber, tyre_penetration, tyre_rolling_radius, tyre_adhesion;
@@ -121,56 +122,59 @@ struct ResultsRow {
   void resize(const ResultsLayout& layout);
 };
 
-/// Modes of a linearised scene. Each column is a mode: complex shape of the nodes of the layout, world axes.
+/// Modes of a linearised scene. Each column is a mode: its complex shape at the nodes of the layout, in world axes.
 struct ModesTable {
   Eigen::VectorXcd eigenvalue;  ///< [1/time]
   Eigen::VectorXd frequency;    ///< |eigenvalue|/2π
   Eigen::VectorXd damping_ratio;
-  Eigen::MatrixXcd translation;  ///< 3 nodes x modes
+  Eigen::MatrixXcd translation;  ///< (3 nodes x modes)
   Eigen::MatrixXcd rotation;
-  Eigen::MatrixXcd y;  ///< coordinates of all superelements x modes, as ResultsRow::y
-  Eigen::MatrixXcd w;  ///< coordinates of all modal bodies x modes
+  Eigen::MatrixXcd y;  ///< (coordinates of all superelements x modes), as ResultsRow::y
+  Eigen::MatrixXcd w;  ///< (coordinates of all modal bodies x modes)
 };
 
-/// First rows of an older file of the same layout, which a new file begins with.
+/// Beginning of a new results file: the first `rows` rows of an older file of equal layout.
 struct ResultsBeginning {
   std::string file;
   std::size_t rows = 0;
 };
 
-/// Bytes of one row in the file for this layout and its selection.
+/// Number of bytes of one row in a file with this layout and its selection layout.channels.
 std::size_t bytes_of_row(const ResultsLayout& layout);
 
-/// Throws Error if a running program writes results under this name.
+/// Throws Error if a running program is writing results to `path`.
 void require_unheld_results(const std::string& path);
 
-/// Appends rows to <path>.part, flushes about every second, renames the file to `path` in finish(). The destructor of
-/// an unfinished writer closes it as a partial file (completed = 0) and leaves it under `path`. A kernel lock on the
-/// file, which readers ignore, keeps other writers from the name until the program ends.
+/// Writer of a results file. It appends rows to <path>.part, flushes about every second, and renames the file to `path`
+/// in finish(). Without finish(), the destructor closes it as a partial file (completed = 0) under `path`. A kernel
+/// lock, which readers ignore, keeps other writers from the name until the program ends.
 class ResultsWriter {
  public:
-  /// Throws Error if the file cannot be written or another program holds it. Without a path, rows are only counted.
+  /// Opens the file. Throws Error if it cannot be written or another program holds it. If `path` is empty, rows are
+  /// only counted.
   ResultsWriter(const std::string& path, const ResultsLayout& layout);
-  /// Begins with a copy of older rows (none without a file), which their checksums verify. The older file is unchanged
-  /// until finish() replaces it, if it has the same name. A killed one (.part) gets its final name first.
+  /// Begins with a copy of the older rows, which their checksums verify. An empty name of the older file means no rows.
+  /// An older file with the name `path` stays unchanged until finish() replaces it. A file <path>.part of a killed run
+  /// is first renamed to `path`.
   ResultsWriter(const std::string& path, const ResultsLayout& layout, const ResultsBeginning& beginning);
   ~ResultsWriter();
   ResultsWriter(const ResultsWriter&) = delete;
   ResultsWriter& operator=(const ResultsWriter&) = delete;
 
-  /// Appends a row, without heap allocation between flushes. Throws Error (disk full, ...).
+  /// Appends a row. Between flushes it allocates no heap memory. Throws Error (disk full, ...).
   void append(const ResultsRow& row);
   /// Waits until all appended rows are on the disk.
   void flush();
   /// Number of rows that were appended or copied at the beginning.
   std::size_t rows() const;
-  /// Identity of this file among all of the same scene (attribute `run`).
+  /// Identifier of this run among all runs of a scene, stored as the attribute `run`.
   const std::string& run() const;
-  /// Keeps modes for finish() to write.
+  /// Stores modes in memory; finish() writes them to the file.
   void set_modes(ModesTable modes);
-  /// Removes the unfinished file. An older file of this name is unchanged.
+  /// Removes the unfinished file. An older file named `path` stays unchanged.
   void discard();
-  /// Writes the run report (JSON text), sets completed and reason ("" if completed), closes and renames.
+  /// Writes the run report (JSON text) and the attributes completed and reason ("" if completed), closes the file and
+  /// renames it.
   void finish(bool completed, const std::string& reason, const std::string& report_json);
 
  private:
@@ -189,15 +193,16 @@ struct Channel {
   std::string same_as;  ///< other name for the same channel ("nodes/position/rod/10/x"); empty: none
 };
 
-/// `path`, or <path>.part of an unfinished run if only that exists.
+/// Name of an existing results file: `path`, or <path>.part of an unfinished run if only that exists.
 std::string existing_results(const std::string& path);
 
+/// Reader of a results file. Throws Error for a missing or damaged file.
 class ResultsReader {
  public:
   explicit ResultsReader(const std::string& path);  ///< accepts partial files
   ~ResultsReader();
 
-  std::string path() const;  ///< path of the file; ends in .part if only that exists
+  std::string path() const;  ///< path of the file; ends in .part for an unfinished run
   bool completed() const;
   std::string reason() const;
   std::string report_json() const;
@@ -208,15 +213,15 @@ class ResultsReader {
   std::size_t rows() const;
   std::size_t modes() const;  ///< number of modes; 0: none stored
   std::vector<double> time() const;
-  /// Channels over time, then aliases of some of them, then channels over modes.
+  /// All channels of the file: those over time, then aliases of some of them, then those over modes.
   const std::vector<Channel>& channels() const;
-  /// Values over time. Throws Error with the nearest channel names if the name is unknown.
+  /// Values of a channel, one per row. Throws Error with the nearest channel names if the name is unknown.
   std::vector<double> read(const std::string& channel) const;
-  /// Rows [first, first + count) of several channels, count x channels.size(), all over instants or all over modes.
-  /// Each dataset is read once.
+  /// Rows [first, first + count) of several channels (count x channels.size()). Requires that the rows of all channels
+  /// are instants, or of all are modes. Each dataset is read once.
   Eigen::MatrixXd read_rows(const std::vector<std::string>& channels, std::size_t first, std::size_t count) const;
-  /// The given ascending rows of a whole dataset ("nodes/position"): rows.size() x its columns; no columns if it is not
-  /// stored.
+  /// Given rows of a whole dataset such as "nodes/position" (rows.size() x columns of the dataset). Requires ascending
+  /// `rows`. The result has no columns if the dataset is not stored.
   Eigen::MatrixXd read_dataset(const std::string& dataset, const std::vector<std::size_t>& rows) const;
 
  private:
@@ -225,14 +230,14 @@ class ResultsReader {
 };
 
 /// Channels that a selection names: exact names, groups and datasets ("nodes", "nodes/position"), patterns with * (any
-/// characters, also /). Empty: all. The order is that of the file. An alias is included only if the entry does not
-/// select the channel itself. Throws Error for an entry that selects nothing.
+/// characters, also /). An empty selection means all. The order is that of the file. An alias is included only if the
+/// entry does not select the channel itself. Throws Error for an entry that selects nothing.
 std::vector<Channel> select_channels(const std::vector<Channel>& channels, const std::vector<std::string>& selection,
                                      const std::string& where);
 
-/// Writes CSV with one header line "time [s],name [unit],..." or, for modes counted from 1, "mode,modes/frequency
-/// [Hz],...". An empty selection means the modes if the file has some, else all channels over time. Wildcards * are
-/// allowed. Throws Error if a selection mixes instants and modes.
+/// Writes channels as CSV. The header line is "time [s],name [unit],..." or, for modes counted from 1,
+/// "mode,modes/frequency [Hz],...". An empty selection means the modes if the file has some, else all channels over
+/// time. Wildcards * are allowed. Throws Error if a selection mixes instants and modes.
 void export_csv(const ResultsReader& reader, const std::vector<std::string>& selection, const std::string& path);
 
 }  // namespace tisserand::formats

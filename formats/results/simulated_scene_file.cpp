@@ -68,7 +68,7 @@ void read_links(const hdf5::InputFile& file, std::size_t nodes, SimulatedScene& 
       const Eigen::Quaterniond q(m[3], m[4], m[5], m[6]);
       const bool is_pose = Eigen::Vector3d(m[0], m[1], m[2]).allFinite() && std::abs(q.norm() - 1.0) < 1e-6;
       if (!is_pose)
-        throw Error(fmt::format("the marker {} of '{}' is no position and unit quaternion", k == 0 ? "a" : "b",
+        throw Error(fmt::format("marker {} of '{}' is not a position with a unit quaternion", k == 0 ? "a" : "b",
                                 printable(name[i])),
                     file.path() + ": /scene/link_marker", "compare the file with formats/RESULTS.md");
       const bool is_stored = nodes > 0 || node[2 * i + k] < 0;

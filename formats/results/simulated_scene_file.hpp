@@ -9,10 +9,11 @@
 
 namespace tisserand::formats {
 
-/// Writes the scene, or nothing if it is empty.
+/// Writes the group /scene, or nothing if `scene` is empty.
 void write_simulated(const hdf5::Output& out, const SimulatedScene& scene);
 
-/// Reads the scene. Empty if the file has none (before version 1.5). Throws Error if shapes or indices do not fit.
+/// Reads the group /scene. The result is empty if the file has none (before version 1.5). Throws Error if shapes or
+/// indices do not fit. `nodes`: number of stored nodes.
 SimulatedScene read_simulated(const hdf5::InputFile& file, std::size_t nodes);
 
 }  // namespace tisserand::formats

@@ -97,7 +97,7 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
   const hdf5::Handle access = access_properties();  // kept open: closing it would lose the cause of a failure
   // Exclusive creation does not follow a link that somebody has put in place of the temporary file.
   hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, access.id()), H5Fclose);
-  if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
+  if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another folder or file name");
   const hdf5::Output out{file.id(), where};
   hdf5::write_attribute(out, "/", "format", "tisserand-results");
   hdf5::write_attribute(out, "/", "version", "1.13");
@@ -110,7 +110,7 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
   for (const Block& block : blocks) create_growing(out, block);
   write_names(out, layout, blocks);
   write_simulated(out, layout.simulated);
-  if (file.reset() < 0) throw hdf5::last_error("cannot write the file", where, "choose another place or name");
+  if (file.reset() < 0) throw hdf5::last_error("cannot write the file", where, "choose another folder or file name");
 }
 
 /// Creates the file of create_head() under its name, complete or not at all, and holds it.
@@ -137,7 +137,8 @@ std::string name_of_run() {
 hdf5::Handle open_for_writing(const std::string& path, unsigned mode) {
   const hdf5::Handle access = access_properties();
   hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR | mode, access.id()), H5Fclose);
-  if (!file.valid()) throw hdf5::last_error("cannot open the file for writing", path, "choose another place or name");
+  if (!file.valid())
+    throw hdf5::last_error("cannot open the file for writing", path, "choose another folder or file name");
   return file;
 }
 
@@ -225,10 +226,10 @@ std::size_t ResultsWriter::Impl::rows_that_fit() {
   const std::uint64_t needed = bytes_needed(waiting);
   if (needed <= std::min(free, growth)) return waiting;
   shortage = growth < free
-                 ? fmt::format("the file may not grow beyond {} kB (`ulimit -f`), the next {} rows need {} kB more",
+                 ? fmt::format("the file may not grow beyond {} kB (`ulimit -f`), but the next {} rows need {} kB more",
                                limit.rlim_cur / 1024, waiting, needed / 1024)
-                 : fmt::format("the disk is full: {} kB are free, the next {} rows need {} kB", free / 1024, waiting,
-                               needed / 1024);
+                 : fmt::format("the disk is full: {} kB are free, but the next {} rows need {} kB", free / 1024,
+                               waiting, needed / 1024);
   std::size_t rows = waiting;
   while (rows > 0 && bytes_needed(rows) > std::min(free, growth)) rows /= 2;
   return rows;
@@ -262,7 +263,7 @@ void ResultsWriter::Impl::write_rows(std::size_t rows) {
       broken = true;
       throw hdf5::last_error(
           fmt::format("cannot write rows {} to {} of {}", written, written + rows, column.block.dataset), part,
-          "choose another place for the results");
+          "choose another folder for the results");
     }
   }
   written += rows;
@@ -272,7 +273,7 @@ void ResultsWriter::Impl::flush() {
   write_waiting();
   if (H5Fflush(file.id(), H5F_SCOPE_GLOBAL) < 0) {
     broken = true;
-    throw hdf5::last_error("cannot write results", part, "choose another place for the results");
+    throw hdf5::last_error("cannot write results", part, "choose another folder for the results");
   }
   last_flush = Clock::now();
 }
@@ -321,7 +322,7 @@ void ResultsWriter::Impl::write_end(const std::string& target, int completed, co
   hdf5::write_attribute(out, "/", "reason", reason.substr(0, 4096));
   hdf5::write_attribute(out, "/", "completed", completed);
   if (end.reset() < 0)
-    throw hdf5::last_error("cannot write the run report", target, "choose another place for the results");
+    throw hdf5::last_error("cannot write the run report", target, "choose another folder for the results");
 }
 
 /// Renames `last`, the part or a copy that replaces it, to the final name.
@@ -332,7 +333,7 @@ void ResultsWriter::Impl::rename_to_final(const std::string& last) const {
   }
   const int number = errno;
   throw Error(fmt::format("cannot rename the results to their final name: {}", std::strerror(number)), path,
-              fmt::format("they are complete in {}", last));
+              fmt::format("the complete results are in {}", last));
 }
 
 void ResultsWriter::Impl::create() {
@@ -346,7 +347,8 @@ void ResultsWriter::Impl::create() {
   capacity = std::clamp<std::size_t>(buffer_bytes / bytes_per_row, 1, 4096);
   for (const Block& block : blocks) {
     hdf5::Handle dataset(H5Dopen2(file.id(), block.dataset.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!dataset.valid()) throw hdf5::last_error("cannot open dataset " + block.dataset, part, "choose another place");
+    if (!dataset.valid())
+      throw hdf5::last_error("cannot open dataset " + block.dataset, part, "choose another folder for the results");
     columns.push_back({block, std::move(dataset), std::make_unique_for_overwrite<double[]>(capacity * block.width())});
   }
 }
@@ -367,14 +369,16 @@ void ResultsWriter::Impl::begin_with(const ResultsBeginning& beginning) {
       if (at < known.size() && known[at].name == names[at] && known[at].unit == column.block.units[c]) ++same;
     }
   if (same != names.size() || same != known.size())
-    throw Error("holds other channels, or other units, than this run would store", old.path(),
-                "go on with the `output.channels` and the units of that run, or leave --append out");
-  if (old.layout().stiffened != layout.stiffened && !old.layout().stiffened.empty())
-    throw Error("holds bodies with stiffening where this run has none, or the reverse", old.path(),
-                "go on with the `effects` and `second_order` of that run, or leave --append out");
+    throw Error("has channels or units that differ from those of this run", old.path(),
+                "use the `output.channels` and the units of that run, or remove --append");
+  for (std::size_t k = 0; k < std::min(layout.stiffened.size(), old.layout().stiffened.size()); ++k)
+    if (layout.stiffened[k] != old.layout().stiffened[k])
+      throw Error(fmt::format("body {}: it {} geometric stiffening in this file, and this run would store the opposite",
+                              layout.superelements[k], old.layout().stiffened[k] != 0 ? "has" : "has no"),
+                  old.path(), "use the `effects` and `second_order` of that run, or remove --append");
   if (old.rows() < beginning.rows)
     throw Error(fmt::format("holds {} instants, {} were expected", old.rows(), beginning.rows), old.path(),
-                "go on from a stored instant of it");
+                "continue from an instant that this file contains");
   while (written < beginning.rows) {
     const std::size_t count = std::min<std::size_t>(capacity, beginning.rows - written);
     const Eigen::MatrixXd rows = old.read_rows(names, written, count);
@@ -433,7 +437,7 @@ void ResultsWriter::append(const ResultsRow& row) {
     ++impl_->written;
     return;
   }
-  if (impl_->broken) throw Error("an earlier write has failed", impl_->part, "choose another place for the results");
+  if (impl_->broken) throw Error("an earlier write has failed", impl_->part, "choose another folder for the results");
   if (impl_->waiting == impl_->capacity) impl_->flush();
   for (Impl::Column& column : impl_->columns) {
     const std::size_t width = column.block.width();
@@ -446,7 +450,7 @@ void ResultsWriter::append(const ResultsRow& row) {
 
 void ResultsWriter::flush() {
   if (impl_->path.empty()) return;
-  if (impl_->broken) throw Error("an earlier write has failed", impl_->part, "choose another place for the results");
+  if (impl_->broken) throw Error("an earlier write has failed", impl_->part, "choose another folder for the results");
   impl_->flush();
   impl_->held.synchronise();
 }
@@ -479,10 +483,10 @@ void ResultsWriter::finish(bool completed, const std::string& reason, const std:
   }
   impl_->close();
   if (problem.empty() && impl_->broken) problem = hdf5::last_error("some rows could not be written", "", "").message();
-  const std::string told = reason.empty() || problem.empty() ? reason + problem : reason + "; " + problem;
+  const std::string reported = reason.empty() || problem.empty() ? reason + problem : reason + "; " + problem;
   std::string last = impl_->part;
   try {
-    if (!impl_->broken) last = impl_->write_end_apart(completed && problem.empty() ? 1 : 0, told, report_json);
+    if (!impl_->broken) last = impl_->write_end_apart(completed && problem.empty() ? 1 : 0, reported, report_json);
   } catch (const Error& error) {
     if (problem.empty()) problem = error.what();
   } catch (const std::bad_alloc&) {

@@ -34,8 +34,8 @@ class Records {
     for (std::size_t c = 0; c < row.size(); ++c) {
       if (c % in_line == 0 && !next_line()) {
         if (c == 0) return false;
-        throw Error(fmt::format("ends within a row: {} of {} columns", c, row.size()), place(path_, line_),
-                    "write the file again");
+        throw Error(fmt::format("the file ends inside a row: it has {} of {} columns", c, row.size()),
+                    place(path_, line_), "write the file again");
       }
       const std::size_t first = c % in_line * width;
       row[c] = field(std::string_view(text_).substr(std::min(first, text_.size()), width), first);
@@ -51,13 +51,13 @@ class Records {
       ++line_;
       text_.resize(trimmed(text_).empty() ? 0 : text_.find_last_not_of(" \t\r") + 1);
       if (text_.size() > record)
-        throw Error(fmt::format("has {} characters, more than {}", text_.size(), record), place(path_, line_),
-                    "write records of 80 characters");
+        throw Error(fmt::format("the line has {} characters; the limit is {}", text_.size(), record),
+                    place(path_, line_), "write lines of at most 80 characters");
       if (text_.empty()) {
         empty_ = empty_ == 0 ? line_ : empty_;
         continue;
       }
-      if (empty_ != 0) throw Error("is an empty line within the data", place(path_, empty_), "write the file again");
+      if (empty_ != 0) throw Error("the line is empty, but data follow", place(path_, empty_), "write the file again");
       return true;
     }
     return false;
@@ -73,7 +73,7 @@ class Records {
     if (!read_finite(word, value))
       throw Error(fmt::format("'{}' is not a finite number", printable_line(trimmed(characters), 40)),
                   fmt::format("{}:{}", place(path_, line_), first + 1),
-                  fmt::format("give numbers of {} characters, for a missing one *missing*", header_.width));
+                  fmt::format("give numbers of {} characters; write *missing* for a missing number", header_.width));
     return value;
   }
 
@@ -114,7 +114,7 @@ CrgData read_rows(std::istream& stream, const std::string& path, const CrgHeader
     }
     data.lines.push_back(records.line());
     if (data.heights.size() > most_road_heights)
-      throw Error(fmt::format("has more than {} heights", most_road_heights), path, "thin it out");
+      throw Error(fmt::format("has more than {} heights", most_road_heights), path, "reduce the number of points");
   }
   return data;
 }
@@ -125,26 +125,28 @@ std::vector<double> section_positions(const CrgHeader& header, const std::string
   for (const CrgColumn& column : header.columns)
     if (column.kind == CrgColumn::Kind::section) sections.push_back(&column);
   if (sections.size() < 2)
-    throw Error(fmt::format("has {} columns of heights", sections.size()), path, "give two long sections or more");
+    throw Error(fmt::format("the number of long sections (columns of heights) is {}", sections.size()), path,
+                "give two or more");
   const double between = header.value("long_section_v_increment", 0.01);
   const double right = header.value("long_section_v_right", -0.5 * between * static_cast<double>(sections.size() - 1));
   std::vector<double> v;
   for (const CrgColumn* section : sections) {
     if (section->numbered != sections[0]->numbered)
-      throw Error("long sections are given by number and by position", place(path, section->line), "use one");
+      throw Error("some long sections are given by number, others by position", place(path, section->line),
+                  "use one form for all");
     const double number = static_cast<double>(v.size() + 1);
     if (section->numbered && section->position != number)
-      throw Error(fmt::format("long section {:g} stands in the place of {:g}", section->position, number),
-                  place(path, section->line), "number the sections from 1, from the right");
+      throw Error(fmt::format("long section {:g} is given where {:g} is expected", section->position, number),
+                  place(path, section->line), "number the long sections from 1, beginning at the right");
     v.push_back(section->numbered ? right + (number - 1.0) * between : section->position);
   }
   const auto [least, most] = std::ranges::minmax(v);
   for (const auto& [name, value] : {std::pair{"long_section_v_right", least}, std::pair{"long_section_v_left", most}})
     if (const auto given = header.parameters.find(name);
         given != header.parameters.end() && std::abs(given->second.value - value) > 1e-3)
-      throw Error(
-          fmt::format("{} = {:g}, but the long sections begin or end at {:g}", name, given->second.value, value),
-          place(path, given->second.line), "correct one of them");
+      throw Error(fmt::format("{} = {:g}, but the outermost long section on this side is at {:g}", name,
+                              given->second.value, value),
+                  place(path, given->second.line), "correct one of them");
   return v;
 }
 
@@ -158,7 +160,8 @@ void distribute_closing_error(std::vector<Value>& points, const Value& end, doub
                               const std::string& where) {
   const Value error = end - points.back();
   if (!(size_of(error) <= largest_closing_error * length))
-    throw Error(fmt::format("the {} leads to an end {:g} m away from that of the parameters", what, size_of(error)),
+    throw Error(fmt::format("the end computed from the {} is {:g} m away from the end that the parameters give", what,
+                            size_of(error)),
                 where, "correct the parameters of the end, or remove them");
   const double last = static_cast<double>(points.size() - 1);
   for (std::size_t i = 0; i < points.size(); ++i) points[i] += error * (static_cast<double>(i) / last);
@@ -196,7 +199,7 @@ Eigen::Matrix2Xd reference_line(const CrgHeader& header, const CrgData& data, co
 double constant(const CrgHeader& header, const std::string& start, const std::string& end, const std::string& path) {
   const double value = header.value(start, 0.0);
   if (header.has(end) && header.value(end, 0.0) != value)
-    throw Error(fmt::format("{} = {:g} differs from {} = {:g}, and the data have no column of it", end,
+    throw Error(fmt::format("{} = {:g} differs from {} = {:g}, but the data have no column for this quantity", end,
                             header.value(end, 0.0), start, value),
                 place(path, header.parameters.at(end).line), "add the column, or give equal values");
   return value;
@@ -226,7 +229,7 @@ void fill_heights(const CrgHeader& header, const CrgData& data, const std::strin
   std::ranges::sort(order, {}, [&v](std::size_t k) { return v[k]; });
   for (const std::size_t k : order) {
     if (!road.across.empty() && !(v[k] - road.across.back() > 1e-6))
-      throw Error(fmt::format("two long sections stand at v = {:g}", v[k]), path, "remove one");
+      throw Error(fmt::format("two long sections are at v = {:g}", v[k]), path, "remove one");
     road.across.push_back(v[k]);
   }
   const double banking =
@@ -241,7 +244,7 @@ void fill_heights(const CrgHeader& header, const CrgData& data, const std::strin
 
 void check_rows(const CrgHeader& header, const CrgData& data, const std::string& path) {
   if (data.lines.size() < 2)
-    throw Error(fmt::format("has {} rows of data", data.lines.size()), path, "give two or more");
+    throw Error(fmt::format("the number of rows of data is {}", data.lines.size()), path, "give two or more");
   const double end = header.u_start + header.increment * static_cast<double>(data.lines.size() - 1);
   if (const auto given = header.parameters.find("reference_line_end_u");
       given != header.parameters.end() && std::abs(given->second.value - end) > 0.5 * header.increment)
@@ -270,8 +273,9 @@ RoadHeights read_crg(const std::string& path) {
   fill_heights(header, data, path, road);
   if (header.moved_at != 0 && !(road.line.col(0).isZero(0.0) && header.value("reference_line_start_phi", 0.0) == 0.0 &&
                                 header.value("reference_line_start_z", 0.0) == 0.0))
-    throw Error("the modifiers refpoint_... move the start of the reference line to the origin",
-                place(path, header.moved_at), "remove them and place the road by the pose in the scene");
+    throw Error(
+        "the modifiers refpoint_... would move the start of the reference line to the origin, which is not supported",
+        place(path, header.moved_at), "remove them and place the road by the pose in the scene");
   return road;
 }
 

@@ -99,11 +99,12 @@ class HeaderLines {
     for (const auto& [line, other, own] :
          {std::tuple{u_line_, u_start_, header_.u_start}, std::tuple{u_line_, increment_, header_.increment}})
       if (other && std::abs(*other - own) > 1e-6 * std::abs(own))
-        throw Error(fmt::format("U: says {:g}, the parameters of the reference line {:g}", *other, own), where(line),
-                    "correct one of them");
+        throw Error(
+            fmt::format("the line U: gives {:g}, but the parameters of the reference line give {:g}", *other, own),
+            where(line), "correct one of them");
     if (!(header_.increment > 1e-6))
-      throw Error(fmt::format("REFERENCE_LINE_INCREMENT {:g} must be positive, 1e-6 m at least", header_.increment),
-                  path_, "give it in $ROAD_CRG");
+      throw Error(fmt::format("REFERENCE_LINE_INCREMENT {:g} must be greater than 1e-6 m", header_.increment), path_,
+                  "give it in $ROAD_CRG");
     return std::move(header_);
   }
 
@@ -120,10 +121,10 @@ class HeaderLines {
       return;
     }
     if (!section_.empty())
-      fail(fmt::format("${} begins inside of ${}", printable_line(name, 40), section_),
-           "end the one before by a line $");
+      fail(fmt::format("section ${} begins inside section ${}", printable_line(name, 40), section_),
+           "end the previous section with a line $");
     if (name == "road_crg_file")
-      fail("$ROAD_CRG_FILE refers to another file, which is not followed", "name that file in the scene");
+      fail("$ROAD_CRG_FILE refers to another file, which is not supported", "give the path of that file in the scene");
     const std::vector<std::string> known{"ct",           "road_crg", "road_crg_opts", "road_crg_mods", "road_crg_mpro",
                                          "kd_definition"};
     if (std::ranges::find(known, name) == known.end())
@@ -141,8 +142,8 @@ class HeaderLines {
     else if (section_ == "kd_definition")
       read_definition(text);
     else if (section_.empty())
-      fail("the line stands outside of all sections",
-           "begin comments by *, sections by $; is the file of another format?");
+      fail("the line is outside all sections",
+           "begin comments with * and sections with $; check that this is an OpenCRG file");
   }
 
   double number(std::string_view text, std::string_view keyword) const {
@@ -164,11 +165,12 @@ class HeaderLines {
       fail(fmt::format("the keyword '{}' is not known in ${}", printable_line(name, 60), section_),
            near ? fmt::format("did you mean '{}'?", *near) : "remove it");
     }
-    if (equals == std::string_view::npos) fail(fmt::format("{}: no = and value follow", name), "");
+    if (equals == std::string_view::npos)
+      fail(fmt::format("{} has no value", name), fmt::format("write {} = <number>", name));
     const double value = number(text.substr(equals + 1), name);
     if (!allows(known->first, value))
-      fail(fmt::format("{} = {:g} is not provided for: only the value that changes nothing is", name, value),
-           "remove it (a road is placed by the pose in the scene and ends at its borders), or apply it to the data");
+      fail(fmt::format("{} = {:g} is not supported: only the value that has no effect is", name, value),
+           "remove it, or change the data instead. The pose in the scene places the road, which ends at its borders");
     if (known->first == CrgRule::zero_moves && header_.moved_at == 0) header_.moved_at = header_.line;
     if (known->first != CrgRule::used) return;
     if (!header_.parameters.emplace(name, CrgHeader::Parameter{value, header_.line}).second)
@@ -180,9 +182,11 @@ class HeaderLines {
     if (text.starts_with("#:")) return read_format(trimmed(text.substr(2)));
     const bool dependent = text.starts_with("D:");
     if (!dependent && !text.starts_with("U:"))
-      fail(fmt::format("'{}' is no definition of data", printable_line(text, 40)), "begin it by #:, U: or D:");
+      fail(fmt::format("'{}' is not a definition of data", printable_line(text, 40)),
+           "begin the line with #:, U: or D:");
     const std::vector<std::string_view> cells = split_cells(text.substr(2), ',');
-    if (cells.size() < 2) fail(fmt::format("'{}' has no unit", printable_line(text, 40)), "write for example ,m");
+    if (cells.size() < 2)
+      fail(fmt::format("'{}' has no unit", printable_line(text, 40)), "write the unit behind a comma, for example: ,m");
     const std::string name = small_letters(cells[0]), unit = small_letters(cells[1]);
     if (dependent)
       read_column(name, unit);
@@ -197,9 +201,9 @@ class HeaderLines {
     const std::string word = small_letters(format);
     if (word == "krbi" || word == "kdbi")
       fail(fmt::format("the data are binary ({})", printable_line(format, 20)),
-           "write the file anew in clear text, as #:LRFI or #:LDFI (crg_write of the OpenCRG tools does)");
+           "convert the file to the text format #:LRFI or #:LDFI, for example with crg_write of the OpenCRG tools");
     if (word != "lrfi" && word != "ldfi")
-      fail(fmt::format("the format of data '{}' is not known", printable_line(format, 20)), "use LRFI or LDFI");
+      fail(fmt::format("the data format '{}' is not known", printable_line(format, 20)), "use LRFI or LDFI");
     header_.width = word == "lrfi" ? 10 : 20;
     has_format_ = true;
   }
@@ -208,7 +212,7 @@ class HeaderLines {
     CrgColumn column;
     column.line = header_.line;
     const std::string_view section = "long section", at = "at v =";
-    if (!has_format_) fail("D: stands before the format of the data", "write #:LRFI before it");
+    if (!has_format_) fail("the line D: comes before the data format", "write the line #:LRFI before it");
     if (name == "reference line phi")
       column.kind = CrgColumn::Kind::heading;
     else if (name == "reference line slope")
@@ -217,7 +221,7 @@ class HeaderLines {
       column.kind = CrgColumn::Kind::banking;
     else if (!name.starts_with(section))
       fail(fmt::format("the column '{}' is not known", printable_line(name, 40)),
-           "columns are reference line phi, slope or banking, and long section");
+           "use reference line phi, reference line slope, reference line banking or long section");
     const bool is_section = column.kind == CrgColumn::Kind::section;
     if (is_section) {
       const std::string_view place = trimmed(std::string_view(name).substr(section.size()));

@@ -11,7 +11,7 @@ namespace {
 
 using Cells = std::vector<std::string_view>;
 
-constexpr const char* no_holes = "give a height there: a grid has no holes";
+constexpr const char* no_holes = "give a height at each point of the grid";
 
 /// Parser of the table, which receives its lines one by one.
 class GridLines {
@@ -26,7 +26,7 @@ class GridLines {
       gap_ = rows_ > 0 && gap_.empty() ? where_ : gap_;
       return;
     }
-    if (!gap_.empty()) throw Error("is an empty line between lines of heights", gap_, no_holes);
+    if (!gap_.empty()) throw Error("the line is empty, but lines of heights follow", gap_, no_holes);
     if (separator_ == 0) separator_ = separator_of(text);
     const Cells cells = split_cells(line, separator_);
     if (!regular_ && columns_ == 0)
@@ -37,7 +37,8 @@ class GridLines {
 
   RoadHeights take() {
     if (rows_ < 2 || columns_ < 2)
-      throw Error(fmt::format("the grid has {} x {} heights", rows_, columns_), path_, "give two along each axis");
+      throw Error(fmt::format("the grid has {} x {} heights", rows_, columns_), path_,
+                  "give at least two along each axis");
     if (regular_) {
       grid_.along = regular_axis(regular_->x_start, rows_);
       grid_.across = regular_axis(regular_->y_start, columns_);
@@ -58,27 +59,29 @@ class GridLines {
   }
   void extend(std::vector<double>& axis, double value, const char* name) const {
     if (!axis.empty() && !(value > axis.back()))
-      throw Error(fmt::format("{} must ascend, but {:g} follows {:g}", name, value, axis.back()), where_,
+      throw Error(fmt::format("{} must increase, but {:g} follows {:g}", name, value, axis.back()), where_,
                   "sort the grid");
     axis.push_back(value);
   }
   void read_axis(const Cells& cells) {
     double corner = 0.0;
     if (read_finite(cells[0], corner))
-      throw Error(fmt::format("begins with the number {:g} instead of a word", corner), where_,
-                  "write the y of the columns there behind a word, or give x_start, y_start and spacing in the scene");
-    for (std::size_t i = 1; i < cells.size(); ++i) extend(grid_.across, number(cells, i, "give a y"), "y");
+      throw Error(fmt::format("the line begins with the number {:g} instead of a word", corner), where_,
+                  "write a word and then the y of each column, or give x_start, y_start and spacing in the scene");
+    for (std::size_t i = 1; i < cells.size(); ++i)
+      extend(grid_.across, number(cells, i, "give the y of the column"), "y");
     columns_ = grid_.across.size();
-    if (columns_ < 2) throw Error("has fewer than two columns of heights", where_, "give the y of each");
+    if (columns_ < 2)
+      throw Error("the line gives fewer than two values of y", where_, "give the y of each column, at least two");
   }
   void read_row(const Cells& cells) {
     const std::size_t first = regular_ ? 0 : 1;
     if (columns_ == 0) columns_ = cells.size();
     if (cells.size() != columns_ + first)
-      throw Error(fmt::format("has {} cells instead of {}", cells.size(), columns_ + first), where_, no_holes);
-    if (!regular_) extend(grid_.along, number(cells, 0, "give an x"), "x");
+      throw Error(fmt::format("the line has {} cells instead of {}", cells.size(), columns_ + first), where_, no_holes);
+    if (!regular_) extend(grid_.along, number(cells, 0, "give the x of the row"), "x");
     if (heights_.size() + columns_ > most_road_heights)
-      throw Error(fmt::format("has more than {} heights", most_road_heights), path_, "thin it out");
+      throw Error(fmt::format("has more than {} heights", most_road_heights), path_, "reduce the number of points");
     for (std::size_t i = first; i < cells.size(); ++i) heights_.push_back(number(cells, i, no_holes));
     ++rows_;
   }

@@ -13,24 +13,24 @@ namespace tisserand::formats {
 
 using HeightTable = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Heights z at (s_i, t_k): s along the road, t to its left, both ascending. Without a line, s and t are x and y of the
-/// road's axes. With a line, s is the u of OpenCRG: its points have equal steps of u from s.front() to s.back(), and t
-/// is the distance from the line.
+/// Road heights z at points (s_i, t_k): s along the road, t to its left, both ascending. Without a
+/// reference line, s and t are x and y of the road's axes. With a reference line, s is OpenCRG's coordinate u and t the
+/// distance from the line. The points of the line have equal steps of u from s.front() to s.back().
 struct RoadHeights {
   std::vector<double> along;   ///< s
   std::vector<double> across;  ///< t
-  HeightTable height;          ///< along × across; not-a-number: no road there
-  Eigen::Matrix2Xd line;       ///< in the road's x-y plane; two points: straight
+  HeightTable height;          ///< (along x across); NaN: no road there
+  Eigen::Matrix2Xd line;       ///< points of the line in the road's x-y plane; two: straight; none: no line
 };
 
 /// Largest number of heights that a file may have.
 inline constexpr std::size_t most_road_heights = 10'000'000;
 
-/// Fault of a grid, or empty. Axes have two or more ascending values, at least 1e-9 of their size apart. There is one
-/// height per pair, of which at least one is known. Numbers are at most 1e12.
+/// Fault of road heights, or empty. Axes must have two or more ascending values, at least 1e-9 of their size apart.
+/// There must be one height per pair of axis values, and at least one known height. Numbers must be at most 1e12.
 std::string fault_of(const RoadHeights& road);
 
-/// Opens a file of at most 1 GiB. Throws Error.
+/// Opens a road file of at most 1 GiB. Throws Error with `remedy`.
 std::ifstream open_road_file(const std::string& path, const std::string& remedy);
 
 }  // namespace tisserand::formats

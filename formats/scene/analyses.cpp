@@ -45,8 +45,9 @@ const Analysis* read_from(const MapReader& map, const std::vector<Analysis>& bef
   analysis.from = read_text(map.context(), *node, "from");
   const auto found = std::ranges::find(before, analysis.from, &Analysis::name);
   if (found != before.end()) return &*found;
-  map.context().fail(node->place, fmt::format("from: no analysis '{}' stands before this one", analysis.from),
-                     did_you_mean(analysis.from, texts_of(before, &Analysis::name), "put it above, or remove `from`"));
+  map.context().fail(
+      node->place, fmt::format("from: there is no analysis '{}' before this one", analysis.from),
+      did_you_mean(analysis.from, texts_of(before, &Analysis::name), "move it before this one, or remove `from`"));
   return nullptr;
 }
 

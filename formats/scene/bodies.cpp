@@ -115,7 +115,7 @@ void read_properties(const MapReader& map, const SceneDefinitions& definitions, 
   }
   if (body.section.by_stiffness) {
     body.material = unit_material(context.entry);
-    map.refuse({"material"}, "beside a section by stiffness", "remove it: the section needs none");
+    map.refuse({"material"}, "has no effect with a section by stiffness", "remove it");
   } else if (const YamlNode* node = map.require("material")) {
     if (node->kind == YamlKind::map) {
       body.material = read_material(context.inside("material"), *node, "material.");
@@ -190,8 +190,8 @@ KeySet superelement_fields() {
            "`B`; `F` with `second_order`"),
        choice<&SuperelementBodySpec::stiffening, stiffening_options>(
            "stiffening",
-           "geometric stiffness from the companion file: `off`; `stress`: that of the stress in the body (needs "
-           "inertia `M` or `F`); `full`: also that of its inertia (needs inertia `F`)",
+           "geometric stiffness from the companion file: `off`; `stress`: from the stress in the body (needs inertia "
+           "`M` or `F`); `full`: from its stress and its inertia (needs inertia `F`)",
            "`off`; `full` with `second_order`"),
        choice<&SuperelementBodySpec::second_order, on_or_off>(
            "second_order",

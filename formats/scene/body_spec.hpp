@@ -20,8 +20,9 @@ struct Pose {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
-/// Rigid motion of a part at the start: pose of the part frame and velocity of its origin, world axes. An absent
-/// velocity is free: joints, drives and given velocities determine it (mechanism/analyses/start_velocities.hpp).
+/// Rigid motion of a part at the start: pose of the part frame, velocity of the origin of this frame, and angular
+/// velocity, in world axes. An absent velocity is free: joints, drives and given velocities determine it
+/// (mechanism/analyses/start_velocities.hpp).
 struct InitialMotion {
   Pose pose;
   std::optional<Eigen::Vector3d> velocity;
@@ -29,9 +30,11 @@ struct InitialMotion {
 };
 
 enum class FrameKind { karcher, paper, node };
-/// Inertia options A and B of [Car00]. M: B with the exact centre of mass. F: full inertia, from a companion file.
+/// Inertia options of a superelement. A and B are those of [Car00]. M is B with the exact centre of mass. F is the full
+/// inertia, which requires a companion file.
 enum class InertiaOption { A, B, M, F };
-/// Terms from a companion file: none, geometric stiffness of the body's own stress, or of its inertia forces too.
+/// Terms taken from a companion file. `off`: none. `stress`: geometric stiffness of the stress in the body. `full`:
+/// also geometric stiffness of the body's inertia forces.
 enum class StiffeningOption { off, stress, full };
 
 struct NodeWeight {
@@ -40,38 +43,42 @@ struct NodeWeight {
   bool operator==(const NodeWeight&) const = default;
 };
 
+/// Damping of a body: mass and stiffness proportional, and by damping ratios of modes.
 struct Damping {
-  double mass = 0.0;                         ///< a of a M̄
-  double stiffness = 0.0;                    ///< b of b S̄
-  double ratio = 0.0;                        ///< for every elastic mode of the free body, or every mode of a modal body
-  std::vector<double> ratios;                ///< for the lowest of these modes; overrides `ratio`
-  double ratio_internal = 0.0;               ///< for every internal mode (boundary held) of a superelement
-  std::vector<double> ratios_internal = {};  ///< for the first of these modes; overrides `ratio_internal`
+  double mass = 0.0;       ///< factor a of the damping matrix a M̄ [1/time]
+  double stiffness = 0.0;  ///< factor b of the damping matrix b S̄ [time]
+  /// Damping ratio of every elastic mode of the free body, or of every mode of a modal body.
+  double ratio = 0.0;
+  std::vector<double> ratios;                ///< damping ratios of the lowest modes; override `ratio`
+  double ratio_internal = 0.0;               ///< damping ratio of every internal mode (boundary held) of a superelement
+  std::vector<double> ratios_internal = {};  ///< of the first internal modes; override `ratio_internal`
   bool operator==(const Damping&) const = default;
 };
 
-/// Terms of a body that can be disabled in its equations, by `effects` of a scene.
+/// Switches of the terms of a body's equations that `effects` of a scene can disable.
 struct BodyTerms {
   bool rotary_inertia = true;  ///< rotary inertia of the sections of beams
   bool gyroscopic = true;      ///< Ω × J Ω of rigid bodies
-  bool damping = true;         ///< damping of the body and of its file
+  bool damping = true;         ///< damping given for the body in the scene and in the body's file
 };
 
+/// Body of a scene that is a superelement.
 struct SuperelementBodySpec {
   std::string name;
   std::string file;  ///< resolved path
   Eigen::Vector3d mirror =
       Eigen::Vector3d::Ones();  ///< −1 along axes that are mirrored (formats/superelement/mirror.hpp)
   InitialMotion start;
-  bool rigid = false;                          ///< use: rigid
+  bool rigid = false;                          ///< whether the scene says `use: rigid`
   std::optional<int> modes;                    ///< absent: all modes of the file
   std::optional<double> cutoff;                ///< [1/time of the scene]
   std::optional<InertiaOption> inertia;        ///< absent: by `second_order`
   std::optional<StiffeningOption> stiffening;  ///< absent: by `second_order`
-  std::optional<bool> second_order;            ///< absent: yes with a companion, without both others
-  std::optional<bool> double_curvature;        ///< absent: yes with stiffening, if the companion has the data
+  /// Absent: yes if a companion file exists and neither `inertia` nor `stiffening` is given.
+  std::optional<bool> second_order;
+  std::optional<bool> double_curvature;  ///< absent: yes with stiffening, if the companion has the data
   FrameKind frame = FrameKind::karcher;
-  std::string frame_node;                    ///< for FrameKind::node
+  std::string frame_node;                    ///< node that carries the frame; for FrameKind::node
   std::vector<NodeWeight> position_weights;  ///< empty: by the centre of mass of the file
   std::vector<NodeWeight> rotation_weights;
   Damping damping;
@@ -86,6 +93,7 @@ struct RigidNodeSpec {
   Pose pose;  ///< in the part frame
 };
 
+/// Rigid body of a scene.
 struct RigidBodySpec {
   std::string name;
   InitialMotion start;
@@ -99,7 +107,7 @@ struct RigidBodySpec {
   std::string where;
 };
 
-/// Body without mass: a node that joints, springs and loads share, at the origin of its part frame.
+/// Body without mass: a node at the origin of its part frame, which joints, springs and loads share.
 struct VirtualBodySpec {
   std::string name;
   InitialMotion start;
@@ -108,11 +116,13 @@ struct VirtualBodySpec {
   std::string where;
 };
 
-/// Treatment of virtual bodies. keep: nodes with six coordinates, whose fixed joints are constraints. eliminate: bodies
-/// fixed to a virtual one follow one carrier at constant offsets (mechanism/build/virtual_bodies.hpp).
+/// Treatment of virtual bodies. `keep`: each is a node with six coordinates, and its fixed joints are constraints.
+/// `eliminate`: bodies fixed to a virtual body follow one carrier at constant offsets
+/// (mechanism/build/virtual_bodies.hpp).
 enum class VirtualBodies { keep, eliminate };
 
-/// Geometrically exact beam along a line or an arc. Its nodes are <name>/0 ... <name>/N (and <name>/start, /end).
+/// Geometrically exact beam along a line or an arc. Its nodes are <name>/0 ... <name>/N; <name>/start and <name>/end
+/// name the first and the last.
 struct BeamBodySpec {
   std::string name;
   InitialMotion start;
@@ -129,7 +139,8 @@ struct BeamBodySpec {
   std::string where;
 };
 
-/// Floating-frame body with lumped masses of a modal body file. Its nodes are `<body>/<node>`, its frame is `<body>`.
+/// Floating-frame body with lumped masses, given by a modal body file. Its nodes are `<body>/<node>`; its frame is the
+/// node `<body>`.
 struct ModalBodySpec {
   std::string name;
   std::string file;  ///< resolved path
@@ -138,7 +149,7 @@ struct ModalBodySpec {
   InitialMotion start;
   std::optional<int> modes;                ///< absent: all modes of the file
   std::optional<double> cutoff;            ///< [1/time of the scene]
-  Damping damping;                         ///< in addition to that of the file
+  Damping damping;                         ///< added to the damping of the file
   std::optional<Eigen::Vector3d> gravity;  ///< absent: gravity of the scene
   std::vector<ShapeSpec> shapes;
   BodyTerms terms;

@@ -93,7 +93,7 @@ Subject check_expression_name(const std::string& noun, const auto& entry, std::u
   if (name.find('-') != std::string::npos)
     subject.add("", "expressions would read the name as a difference", "use _ instead of -");
   const std::string last = name.substr(name.rfind('/') + 1);
-  if (last == "t" || last == "pi") subject.add("", "the name has a meaning in expressions", "rename it");
+  if (last == "t" || last == "pi") subject.add("", "the name is reserved in expressions", "rename it");
   return subject;
 }
 

@@ -55,7 +55,7 @@ template <class Body>
 void check_modal_choice(const Body& body, const std::string& noun, const Subject& subject) {
   if (body.file.empty()) subject.add("file", fmt::format("has no {}", noun));
   if (body.modes && *body.modes < 0)
-    subject.add("modes", fmt::format("modes {} must not be negative", *body.modes), "modes: 0 uses none");
+    subject.add("modes", fmt::format("modes {} must not be negative", *body.modes), "write modes: 0 to use no modes");
   subject.positive("cutoff", body.cutoff);
   check_damping(body.damping, subject.inside("damping"));
 }
@@ -63,8 +63,8 @@ void check_modal_choice(const Body& body, const std::string& noun, const Subject
 void check_body(const ModalBodySpec& body, const Subject& subject) {
   check_modal_choice(body, "modal body file", subject);
   if (body.damping.ratio_internal != 0.0 || !body.damping.ratios_internal.empty())
-    subject.add("damping", "damping: modal bodies have no internal modes, whose boundary is held",
-                "write ratio or ratios, which count the modes of the file");
+    subject.add("damping", "damping: modal bodies have no internal modes (modes with a fixed boundary)",
+                "give ratio or ratios, which apply to the modes of the file");
 }
 
 void check_body(const SuperelementBodySpec& body, const Subject& subject) {
@@ -119,7 +119,7 @@ void check_body(const BeamBodySpec& body, const Subject& subject) {
 
 template <class Body>
 void check_any_body(const Body& body, const Subject& subject) {
-  if (body.name == "ground") subject.add("", "the name is taken by the fixed world", "rename it");
+  if (body.name == "ground") subject.add("", "the name is reserved for the fixed world", "rename it");
   check_start(body.start, subject);
   if constexpr (requires { body.gravity; })
     if (body.gravity) subject.finite("gravity", *body.gravity);
@@ -201,10 +201,10 @@ std::vector<std::string> effect_owners(EffectOwner owner, const Scene& scene) {
 void check_effects(const Scene& scene, Faults& faults) {
   constexpr const char* nouns[] = {"body", "joint", "spring"};
   std::map<EffectOwner, std::vector<std::string>> names;
-  std::set<std::pair<EffectOwner, std::string>> told;
+  std::set<std::pair<EffectOwner, std::string>> reported;
   for (const EffectSwitch& one : scene.effects) {
     const EffectOwner owner = owner_of(one.effect);
-    if (one.owner.empty() || !told.insert({owner, one.owner}).second) continue;
+    if (one.owner.empty() || !reported.insert({owner, one.owner}).second) continue;
     if (!names.contains(owner)) names[owner] = effect_owners(owner, scene);
     check_reference({fmt::format("effects: {}", effect_word(one.effect)), one.where, faults}, "",
                     nouns[static_cast<int>(owner)], one.owner, names[owner]);
@@ -220,12 +220,12 @@ void check_joint(const SceneIndex& scene, const JointSpec& joint, const Subject&
   if (joint.friction) check_friction(joint, subject);
   if (!std::isfinite(joint.pitch) || (kind.key == JointKey::pitch && joint.pitch == 0.0))
     subject.add("pitch", fmt::format("pitch {:g} must be a finite length that is not zero", joint.pitch),
-                "use a revolute joint for no advance");
+                "use a revolute joint if there is no advance");
   if (joint.length && !(*joint.length > 0.0 && std::isfinite(*joint.length)))
     subject.add("length", fmt::format("length {:g} must be positive", *joint.length),
                 "use a spherical joint for a distance of zero");
   if (kind.key == JointKey::hold && std::none_of(joint.hold.begin(), joint.hold.end(), [](bool held) { return held; }))
-    subject.add("hold", "holds no direction", "name some of x, y, z, rx, ry, rz");
+    subject.add("hold", "hold names no direction", "name one or more of x, y, z, rx, ry, rz");
 }
 
 void check_gear(const SceneIndex& scene, const GearSpec& gear, const Subject& subject) {
@@ -252,11 +252,12 @@ void check_motion_inputs(const Scene& scene, const MotionSpec& motion, const Sub
   for (const InputSpec& input : scene.inputs)
     if (input.interpolation == Interpolation::linear && input.table.time.size() > 2 &&
         names.contains(expression_name(input.name)))
-      subject.add("value",
-                  fmt::format("input '{}' is linear between its points and steps in velocity, which no mass can "
-                              "follow",
-                              input.name),
-                  "give the input interpolation: cubic, or the motion a table");
+      subject.add(
+          "value",
+          fmt::format(
+              "input '{}' is linear between its points. Its velocity jumps there, and no mass can follow a jump",
+              input.name),
+          "give the input interpolation: cubic, or use a table for the motion");
 }
 
 void check_motion(const SceneIndex& scene, const MotionSpec& motion, bool dynamic, const Subject& subject) {
@@ -265,8 +266,8 @@ void check_motion(const SceneIndex& scene, const MotionSpec& motion, bool dynami
   if (dynamic) check_motion_inputs(scene.scene, motion, subject);
   const auto* table = std::get_if<TimeTable>(&motion.value);
   if (dynamic && table != nullptr && table->motion == TableMotion::linear && table->time.size() > 2)
-    subject.add("value", "a table with interpolation: linear steps in velocity, which no mass can follow",
-                "leave 'interpolation' out, or give natural; linear is for statics, assembly, kinematics and modes");
+    subject.add("value", "the velocity of a linear table jumps at its points, and no mass can follow a jump",
+                "remove 'interpolation', or write natural; linear is for statics, assembly, kinematics and modes");
 }
 
 }  // namespace
@@ -300,7 +301,7 @@ void check_marker_pair(const SceneIndex& scene, const MarkerPairSpec& pair, cons
     subject.add("x_axis", "x_axis has no effect without axis", "give axis too, or an orientation to a or b");
   if (pair.x_axis && pair.axis &&
       !(pair.axis->cross(*pair.x_axis).stableNorm() > 1e-6 * pair.axis->stableNorm() * pair.x_axis->stableNorm()))
-    subject.add("x_axis", "x_axis is zero or parallel to axis", "give a direction across the axis");
+    subject.add("x_axis", "x_axis is zero or parallel to axis", "give a direction that is not parallel to axis");
 }
 
 void check_coordinate(const CoordinateRef& coordinate, const SceneIndex& scene, const std::string& key,
@@ -322,9 +323,9 @@ void check_definitions(const std::vector<Material>& materials, const std::vector
 Faults find_faults(const Scene& scene) {
   Faults faults;
   const Subject whole{"", scene.file, faults};
-  if (scene.name.empty()) whole.add("scene", "the scene has no name", "scene: <name>");
+  if (scene.name.empty()) whole.add("scene", "the scene has no name", "write scene: <name>");
   whole.finite("gravity", scene.gravity);
-  if (scene.bodies.empty()) whole.add("bodies", "the scene has no bodies");
+  if (scene.bodies.empty()) whole.add("bodies", "the scene has no bodies", "define one or more bodies");
   check_effects(scene, faults);
   const SceneIndex index(scene);
   std::unordered_set<std::string> bodies, joints, motions, springs, bushings, roads, tyres, loads;

@@ -7,10 +7,10 @@
 
 namespace tisserand::formats {
 
-/// All faults of a scene. check(scene) throws them.
+/// All faults of a scene. check(scene) throws them as one Error.
 Faults find_faults(const Scene& scene);
 
-/// Checks definitions, used or unused.
+/// Adds the faults of all materials and sections, also of unused ones, to `faults`.
 void check_definitions(const std::vector<Material>& materials, const std::vector<Section>& sections, Faults& faults);
 
 }  // namespace tisserand::formats

@@ -29,10 +29,10 @@ void check_damper(const LawSpec& law, const Subject& subject) {
   if (curve == nullptr) return;
   for (std::size_t i = 0; i < std::min(curve->x.size(), curve->y.size()); ++i)
     if (curve->x[i] * curve->y[i] < 0.0) {
-      subject.add(
-          "damping",
-          fmt::format("the table of damping drives the motion: force {:g} at rate {:g}", curve->y[i], curve->x[i]),
-          "give forces with the sign of the rate");
+      subject.add("damping",
+                  fmt::format("the table of damping adds energy: force {:g} and rate {:g} have opposite signs",
+                              curve->y[i], curve->x[i]),
+                  "give forces with the sign of the rate");
       return;
     }
 }
@@ -48,17 +48,18 @@ void check_stops(const SpringSpec& spring, const Subject& subject) {
 void check_initial_body(const SceneIndex& scene, const InitialSpec& initial, const Subject& subject) {
   const auto body = scene.bodies.find(initial.coordinate.name);
   if (body == scene.bodies.end()) {
-    subject.add("", "there is no body of this name", "velocities belong to bodies; coordinates have value and rate");
+    subject.add("", "there is no body of this name",
+                "give velocity and angular_velocity for a body, value and rate for a coordinate");
     return;
   }
   const InitialMotion& start =
       std::visit([](const auto& spec) -> const InitialMotion& { return spec.start; }, *body->second);
-  if (initial.value || initial.rate) subject.add("", "a body has neither value nor rate", "remove them");
+  if (initial.value || initial.rate) subject.add("", "value and rate have no effect on a body", "remove them");
   for (const auto& [own, given, key] :
        {std::tuple{&start.velocity, &initial.velocity, "velocity"},
         std::tuple{&start.angular_velocity, &initial.angular_velocity, "angular_velocity"}}) {
     if (*given) subject.finite(key, **given);
-    if (*own && *given) subject.add(key, fmt::format("the body has a {} of its own", key), "remove one");
+    if (*own && *given) subject.add(key, fmt::format("the body itself gives {}", key), "remove one");
   }
 }
 
@@ -68,8 +69,9 @@ void check_friction(const JointSpec& joint, const Subject& subject) {
   const FrictionSpec& friction = *joint.friction;
   const FrictionKeys keys = joint_kind(joint.kind).friction;
   if (!keys.has_friction)
-    subject.add("friction", fmt::format("a {} joint has no contact surface, so no friction", joint_word(joint.kind)),
-                "remove it, or make the joint of kinds that have one (formats/SCENE.md)");
+    subject.add("friction",
+                fmt::format("a {} joint has no contact surface and therefore no friction", joint_word(joint.kind)),
+                "remove it, or combine kinds of joints that have a contact surface (formats/SCENE.md)");
   const Subject inner = subject.inside("friction");
   inner.not_negative("coefficient", friction.coefficient);
   const double stiction = friction.static_coefficient.value_or(friction.coefficient);
@@ -121,15 +123,16 @@ void check_bushing(const SceneIndex& scene, const BushingSpec& bushing, const Su
     Eigen::Vector3d turn = bushing.free->tail<3>();
     if (const std::optional<int> axis = bushing.turning_axis()) turn[*axis] = 0.0;
     if (!(turn.norm() < std::numbers::pi))
-      subject.add("free", "the rotation vector of free is half a turn or more",
-                  "turn the orientation of one marker instead");
+      subject.add("free", "the rotation vector of 'free' is half a turn or more",
+                  "change the orientation of one marker instead");
   }
   if (subject.finite("damping", bushing.damping)) {
     const Eigen::MatrixXd symmetric = 0.5 * (bushing.damping + bushing.damping.transpose());
     const double smallest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues()[0];
     if (!(smallest >= -1e-12 * symmetric.cwiseAbs().maxCoeff()))
-      subject.add("damping", fmt::format("the damping matrix has the eigenvalue {:g}", smallest),
-                  "its symmetric part must not be negative in any direction");
+      subject.add("damping",
+                  fmt::format("the symmetric part of the damping matrix has the negative eigenvalue {:g}", smallest),
+                  "give a matrix whose symmetric part has no negative eigenvalue");
   }
 }
 
@@ -149,9 +152,9 @@ void check_part_load(const SceneIndex& scene, const PartLoadSpec& load, const Su
   if (body == scene.bodies.end())
     check_reference(subject, "body", "superelement", load.body, superelements);
   else
-    subject.add("body", fmt::format("body '{}' is no superelement", load.body),
+    subject.add("body", fmt::format("body '{}' is not a superelement", load.body),
                 superelements.empty() ? "load cases belong to superelements: give a load at a marker"
-                                      : "the superelements are " + listed(superelements));
+                                      : "use one of " + listed(superelements));
 }
 
 }  // namespace tisserand::formats

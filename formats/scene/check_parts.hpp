@@ -12,8 +12,8 @@
 
 namespace tisserand::formats {
 
-/// Index of the names in a scene, so that the time of checks is proportional to the number of references. The scene
-/// must outlive it. Of several bodies with one name it holds the first.
+/// Index of the bodies and joints of a scene by name, so that the time of checks is proportional to the number of
+/// references. Requires that the scene outlives the index. Of several bodies with one name it holds the first.
 struct SceneIndex {
   explicit SceneIndex(const Scene& of) : scene(of) {
     for (const BodySpec& body : scene.bodies)
@@ -26,23 +26,23 @@ struct SceneIndex {
   std::unordered_set<std::string_view> joints;
 };
 
-/// Checks that body and node exist, and that position and orientation are valid.
+/// Checks that body and node of the marker exist, and that its position and orientation are valid.
 void check_marker(const SceneIndex& scene, const MarkerSpec& marker, const std::string& key, const Subject& subject);
 
-/// Checks both markers, that their nodes differ, and the position and axes that place them.
+/// Checks the two markers of a pair, that they are on different nodes, and the start position and axes that place them.
 void check_marker_pair(const SceneIndex& scene, const MarkerPairSpec& pair, const Subject& subject);
 
 /// Checks that the joint of the coordinate exists.
 void check_coordinate(const CoordinateRef& coordinate, const SceneIndex& scene, const std::string& key,
                       const Subject& subject);
 
-/// Checks the sizes of a solid or the ending of a file.
+/// Checks the sizes of a solid, or the file name's ending of a mesh.
 void check_shape(const ShapeSpec& shape, const Subject& subject);
 
 /// Checks channels and inputs, whose names must differ from each other.
 void check_channels(const SceneIndex& scene, Faults& faults);
 
-/// Checks the friction of a joint that has some.
+/// Checks the friction of a joint; does nothing for a joint without friction.
 void check_friction(const JointSpec& joint, const Subject& subject);
 void check_initial(const SceneIndex& scene, const InitialSpec& initial, Faults& faults);
 void check_spring(const SceneIndex& scene, const SpringSpec& spring, const Subject& subject);
@@ -52,7 +52,8 @@ void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, const Subject& su
 void check_load(const SceneIndex& scene, const LoadSpec& load, const Subject& subject);
 void check_part_load(const SceneIndex& scene, const PartLoadSpec& load, const Subject& subject);
 
-/// Checks ranges of integrator, statics, output and initial_tolerance; times of the integrator in dynamics only.
+/// Checks the ranges of the settings `integrator`, `statics`, `output` and `initial_tolerance`. Times of the integrator
+/// are checked in dynamics only.
 void check_settings(const Scene& scene, Faults& faults);
 
 }  // namespace tisserand::formats

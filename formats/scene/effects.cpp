@@ -33,8 +33,8 @@ std::string automatic_words() {
 void read_switch(const Context& context, const YamlNode& node, const Choice<Effect>& effect, const std::string& owner,
                  std::vector<EffectSwitch>& switches) {
   if (node.kind == YamlKind::scalar && node.text == "auto" && !can_be_automatic(effect.value)) {
-    context.fail(node.place, fmt::format("'{}' cannot be 'auto': no run can judge it", node.key),
-                 fmt::format("give it 'on' or 'off'; 'auto' can be {}", automatic_words()));
+    context.fail(node.place, fmt::format("'{}' cannot be 'auto': a run has no criterion for this effect", node.key),
+                 fmt::format("write on or off; auto is allowed for {}", automatic_words()));
     return;
   }
   std::vector<std::string> words{"off", "on"};
@@ -65,7 +65,7 @@ void read_scene_effect(const MapReader& scene, const YamlNode& node, std::vector
   keys.emplace_back("tolerance");
   const auto near = nearest(node.key, keys);
   context.fail(node.key_place, fmt::format("there is no effect '{}'", node.key),
-               fmt::format("{}effects are {}; of a body write {}: {{damping: off}}",
+               fmt::format("{}effects are {}; if it is a body, write {}: {{damping: off}}",
                            near ? fmt::format("did you mean '{}'? ", *near) : "", join(words, ", "), node.key));
 }
 
@@ -77,7 +77,7 @@ void read_tolerance(const MapReader& scene, const YamlNode& node, AutomaticSpec&
   spec.tolerance = read_number(context, node, node.key);
   if (spec.tolerance <= 0.0)
     context.fail(node.place, fmt::format("'{}' must be positive, not {}", node.key, spec.tolerance),
-                 "0.001 is the default");
+                 "the default is 0.001");
 }
 
 }  // namespace
@@ -116,7 +116,8 @@ std::vector<KeySet> effect_key_sets() {
                       "geometric stiffness of superelements from the companion file; the inertia option does not "
                       "change; also `auto`"),
             field("damping",
-                  "damping of superelements and modal bodies, with that of the file; not of springs and bushings"),
+                  "damping of superelements and modal bodies, including the damping in their files; not damping of "
+                  "springs and bushings"),
             field("gravity", "weight of bodies; not of load cases of parts"),
             field("friction", "Coulomb friction, of all joints or of one joint by its name"),
             field("stops", "stops `lower` and `upper`, of all springs or of one spring by its name")}}};

@@ -6,10 +6,10 @@
 
 namespace tisserand::formats {
 
-/// Part of the equations that a scene can disable. `planar` is different: it applies to the whole scene, is off by
-/// default, and selects planar equations of motion.
+/// Physical effect: part of the equations that a scene can disable. `planar` is an exception: it applies to the whole
+/// scene, is off by default, and selects planar equations of motion.
 enum class Effect { flexibility, rotary_inertia, gyroscopic, stiffening, damping, gravity, friction, stops, planar };
-/// Effects that are terms of the equations.
+/// All effects that are terms of the equations, so without `planar`.
 inline constexpr Effect all_effects[] = {Effect::flexibility, Effect::rotary_inertia, Effect::gyroscopic,
                                          Effect::stiffening,  Effect::damping,        Effect::gravity,
                                          Effect::friction,    Effect::stops};
@@ -17,11 +17,11 @@ inline constexpr Effect all_effects[] = {Effect::flexibility, Effect::rotary_ine
 /// The word of an effect in scene.yaml.
 std::string effect_word(Effect effect);
 
-/// Whether a run can choose the effect itself (`auto`). This needs an effect whose influence on the motion follows at
-/// once from the motion without it.
+/// Whether a run can switch the effect itself (`auto`). This requires an effect whose influence on the motion can be
+/// computed from the motion without it.
 constexpr bool can_be_automatic(Effect effect) { return effect == Effect::flexibility || effect == Effect::stiffening; }
 
-/// Kind of element that has an effect.
+/// Kinds of elements that can have an effect.
 enum class EffectOwner { body, joint, spring };
 
 constexpr EffectOwner owner_of(Effect effect) {
@@ -30,7 +30,8 @@ constexpr EffectOwner owner_of(Effect effect) {
                                     : EffectOwner::body;
 }
 
-/// Switch for one body, joint (friction) or spring (stops), which has priority, or for all that have the effect.
+/// Switch of an effect, for one element (body; joint for friction; spring for stops) or for all elements that have the
+/// effect. A switch for one element has priority.
 struct EffectSwitch {
   Effect effect = Effect::gravity;
   std::string owner;  ///< name of the element; empty: the whole scene
@@ -39,9 +40,10 @@ struct EffectSwitch {
   bool automatic = false;  ///< with `on`: the run may disable it
 };
 
-/// Settings of automatic effects (mechanism/run/automatic_effects.hpp).
+/// Settings of effects that the run itself switches (mechanism/run/automatic_effects.hpp).
 struct AutomaticSpec {
-  double tolerance = 1e-3;  ///< positions relative to the size of the scene, forces to the largest
+  /// Tolerance of positions relative to the size of the scene, and of forces relative to the largest force.
+  double tolerance = 1e-3;
 };
 
 }  // namespace tisserand::formats

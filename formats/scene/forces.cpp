@@ -45,7 +45,7 @@ LoadSpec read_load(const MapReader& map) {
 /// Requires one of these keys, since an entry without them is a mistake. Zero values, as in a sweep, are accepted.
 void require_one_of(const MapReader& map, std::initializer_list<const char*> keys, const char* remedy) {
   if (std::ranges::none_of(keys, [&](const char* key) { return map.find(key) != nullptr; }))
-    map.fail("does nothing", remedy);
+    map.fail("has no effect", remedy);
 }
 
 }  // namespace
@@ -225,8 +225,9 @@ std::vector<KeySet> force_key_sets() {
         plain<&BushingSpec::preload>(
             "preload", "six", "force and moment that act on b at the deflection `free`, six numbers [force, moment]",
             "0"),
-        choice<&BushingSpec::turns, marker_axes>("turns", "axis of the markers about which whole turns are counted",
-                                                 "the only one about which it acts or does not act; else none")}},
+        choice<&BushingSpec::turns, marker_axes>(
+            "turns", "axis of the markers about which whole turns are counted",
+            "the only axis about which it acts, or the only axis about which it does not act; else none")}},
       {"load",
        {choice<&LoadSpec::kind, load_kinds>("type", "`force` [mass length/time²] or `moment` [mass length²/time²]",
                                             "required"),

@@ -29,17 +29,17 @@ constexpr double automatic_part = 1e-4;
 void check_keys(const MapReader& map, Method method) {
   const bool bdf = method == Method::bdf;
   if (method == Method::hht)
-    map.refuse({"rho"}, "has no effect with method: hht", "give alpha, or method: generalised_alpha");
+    map.refuse({"rho"}, "has no effect with method: hht", "give alpha, or use method: generalised_alpha");
   if (method == Method::generalised_alpha)
-    map.refuse({"alpha"}, "has no effect with method: generalised_alpha", "give rho, or method: hht");
+    map.refuse({"alpha"}, "has no effect with method: generalised_alpha", "give rho, or use method: hht");
   const std::string why = "has no effect with this method";
   if (bdf || method == Method::radau)
-    map.refuse({"rho", "alpha", "formulation"}, why, "leave it out, or use method: generalised_alpha");
+    map.refuse({"rho", "alpha", "formulation"}, why, "remove it, or use method: generalised_alpha");
   if (bdf)
     map.refuse({"tolerance", "constraint_tolerance", "max_iterations", "max_halvings", "error_control"}, why,
-               "leave it out, or use method: generalised_alpha");
+               "remove it, or use method: generalised_alpha");
   else
-    map.refuse({"relative_tolerance", "absolute_tolerance"}, why, "leave it out, or use method: bdf");
+    map.refuse({"relative_tolerance", "absolute_tolerance"}, why, "remove it, or use method: bdf");
 }
 
 ErrorControl read_error_control(const MapReader& map) {
@@ -54,7 +54,7 @@ std::optional<AccuracySpec> read_accuracy(const MapReader& map, AnalysisKind ana
   const YamlNode* node = map.find("accuracy");
   if (node == nullptr || analysis != AnalysisKind::dynamics) return std::nullopt;  // other analyses share the group
   map.refuse({"step", "error_control", "relative_tolerance", "absolute_tolerance"}, "is chosen by 'accuracy'",
-             "leave one of them out");
+             "remove one");
   const Context inside{map.context().reader, "integrator accuracy", map.context().entry};
   AccuracySpec spec;
   read_fields(MapReader(inside, *node, "accuracy", "integrator.accuracy."), spec);
@@ -64,7 +64,7 @@ std::optional<AccuracySpec> read_accuracy(const MapReader& map, AnalysisKind ana
 /// Method; `automatic` with `accuracy` if neither the method nor parameters of generalised_alpha are given.
 Method read_method(const MapReader& map, const IntegratorSpec& spec, AnalysisKind analysis) {
   if (spec.method == Method::automatic && !spec.accuracy && analysis == AnalysisKind::dynamics)
-    map.context().fail(map.find("method")->place, "method: auto needs an accuracy to choose by",
+    map.context().fail(map.find("method")->place, "method: auto needs 'accuracy' to choose the method",
                        "add accuracy: {error: .., of: <channel>}, or name the method");
   for (const char* key : {"method", "rho", "formulation"})
     if (map.has(key)) return spec.method;
@@ -77,7 +77,7 @@ double read_step(const MapReader& map, const IntegratorSpec& spec, AnalysisKind 
   const bool word = node != nullptr && node->kind == YamlKind::scalar && node->text == "auto";
   const bool controlled = spec.error_control.active || spec.method == Method::bdf;
   if (word && !controlled)
-    map.context().fail(node->place, "step: auto needs something that controls the error",
+    map.context().fail(node->place, "step: auto needs error_control or method: bdf",
                        "add error_control: {tolerance: 1e-3}, or give the step in units of time");
   if (word || (node == nullptr && (spec.method == Method::bdf || spec.accuracy))) {
     const double whole = spec.end - spec.start, part = automatic_part * whole;
@@ -112,8 +112,8 @@ std::vector<KeySet> integrator_key_sets() {
                                            "error of each coordinate and velocity per step, relative to its size"),
        plain<&BdfSpec::absolute_tolerance>(
            "absolute_tolerance", "positive",
-           "error per step of positions relative to the size of the scene, and of Euler parameters; of velocities the "
-           "same per second (without named units: per unit of time)")});
+           "error per step of positions (relative to the size of the scene) and of Euler parameters; for velocities "
+           "the same number per second (without named units: per unit of time)")});
   return {
       {"integrator",
        {choice<&IntegratorSpec::method, methods>(
@@ -122,7 +122,7 @@ std::vector<KeySet> integrator_key_sets() {
             "`generalised_alpha`; with `accuracy`: `auto`, unless `rho` or `formulation` is given"),
         plain<&IntegratorSpec::rho>(
             "rho", "number>=0<=1",
-            "`generalised_alpha`: spectral radius at infinite frequency, from 0 to 1, which has no numerical damping"),
+            "`generalised_alpha`: spectral radius at infinite frequency, from 0 to 1 (no numerical damping)"),
         plain<&IntegratorSpec::alpha>("alpha", "number>=0<=0.3333333333333333", "`hht`: its parameter α, 0 to 1/3"),
         choice<&IntegratorSpec::formulation, formulations>(
             "formulation", "formulation of the constraints: `stabilised_index2` or `index3`", "`stabilised_index2`"),
@@ -136,9 +136,9 @@ std::vector<KeySet> integrator_key_sets() {
                                           "tolerance of Newton's iteration, relative to the largest force so far"),
         plain<&IntegratorSpec::constraint_tolerance>(
             "constraint_tolerance", "positive",
-            "largest violation of a constraint, relative to the characteristic length (its rate: to that length over "
-            "the step). Lower where a step moves little: 5 `tolerance` × step² × largest acceleration, down to "
-            "round-off"),
+            "largest violation of a constraint, relative to the characteristic length; its rate is relative to this "
+            "length divided by the step. Steps with little motion use a lower value: 5 `tolerance` × step² × largest "
+            "acceleration, down to round-off"),
         plain<&IntegratorSpec::max_iterations>("max_iterations", "count",
                                                "largest number of Newton iterations per step"),
         plain<&IntegratorSpec::max_halvings>("max_halvings", "number_of",
@@ -156,8 +156,8 @@ std::vector<KeySet> integrator_key_sets() {
       {"error_control",
        {plain<&ErrorControl::tolerance>(
             "tolerance", "positive",
-            "error at the end of the run: of positions relative to the size of the scene, of rotations [rad]; a step "
-            "may add its share of the time. A tenth takes about 3.2 times the steps"),
+            "error at the end of the run: positions relative to the size of the scene, rotations in rad. Each step may "
+            "add a part in proportion to its duration. A tenth of the tolerance takes about 3.2 times the steps"),
         plain<&ErrorControl::min_step>("min_step", "not_negative",
                                        "smallest step [time]; the run ends if the error demands a smaller one",
                                        "1e-12 of the whole time"),

@@ -15,7 +15,7 @@ inline constexpr Choice<ErrorNorm> error_norms[] = {{"max", ErrorNorm::max},
                                                     {"peak", ErrorNorm::peak},
                                                     {"peak_time", ErrorNorm::peak_time}};
 
-/// Settings of the integrator. Times may be absent if the analysis needs none.
+/// Reads the settings of the integrator. Times may be absent if `analysis` needs none.
 IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis);
 std::vector<KeySet> integrator_key_sets();
 

@@ -18,16 +18,16 @@ inline constexpr Choice<AnalysisKind> analysis_kinds[] = {{"dynamics", AnalysisK
                                                           {"inverse_dynamics", AnalysisKind::inverse_dynamics},
                                                           {"modes", AnalysisKind::modes}};
 
-/// Definitions that bodies may refer to.
+/// Units of the scene, and the materials and sections that its bodies may use.
 struct SceneDefinitions {
   Units units;
   std::vector<Material> materials;
   std::vector<Section> sections;
 };
 
-/// Reads "ground", "body", "body/node", or {node: .., position: .., orientation: ..}.
+/// Reads a marker: "ground", "body", "body/node", or {node: .., position: .., orientation: ..}.
 MarkerSpec read_marker(const MapReader& map, const std::string& key);
-/// Reads {position: .., orientation: ..}. `prefix`: prefix of its keys in findings.
+/// Reads a pose {position: .., orientation: ..}. `prefix`: text before its keys in findings of the check.
 Pose read_pose(const Context& context, const YamlNode& node, const std::string& prefix);
 CoordinateRef read_coordinate(const MapReader& map, const YamlNode& node, const std::string& key);
 
@@ -56,17 +56,18 @@ void read_channels(const MapReader& map, Scene& scene);
 std::vector<InitialSpec> read_initial(const MapReader& map);
 void read_springs(const MapReader& map, std::vector<SpringSpec>& springs);
 void read_bushings(const MapReader& map, std::vector<BushingSpec>& bushings);
-/// Heights of a road of kind grid or crg, from `file` or axes and `z`, in lengths of the scene; null after an error.
+/// Reads the heights of a road of kind grid or crg, from `file` or from axes and `z`, in lengths of the scene. Returns
+/// null after an error.
 std::shared_ptr<const RoadHeights> read_road_heights(const MapReader& map, const SceneDefinitions& definitions,
                                                      RoadKind kind);
 void read_roads(const MapReader& map, const SceneDefinitions& definitions, std::vector<RoadSpec>& roads);
 void read_tyres(const MapReader& map, const SceneDefinitions& definitions, std::vector<TyreSpec>& tyres);
-/// Reads `loads`: loads on markers, and those of `type: part_load`.
+/// Reads `loads`: loads on markers, and part loads (`type: part_load`).
 void read_loads(const MapReader& map, Scene& scene);
-/// Reads `analysis` and its groups, or `analyses`.
+/// Reads `analysis` with its groups of settings (`integrator`, `output`, ...), or `analyses`.
 void read_analyses(const MapReader& map, Scene& scene);
-/// Reads the groups of settings below `map`, which is the scene or one analysis of known kind. `start`: start of the
-/// integrator if `map` gives none.
+/// Reads the groups of settings (`integrator`, `output`, ...) below `map`, which is the scene or one analysis. Requires
+/// that `analysis` has its kind. `start`: start time of the integrator if `map` gives none.
 void read_groups(const MapReader& map, std::optional<double> start, Analysis& analysis);
 
 // Lists of fields, each defined with the functions that read them.

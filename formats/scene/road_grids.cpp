@@ -14,7 +14,7 @@ std::vector<double> read_grid_axis(const MapReader& map, const char* key) {
   std::vector<double> axis = node == nullptr ? std::vector<double>{} : read_numbers(map.context(), *node, key);
   for (std::size_t i = 1; i < axis.size(); ++i) {
     if (axis[i] > axis[i - 1] || !std::isfinite(axis[i]) || !std::isfinite(axis[i - 1])) continue;
-    map.context().fail(node->place, fmt::format("{} must ascend, but {:g} follows {:g}", key, axis[i], axis[i - 1]),
+    map.context().fail(node->place, fmt::format("{} must increase, but {:g} follows {:g}", key, axis[i], axis[i - 1]),
                        "");
     break;
   }
@@ -73,7 +73,9 @@ std::optional<RoadHeights> read_road_file(const MapReader& map, const YamlNode& 
 std::optional<RoadHeights> read_crg_road(const MapReader& map, const SceneDefinitions& definitions) {
   const YamlNode* file = map.require("file");
   const double metre = definitions.units.length.factor;
-  if (!(metre > 0.0)) map.fail("OpenCRG files are in metres, and the units of the scene are unnamed", "name the units");
+  if (!(metre > 0.0))
+    map.fail("OpenCRG files are in metres, but the scene has no named units",
+             "give units: {length: .., mass: .., time: ..}");
   if (file == nullptr || !(metre > 0.0)) return std::nullopt;
   return read_road_file(map, *file, [metre](const std::string& path) {
     RoadHeights road = read_crg(path);
@@ -88,10 +90,10 @@ std::optional<RoadHeights> read_crg_road(const MapReader& map, const SceneDefini
 std::optional<RoadHeights> read_grid_road(const MapReader& map) {
   const YamlNode* file = map.find("file");
   if (file == nullptr) {
-    map.refuse({"x_start", "y_start", "spacing"}, "has no effect beside 'z'", "remove it");
+    map.refuse({"x_start", "y_start", "spacing"}, "has no effect with 'z'", "remove it");
     return read_written_grid(map);
   }
-  map.refuse({"x", "y", "z"}, "has no effect beside 'file'", "remove it");
+  map.refuse({"x", "y", "z"}, "has no effect with 'file'", "remove it");
   const std::optional<RegularGrid> regular = read_regular_grid(map);
   if (regular && !(regular->spacing > 0.0)) return std::nullopt;
   return read_road_file(map, *file, [&regular](const std::string& path) { return read_height_grid(path, regular); });

@@ -26,7 +26,7 @@ namespace tisserand::formats {
 
 struct TyreProperties;
 
-/// Place on a body: "ground", "<body>" (rigid), "<body>/<node>". Position and orientation in axes of the node.
+/// Place on the ground ("ground"), on a rigid body ("<body>") or on a node ("<body>/<node>"), in the axes of that.
 struct MarkerSpec {
   std::string node;
   std::optional<Eigen::Vector3d> position;  ///< absent: at the node (ground: given by the joint)
@@ -34,41 +34,41 @@ struct MarkerSpec {
   std::string where;
 };
 
-/// Two markers, and their common pose at the start if they leave it open, world frame.
+/// Two markers, and the common pose at the start (world frame) of those markers that give none themselves.
 struct MarkerPairSpec {
   MarkerSpec a;
   MarkerSpec b;
   std::optional<Eigen::Vector3d> position;  ///< absent: at marker b, or a if b is ground
   std::optional<Eigen::Vector3d> axis;      ///< z of both markers
-  std::optional<Eigen::Vector3d> x_axis;    ///< its part normal to `axis` is x of both markers; absent: any
+  std::optional<Eigen::Vector3d> x_axis;    ///< its part normal to `axis` is x of both markers; absent: any direction
 };
 
 /// Coulomb friction of a joint (mechanism/joints/friction.hpp).
 struct FrictionSpec {
   double coefficient = 0.0;
   std::optional<double> static_coefficient;  ///< absent: equal to `coefficient`
-  double velocity = 0.0;                     ///< below this velocity the joint sticks [length/time]
+  double velocity = 0.0;                     ///< sliding velocity at which the friction is largest [length/time]
   double radius = 0.0;                       ///< contact radius; 0 if the slip has no rotation
-  std::optional<double> arm;                 ///< distance of supports that take moments; absent: moments do not count
+  std::optional<double> arm;  ///< distance of the supports that take moments; absent: no effect of moments
 };
 
 struct JointSpec : MarkerPairSpec {
   std::string name;
   JointKind kind = JointKind::spherical;
-  std::array<bool, 6> hold{};    ///< JointKey::hold: held directions x y z rx ry rz of A
+  std::array<bool, 6> hold{};    ///< JointKey::hold: held directions x y z rx ry rz in the axes of marker A
   double pitch = 0.0;            ///< JointKey::pitch: advance per turn [length]
   std::optional<double> length;  ///< JointKey::length; absent: distance at the start
   std::optional<FrictionSpec> friction;
   std::string where;
 };
 
-/// Coordinate of a joint: "hinge", or "slide/z" if the joint has several.
+/// Coordinate of a joint, by name: "hinge", or "slide/z" if the joint has several.
 struct CoordinateRef {
   std::string name;
   std::string where;
 };
 
-/// Gear or rack and pinion: change of `second` = ratio × change of `first` since the start.
+/// Gear, or rack and pinion. Since the start, the change of coordinate `second` is `ratio` times the change of `first`.
 struct GearSpec {
   std::string name;
   CoordinateRef first;
@@ -89,7 +89,7 @@ struct LoadSpec {
   std::string where;
 };
 
-/// Load case of a superelement's companion file, times a function of time.
+/// Load case of a superelement's companion file, multiplied by a function of time.
 struct PartLoadSpec {
   std::string name;
   std::string body;
@@ -106,11 +106,11 @@ struct MotionSpec {
   std::string where;
 };
 
-/// Value or rate of a coordinate at the start, or both, which the start keeps; or velocities of a body. Body velocities
-/// also apply if the analysis continues from one at rest.
+/// Start condition: value or rate of a joint coordinate, or both; or velocities of a body. Velocities of a body also
+/// apply when the analysis continues from an analysis at rest.
 struct InitialSpec {
   CoordinateRef coordinate;                 ///< coordinate, or name of the body
-  std::optional<Eigen::Vector3d> velocity;  ///< of the part frame's origin, world axes
+  std::optional<Eigen::Vector3d> velocity;  ///< velocity of the part frame's origin, world axes
   std::optional<Eigen::Vector3d> angular_velocity;
   bool of_body() const { return velocity || angular_velocity; }
   std::optional<double> value;  ///< reached by rigid motion of the bodies
@@ -119,14 +119,14 @@ struct InitialSpec {
 };
 
 /// Kinds of springs. line: along a joint coordinate or the distance of two markers. torsion: along the angle of two
-/// markers about their z axes. Q = −f(q − free) − d(q̇) + stops + force.
+/// markers about their z axes. On coordinate q acts Q = −f(q − free) − d(q̇) + stops + force.
 enum class SpringKind { line, torsion };
 struct SpringSpec : MarkerPairSpec {
   std::string name;
   SpringKind kind = SpringKind::line;
   std::optional<CoordinateRef> coordinate;  ///< instead of the markers
-  LawSpec stiffness = 0.0;                  ///< f: k, or a table of force over deflection
-  LawSpec damping = 0.0;                    ///< d: c, or a table of force over rate
+  LawSpec stiffness = 0.0;                  ///< f: constant k, or a table of force over deflection
+  LawSpec damping = 0.0;                    ///< d: constant c, or a table of force over rate
   std::optional<double> free;               ///< coordinate without force; absent: value at the start
   std::optional<double> lower, upper;
   double stop_stiffness = 0.0;
@@ -137,7 +137,7 @@ struct SpringSpec : MarkerPairSpec {
 
 enum class MarkerAxis { x, y, z };
 
-/// Linear spring and damper between two markers in all six directions (coupled if the matrices are full).
+/// Linear spring and damper between two markers in all six directions, coupled if the matrices are full.
 struct BushingSpec : MarkerPairSpec {
   std::string name;
   Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
@@ -147,16 +147,16 @@ struct BushingSpec : MarkerPairSpec {
   std::optional<MarkerAxis> turns;                                            ///< axis of large rotations
   std::string where;
 
-  /// Whether it has stiffness, damping or preload in rotations about marker axis k (0 to 2).
+  /// Whether the bushing has stiffness, damping or preload in rotations about marker axis k (0 to 2).
   bool takes_turns(int k) const;
-  /// Axis `turns`, also if nothing acts on rotations. Without it: the only axis whose rotations the bushing takes, or
-  /// else the only one whose rotations it does not take.
+  /// Axis of large rotations: `turns` if given. Otherwise the only axis k with takes_turns(k), or else the only axis
+  /// without it.
   std::optional<int> turning_axis() const;
 };
 
-/// Kind of a quantity of the mechanism that expressions may use by its name.
+/// Kinds of channels: quantities of the mechanism that expressions may use by name.
 enum class ChannelKind { coordinate, rate, position, velocity, distance, tyre };
-/// Quantity of a tyre, in its axes (ISO-W). Moments are about the contact centre.
+/// Quantities of a tyre, in tyre axes (ISO-W). Moments are about the contact centre.
 enum class TyreQuantity {
   load,
   force_x,
@@ -183,7 +183,7 @@ struct ChannelSpec {
   std::string where;
 };
 
-/// History from a file that expressions may use by its name, constant outside.
+/// Time history from a file, which expressions may use by its name. Outside of the table its end values hold.
 struct InputSpec {
   std::string name;
   TimeTable table;
@@ -191,7 +191,8 @@ struct InputSpec {
   std::string where;
 };
 
-/// Piece of a road along the distance x: heights of one track, 0 outside. At the ends of a curve the road ends.
+/// Shapes of pieces of a road: height of one track along the distance x, and 0 outside. The road ends where a curve
+/// ends.
 enum class RoadPieceShape { cosine, trapezoid, curve };
 struct RoadPieceSpec {
   RoadPieceShape shape = RoadPieceShape::cosine;
@@ -202,23 +203,23 @@ struct RoadPieceSpec {
   CurveSpec curve;    ///< z(x)
 };
 
-/// Fixed ground for tyres: z = h(x, y) in the axes of its pose, x along it and z out of it. Kinds grid and crg have
-/// heights over two coordinates, from a table or a file.
+/// Kinds of roads. A road is fixed ground for tyres: height z = h(x, y) in the axes of its pose, with x along the road.
+/// Kinds grid and crg have heights over two coordinates, from a table or a file.
 enum class RoadKind { plane, profile, grid, crg };
 struct RoadSpec {
   std::string name;
   RoadKind kind = RoadKind::plane;
   Pose pose;
-  std::vector<RoadPieceSpec> left, right;      ///< heights are summed; y > 0 is left
-  std::optional<double> transition;            ///< width of the strip about y = 0 between tracks; absent: one track
+  std::vector<RoadPieceSpec> left, right;  ///< pieces, whose heights are summed; y > 0 is left
+  std::optional<double> transition;        ///< width of the strip about y = 0 between both tracks; absent: one track
   std::shared_ptr<const RoadHeights> heights;  ///< for grid and crg
   double friction = 1.0;                       ///< factor of the tyres' friction
   std::optional<double> friction_right;        ///< for y < 0 (v < 0); absent: equal to `friction`
   std::string where;
 };
 
-/// Tyre on a wheel, by the law of comprehensive slip (mechanism/tyres/comprehensive_slip.hpp), or by the Magic Formula
-/// with radius, stiffness, damping and slip laws of a file (mechanism/tyres/magic_formula.hpp).
+/// Kinds of tyres. comprehensive_slip: law of mechanism/tyres/comprehensive_slip.hpp. magic_formula: radius, stiffness,
+/// damping and slip laws of a file (mechanism/tyres/magic_formula.hpp).
 enum class TyreKind { comprehensive_slip, magic_formula };
 struct TyreSpec {
   std::string name;
@@ -236,8 +237,8 @@ struct TyreSpec {
   std::optional<double> sliding_friction;   ///< μ at a slip of 1 and more; absent: equal to `friction`
   double rolling_resistance = 0.0;          ///< moment divided by load and rolling radius
   double low_speed = 0.0;                   ///< speed below which the slip is relative to this speed [length/time]
-  std::optional<double> relaxation_length;  ///< comprehensive slip: both directions; absent: none
-  bool relaxation = false;                  ///< Magic Formula: relaxation lengths of the file
+  std::optional<double> relaxation_length;  ///< comprehensive slip: length for both directions; absent: none
+  bool relaxation = false;                  ///< Magic Formula: whether to use relaxation lengths of the file
   bool mirrored = false;                    ///< Magic Formula: mounted on the opposite side to that of the file
   std::optional<double> pressure;           ///< Magic Formula: inflation pressure; absent: from the file
   std::shared_ptr<const TyreProperties> properties;  ///< data of the file; null: comprehensive slip
@@ -251,7 +252,7 @@ struct Scene {
   Units units = Units::si();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   std::vector<EffectSwitch> effects;  ///< applied when the model is built (mechanism/build/effects.hpp)
-  std::string planar_at;              ///< place of the switch for planar equations, once applied; empty: none
+  std::string planar_at;              ///< place of the applied switch for planar equations; empty: not planar
   AutomaticSpec automatic;            ///< settings of automatic effects
   std::vector<BodySpec> bodies;
   std::vector<JointSpec> joints;
@@ -274,27 +275,27 @@ struct Scene {
   OutputSpec output;
   CheckpointSpec checkpoint;
   std::vector<Analysis> analyses;  ///< in the order of the file; empty: `analysis` alone
-  double initial_tolerance =
-      1e-6;  ///< largest correction of poses in the file (times characteristic length) and velocities
+  /// Largest correction of given poses (relative to the characteristic length) and velocities (to the largest).
+  double initial_tolerance = 1e-6;
 };
 
-/// Reads scene.yaml, applies the overrides and checks. Its paths are relative to its folder. Throws all errors at once,
-/// each with file:line:column or the text of the override.
+/// Reads scene.yaml, applies the overrides and checks. Relative paths in the file start at its folder. Throws one Error
+/// with all errors, each with file:line:column or the text of the override.
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides);
 
-/// Data of a scene that pictures show.
+/// Bodies, roads and tyres of a scene, for pictures.
 struct DrawnScene {
   std::vector<BodySpec> bodies;
   std::vector<RoadSpec> roads;
   std::vector<TyreSpec> tyres;
 };
-/// Reads what pictures show from Scene::text. Files in it are relative to the folder of `file`. Throws Error.
+/// Reads bodies, roads and tyres from the text of a scene in the folder of `file`. Throws Error.
 DrawnScene read_drawn_scene(const std::string& text, const std::string& file);
 
-/// The scene with kind and settings of one of its analyses.
+/// Copy of the scene, with kind and settings of one of its analyses.
 Scene scene_of(const Scene& scene, const Analysis& analysis);
 
-/// Checks names, references, signs and ranges (SCENE.md) without superelement files. Throws all faults together.
+/// Checks names, references, signs, ranges (SCENE.md) without superelement files. Throws one Error with all faults.
 void check(const Scene& scene);
 
 }  // namespace tisserand::formats

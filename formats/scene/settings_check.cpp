@@ -40,9 +40,9 @@ void check_accuracy(const IntegratorSpec& spec, const Subject& group) {
   if (spec.accuracy) {
     group.positive("accuracy.error", spec.accuracy->error);
     if (spec.accuracy->error > 0.5)
-      group.add("accuracy.error", fmt::format("an error of {:g} leaves nothing of the result", spec.accuracy->error),
-                "give a part of one, such as 1e-3");
-    if (spec.accuracy->of.empty()) group.add("accuracy.of", "of is empty", "name a channel of the results");
+      group.add("accuracy.error", fmt::format("accuracy.error {:g} must be at most 0.5", spec.accuracy->error),
+                "give a relative error, such as 1e-3");
+    if (spec.accuracy->of.empty()) group.add("accuracy.of", "'of' is empty", "name a channel of the results");
   }
   group.positive("relative_tolerance", spec.bdf.relative_tolerance);
   group.positive("absolute_tolerance", spec.bdf.absolute_tolerance);
@@ -57,7 +57,7 @@ void check_groups(const Scene& scene, const std::string& where, Faults& faults) 
   if (takes_steps(scene.analysis)) check_times(spec, integrator);
   check_accuracy(spec, integrator);
   if (spec.method == Method::radau && spec.linear_solver == LinearSolver::qr)
-    integrator.add("linear_solver", "linear_solver: qr has no complex values, which method: radau needs",
+    integrator.add("linear_solver", "linear_solver: qr does not support complex values, which method: radau needs",
                    "use auto, klu, umfpack or dense");
   integrator.between("rho", spec.rho, 0.0, 1.0);
   integrator.between("alpha", spec.alpha, 0.0, 1.0 / 3.0);
@@ -90,7 +90,7 @@ void check_groups(const Scene& scene, const std::string& where, Faults& faults) 
   if ((scene.checkpoint.every || scene.checkpoint.interval) && spec.method == Method::bdf &&
       scene.analysis == AnalysisKind::dynamics)
     checkpoint.add(scene.checkpoint.every ? "every" : "interval", "method: bdf writes no checkpoints",
-                   "use generalised_alpha or hht, or leave checkpoints out");
+                   "use generalised_alpha or hht, or remove 'checkpoint'");
 }
 
 }  // namespace

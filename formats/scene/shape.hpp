@@ -14,8 +14,8 @@ namespace tisserand::formats {
 
 enum class ShapeKind { box, cylinder, sphere, cone, tube, mesh };
 
-/// One solid in the part frame of its body, in lengths of the scene. The kind determines which members apply. An absent
-/// length is not-a-number.
+/// One visible solid in the part frame of its body, in lengths of the scene. `kind` determines which members apply. A
+/// length that is not given is NaN.
 struct ShapeSpec {
   ShapeKind kind = ShapeKind::box;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< centre of a box or sphere, origin of a file

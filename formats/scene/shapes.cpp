@@ -87,7 +87,7 @@ std::vector<ShapeSpec> read_shapes(const MapReader& body, const SceneDefinitions
 void check_shape(const ShapeSpec& shape, const Subject& subject) {
   const auto apart = [&](const char* key, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     if (!a.allFinite() || !b.allFinite() || (b - a).isZero(0.0))
-      subject.add(key, fmt::format("{}: two points coincide", key), "give points that are apart");
+      subject.add(key, fmt::format("{}: two points coincide", key), "give different points");
   };
   subject.finite("position", shape.position);
   switch (shape.kind) {
@@ -103,7 +103,7 @@ void check_shape(const ShapeSpec& shape, const Subject& subject) {
       return;
     case ShapeKind::cone:
       if (!(shape.radius >= 0.0 && shape.end_radius >= 0.0 && shape.radius + shape.end_radius > 0.0))
-        subject.add("radius", fmt::format("radii {:g} and {:g} must be positive or one of them 0", shape.radius,
+        subject.add("radius", fmt::format("radii {:g} and {:g} must be positive; only one may be 0", shape.radius,
                                           shape.end_radius));
       apart("to", shape.from, shape.to);
       return;
@@ -114,11 +114,12 @@ void check_shape(const ShapeSpec& shape, const Subject& subject) {
     case ShapeKind::mesh:
       if (!ends_in(shape.file, ".stl") && !ends_in(shape.file, ".obj") && !shape.file.ends_with(".recovery.h5"))
         subject.add(
-            "file", fmt::format("'{}' is no .stl, .obj or .recovery.h5 file", shape.file),
+            "file", fmt::format("'{}' is not an .stl, .obj or .recovery.h5 file", shape.file),
             "export the surface as STL or OBJ, or let `reducer` write the recovery file of a part (recovery: yes)");
       for (const double factor : shape.scale)
         if (!(factor != 0.0) || !std::isfinite(factor))
-          subject.add("scale", fmt::format("scale {:g} must not be 0", factor), "1 leaves the sizes of the file");
+          subject.add("scale", fmt::format("scale {:g} must not be 0", factor),
+                      "write 1 to keep the sizes of the file");
       return;
   }
 }

@@ -74,8 +74,9 @@ void read_magic_formula(const MapReader& map, const SceneDefinitions& definition
   for (const std::string_view key : slip_keys)
     if (const YamlNode* of_slip = map.find(key); of_slip != nullptr && key != "low_speed")
       map.context().fail(
-          of_slip->key_place, fmt::format("'{}' has no effect: the file of the tyre has its own", key),
-          key == "friction" ? "remove it; scale: {LMUX: .., LMUY: ..} changes the friction of the file" : "remove it");
+          of_slip->key_place, fmt::format("'{}' has no effect: the tyre property file gives its value", key),
+          key == "friction" ? "remove it; to change the friction of the file, give scale: {LMUX: .., LMUY: ..}"
+                            : "remove it");
   read_properties(map, definitions, tyre);
 }
 
@@ -107,7 +108,9 @@ CurveSpec read_iso_road(const Context& context, const YamlNode& node, const std:
   IsoRoadSpec spec;
   read_fields(map, spec);
   const double metre = definitions.units.length.factor;
-  if (!(metre > 0.0)) map.fail("its spectrum is in metres, and the units of the scene are unnamed", "name the units");
+  if (!(metre > 0.0))
+    map.fail("the spectrum of iso_8608 is in metres, but the scene has no named units",
+             "give units: {length: .., mass: .., time: ..}");
   if (!(spec.length > 0.0 && spec.length * metre <= longest_iso_road))
     map.fail(fmt::format("length {:g} must be positive and at most {:g} m", spec.length, longest_iso_road), "");
   if (!std::isfinite(spec.start)) map.fail("start must be finite", "");
@@ -155,7 +158,7 @@ void refuse_road_keys(const MapReader& map, RoadKind kind) {
         Use{"x", {RoadKind::grid}}, Use{"y", {RoadKind::grid}}, Use{"z", {RoadKind::grid}},
         Use{"x_start", {RoadKind::grid}}, Use{"y_start", {RoadKind::grid}}, Use{"spacing", {RoadKind::grid}}}) {
     if (std::ranges::find(use.kinds, kind) == use.kinds.end())
-      map.refuse({use.key}, fmt::format("has no effect on a {}", word_of(kind)),
+      map.refuse({use.key}, fmt::format("has no effect on a road of type {}", word_of(kind)),
                  fmt::format("remove it, or write type: {}", word_of(*use.kinds.begin())));
   }
 }
@@ -198,7 +201,7 @@ void check_properties(const TyreSpec& tyre, const Subject& subject) {
                 "PTX1 and PTY1)",
                 "write relaxation: no");
   if (tyre.pressure && p.NOMPRES <= 0.0)
-    subject.add("pressure", "its file knows no inflation pressure (NOMPRES)", "remove it");
+    subject.add("pressure", "its file has no inflation pressure (NOMPRES)", "remove it");
 }
 
 }  // namespace
@@ -225,7 +228,7 @@ void check_road(const RoadSpec& road, const Subject& subject) {
   Subject{subject.name, subject.where, subject.faults, "pose."}.finite("position", road.pose.position);
   if (road.kind == RoadKind::grid || road.kind == RoadKind::crg) {
     const std::string fault = road.heights ? fault_of(*road.heights) : "has no heights";
-    if (!fault.empty()) subject.add("file", fmt::format("{}", fault), "correct its grid");
+    if (!fault.empty()) subject.add("file", fmt::format("{}", fault), "correct the grid or the file of the road");
   }
   subject.positive("friction", road.friction);
   subject.positive("friction_right", road.friction_right);
@@ -238,7 +241,7 @@ void check_road(const RoadSpec& road, const Subject& subject) {
 
 void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, const Subject& subject) {
   check_marker(scene, tyre.wheel, "wheel", subject);
-  if (tyre.wheel.node == "ground") subject.add("wheel", "is on the ground", "name the body of the wheel");
+  if (tyre.wheel.node == "ground") subject.add("wheel", "the wheel must not be ground", "name the body of the wheel");
   check_reference(subject, "road", "road", tyre.road, texts_of(scene.scene.roads, &RoadSpec::name));
   if (tyre.axis && !(tyre.axis->allFinite() && tyre.axis->stableNorm() > 0.0))
     subject.add("axis", "axis has zero length or is not finite",
@@ -250,8 +253,8 @@ void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, const Subject& su
   if (tyre.kind == TyreKind::magic_formula) {
     if (tyre.properties == nullptr) return;  // already reported
     if (tyre.low_speed == 0.0)
-      subject.add("low_speed", "its file has neither VXLOW nor LONGVL to take low_speed from",
-                  "give low_speed: 0.1 m/s is usual");
+      subject.add("low_speed", "its file has neither VXLOW nor LONGVL, which give low_speed",
+                  "give low_speed; 0.1 m/s is usual");
     else
       subject.positive("low_speed", tyre.low_speed);
     check_properties(tyre, subject);
@@ -292,10 +295,10 @@ std::vector<KeySet> tyre_key_sets() {
         {"right", "road_piece | [road_piece]", ditto},
         plain<&RoadSpec::friction>("friction", "positive",
                                    "factor on the coefficients of friction of tyres on this road"),
-        plain<&RoadSpec::friction_right>(
-            "friction_right", "positive",
-            "the same factor right of the middle (y < 0; for `crg` v < 0); the transition takes the radius of a tyre",
-            "`friction`"),
+        plain<&RoadSpec::friction_right>("friction_right", "positive",
+                                         "the same factor to the right of the middle (y < 0; for `crg` v < 0); the "
+                                         "transition is a strip as wide as the radius of a tyre",
+                                         "`friction`"),
         plain<&RoadSpec::transition>("transition", "positive",
                                      "`profile`: width of the strip about y = 0 between both tracks [length]",
                                      "required with `left` or `right`"),
@@ -325,7 +328,7 @@ std::vector<KeySet> tyre_key_sets() {
                                     "required for this kind"),
         {"curve", "curve",
          "`curve`: `{table: [[x, z], ..], interpolation: linear}` or `{file: road.csv}`, a [curve](#curves); the road "
-         "ends where it ends",
+         "ends where the curve ends",
          "either `curve` or `iso_8608`"},
         {"iso_8608", "iso_8608",
          "`curve`: instead of `curve`, a stochastic road: `{class: C, seed: 1, start: 0, length: 200}`",

@@ -9,8 +9,9 @@
 
 namespace tisserand::formats {
 
-/// Text and values of the first violated condition, or nothing. Conditions: y and z are principal axes, centroid and
-/// shear centre lie on the axis of the beam, shear is uncoupled, no rod. Tolerance 1e-9 of the section's own measures.
+/// Text, with values, of the first condition that the section violates, or nothing. Conditions: y and z are principal
+/// axes, centroid and shear centre lie on the axis of the beam, shear is uncoupled, and the section is no rod. The
+/// tolerance is 1e-9 of the section's own measures.
 std::optional<std::string> off_axis_text(const Section& section);
 
 }  // namespace tisserand::formats

@@ -12,18 +12,21 @@
 
 namespace tisserand::formats {
 
-/// Third moments of area [∫y (y² + z²) dA; ∫z (y² + z²) dA] about the centroid [length⁵], exact (Green's theorem).
+/// Third moments of area [∫y (y² + z²) dA; ∫z (y² + z²) dA] of a polygon about its centroid [length⁵]. They are exact
+/// (Green's theorem).
 Eigen::Vector2d third_moments(const SectionPolygon& polygon);
 
-/// Third moments of walls as rectangles. Each wall ends where middle lines meet, without correction of corners.
+/// Third moments of area [∫y (y² + z²) dA; ∫z (y² + z²) dA] of walls, as rectangles, about their centroid [length⁵].
+/// Each wall ends where middle lines meet, without correction of corners.
 Eigen::Vector2d third_moments(const std::vector<WallLine>& lines);
 
-/// Third moments of a section with a stored shape: circle, rectangle, profile, or outline by remember_outline().
-/// Nothing for a section given by constants or by stiffness, or between two others.
+/// Third moments of area [∫y (y² + z²) dA; ∫z (y² + z²) dA] of a section with a stored shape: circle, rectangle,
+/// profile, or outline by remember_outline(). Nothing for a section given by constants or by stiffness, or interpolated
+/// between two others.
 std::optional<Eigen::Vector2d> third_moments(const Section& section);
 
-/// Stores the outline in Section::shape ("polygon", "walls") and Section::sizes. Polygon: for each ring the number of
-/// corners, then y and z of each. Walls: y, z, y, z, thickness of each straight piece.
+/// Stores an outline in Section::shape ("polygon", "walls") and Section::sizes. Sizes of a polygon: for each ring the
+/// number of corners, then y and z of each corner. Sizes of walls: y, z, y, z, thickness of each straight piece.
 void remember_outline(const SectionPolygon& polygon, Section& section);
 void remember_outline(const std::vector<WallLine>& lines, Section& section);
 
@@ -39,10 +42,12 @@ struct Monosymmetry {
 };
 Monosymmetry monosymmetry(const Section& section, const Eigen::Vector2d& third_moments);
 
-/// Constants by third_moments() if these are known, else with third moments 0, as for doubly symmetric sections.
+/// Wagner's constants of a section. They use third_moments(section) if it returns a value, else third moments of 0, as
+/// doubly symmetric sections have.
 Monosymmetry known_monosymmetry(const Section& section);
 
-/// Whether β is unknown and not zero by symmetry as far as constants show: shear centre or axes are oblique.
+/// Whether Wagner's constants are unknown and the known constants do not show that they are zero by symmetry: the shear
+/// centre or the axes are oblique.
 bool lacks_monosymmetry(const Section& section);
 
 }  // namespace tisserand::formats

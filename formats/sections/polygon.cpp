@@ -113,14 +113,14 @@ std::optional<std::string> polygon_fault(const SectionPolygon& polygon) {
   std::size_t corners = 0;
   double size = 0.0;
   for (const Ring* ring : rings) {
-    if (ring->size() < 3) return fmt::format("{} corners make no area", ring->size());
+    if (ring->size() < 3) return fmt::format("{} corners do not enclose an area", ring->size());
     corners += ring->size();
     for (const Vector2d& p : *ring) {
       if (!p.allFinite()) return "a corner is not a finite number";
       size = std::max(size, (p - polygon.outer[0]).norm());
     }
   }
-  if (corners > largest_polygon) return fmt::format("{} corners are more than {}", corners, largest_polygon);
+  if (corners > largest_polygon) return fmt::format("{} corners exceed the limit of {}", corners, largest_polygon);
   for (const Ring* ring : rings)
     for (std::size_t i = 0; i < ring->size(); ++i)
       if (!(((*ring)[i] - (*ring)[(i + 1) % ring->size()]).norm() > 1e-9 * size))

@@ -12,7 +12,7 @@
 
 namespace tisserand::formats {
 
-/// Corners (y, z) in order, in either orientation. The first one is not repeated at the end.
+/// Closed polygon: corners (y, z) in order, in either orientation. The first corner is not repeated at the end.
 using Ring = std::vector<Eigen::Vector2d>;
 
 struct SectionPolygon {
@@ -20,15 +20,17 @@ struct SectionPolygon {
   std::vector<Ring> holes;
 };
 
-/// Largest number of corners of a section with its holes. The matrix of the boundary equations grows with its square.
+/// Largest number of corners of a section with its holes. The matrix of the boundary equations grows with the square of
+/// this number.
 inline constexpr std::size_t largest_polygon = 200;
 
 /// Fault of a polygon, or nothing: fewer than three corners, corners that coincide, sides that cross or touch, a hole
 /// that is not inside, more than `largest_polygon` corners.
 std::optional<std::string> polygon_fault(const SectionPolygon& polygon);
 
-/// Area, centroid (y, z), and second moments about the centroid, exact (Green's theorem; Steger, On the calculation of
-/// moments of polygons, report FGBV-96-05, TU Munich 1996). Holes are subtracted for either orientation.
+/// Area, centroid (y, z), and second moments of area about the centroid. They are exact (Green's theorem; Steger, On
+/// the calculation of moments of polygons, report FGBV-96-05, TU Munich 1996). Holes are subtracted for either
+/// orientation.
 struct AreaMoments {
   double area = 0.0;
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
@@ -38,15 +40,15 @@ struct AreaMoments {
 };
 AreaMoments area_moments(const SectionPolygon& polygon);
 
-/// Section with constants about its centroid: exact area moments; J, shear centre and shear compliance by
-/// saint_venant() of sections/flow.hpp. The polygon must have no fault.
+/// Section with the constants of a polygon about its centroid: exact area moments, and J, shear centre and shear
+/// compliance by saint_venant() (sections/flow.hpp). Requires a polygon without polygon_fault().
 Section polygon_section(const SectionPolygon& polygon);
 
-/// Whether J and shear areas are positive and J is at least 1e-8 (Iy + Iz), above round-off. False for spikes and walls
-/// thinner than about 1/5000 of their length.
+/// Whether the constants are above round-off: J and shear areas are positive, and J is at least 1e-8 (Iy + Iz). False
+/// for spikes and for walls thinner than about 1/5000 of their length.
 bool is_resolved(const Section& section);
 
-/// Sets Iyz, shear coupling and shear centre to zero if they are round-off (1e-9 of their scale), so that symmetric
+/// Sets Iyz, shear coupling and shear centre to zero where they are round-off (1e-9 of their scale). So symmetric
 /// sections are exactly symmetric.
 void drop_round_off(Section& section);
 

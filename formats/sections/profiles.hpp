@@ -11,7 +11,8 @@
 
 namespace tisserand::formats {
 
-/// Shape bounded by straight lines, y to the right, z up. All sizes are outer measures, in the order of `keys`.
+/// Kind of profile: a shape bounded by straight lines, y to the right, z up. All sizes are outer measures, in the order
+/// of `keys`.
 struct Profile {
   std::string_view shape;
   std::vector<std::string_view> keys;
@@ -19,19 +20,19 @@ struct Profile {
 };
 const std::vector<Profile>& profiles();
 
-/// Profile of that word, or null.
+/// Profile whose `shape` is the given word, or null.
 const Profile* find_profile(std::string_view shape);
 
-/// Fault of the sizes ("web 0.03 is not less than width 0.02"), or nothing.
+/// Fault of the sizes of a profile ("web 0.03 is not less than width 0.02"), or nothing.
 std::optional<std::string> profile_fault(std::string_view shape, const std::vector<double>& sizes);
 
-/// Polygon of the shape, with its lower left corner near the origin. The sizes must have no fault.
+/// Polygon of a profile, with its lower left corner near the origin. Requires sizes without profile_fault().
 SectionPolygon profile_polygon(std::string_view shape, const std::vector<double>& sizes);
 
-/// Section with constants by polygon_section(), and with `shape` and `sizes` stored.
+/// Section of a profile, with constants by polygon_section() and with stored `shape` and `sizes`.
 Section profile_section(std::string_view shape, const std::vector<double>& sizes);
 
-/// Section of a profile or of a shape of sections/shapes.hpp by word and sizes, for tapered beams.
+/// Section of a profile, or of a shape of sections/shapes.hpp, by its word and sizes; used for tapered beams.
 Section shape_section(std::string_view shape, const std::vector<double>& sizes);
 
 }  // namespace tisserand::formats

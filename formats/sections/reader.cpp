@@ -86,7 +86,8 @@ std::vector<KeySet> section_key_sets() {
         {"centroid", "section_point",
          "[y, z] of the centroid from the axis of the beam, the line through its points [length]", "[0, 0]"},
         {"shear_center", "section_point",
-         "[y, z] of the shear centre from the centroid: forces beside it twist the beam [length]", "[0, 0]"}}}};
+         "[y, z] of the shear centre from the centroid: forces that do not act through it twist the beam [length]",
+         "[0, 0]"}}}};
   sets.push_back(
       {"section_by_stiffness",
        {{"stiffness", "section_stiffness", "the map of the next table, instead of constants or a shape; no `material`",

@@ -11,22 +11,25 @@
 
 namespace tisserand::formats {
 
-/// Lists of the fields of materials, sections by constants and shapes, and the types that they refer to.
+/// Fields of materials, and of sections by constants and by shape; section_types() returns the types to which they
+/// refer.
 std::vector<KeySet> section_key_sets();
 std::vector<NamedType> section_types();
 
-/// Reads a material. `context` names the entry; `prefix` precedes its keys in findings (map inside another entry).
+/// Reads a material. `context`: names the entry in messages. `prefix`: text before its keys in findings, for a map
+/// inside another entry.
 Material read_material(const Context& context, const YamlNode& node, const std::string& prefix);
 
 /// Reads a section by constants, by `shape` or by `stiffness`. Contradictory sizes are reported here, since a Section
 /// does not store them.
 Section read_section(const Context& context, const YamlNode& node, const Units& units, const std::string& prefix);
 
-/// Read the top-level maps `materials` and `sections`.
+/// Reads the top-level map `materials` or `sections`.
 std::vector<Material> read_materials(const MapReader& map);
 std::vector<Section> read_sections(const MapReader& map, const Units& units);
 
-/// Check for positive finite constants, -1 < nu < 0.5, Iy + Iz = polar moment, and both shear areas or none.
+/// Checks that constants are positive and finite, that -1 < nu < 0.5, that Iy + Iz is the polar moment, and that both
+/// shear areas are given or none.
 void check_material(const Material& material, const Subject& subject);
 void check_section(const Section& section, const Subject& subject);
 

@@ -32,7 +32,7 @@ std::string section_by_stiffness(const Section& s, const Units& units) {
 
 /// Lines with Wagner's β, or the reason why it is unknown.
 std::string monosymmetry_lines(const Section& s, const std::string& unit) {
-  if (!third_moments(s)) return "  Wagner's beta: not known of a section that is given by constants\n";
+  if (!third_moments(s)) return "  Wagner's beta: not known for a section that is given by constants\n";
   const Monosymmetry beta = known_monosymmetry(s);
   return line("Wagner's beta of moments about y", "beta_y", beta.beta_y, unit) +
          line("Wagner's beta of moments about z", "beta_z", beta.beta_z, unit);
@@ -54,7 +54,7 @@ std::string one_section(const Section& s, const Units& units) {
   text += line("angle from y to the axis of I1", "", principal.angle * 180.0 / M_PI, "deg");
   text += line("shear area along y, nu = 0", "A_sy", s.shear_area_y, unit(2));
   text += line("shear area along z, nu = 0", "A_sz", s.shear_area_z, unit(2));
-  if (s.shear_coupling != 0.0) text += line("coupling of both, times A", "c A", s.shear_coupling * s.area, "");
+  if (s.shear_coupling != 0.0) text += line("shear coupling of y and z, times A", "c A", s.shear_coupling * s.area, "");
   text += line("centroid from the axis of the beam", "y", s.centroid_y, unit(1));
   text += line("", "z", s.centroid_z, unit(1));
   text += line("shear centre from the centroid", "y", s.shear_center_y, unit(1));

@@ -10,7 +10,8 @@
 
 namespace tisserand::formats {
 
-/// Principal second moments I1 >= I2 about the centroid, and the angle from y to the axis of I1 [rad], in (−π/2, π/2].
+/// Principal second moments of area I1 >= I2 about the centroid, and the angle from y to the axis of I1 [rad], in
+/// (−π/2, π/2].
 struct PrincipalMoments {
   double larger = 0.0;
   double smaller = 0.0;

@@ -106,7 +106,7 @@ constexpr Choice<AxisPoint> profile_axis_choices[] = {{"centroid", AxisPoint::ce
 /// Reports an error if the section is too thin to compute its constants. Returns whether it is not.
 bool resolved(const MapReader& map, const Section& section) {
   if (is_resolved(section)) return true;
-  map.fail("parts of the section are too thin or too small against the whole for its torsion constant to be found",
+  map.fail("parts of the section are too thin or too small, compared with the whole, to compute its torsion constant",
            "give it as `walls`, or give its constants");
   return false;
 }
@@ -169,7 +169,8 @@ Section read_polygon(const MapReader& map) {
     }
   }
   if (const auto fault = polygon_fault(polygon)) {
-    map.context().fail(outline->place, *fault, "give the corners in order, sides that do not cross, holes inside");
+    map.context().fail(outline->place, *fault,
+                       "give the corners in order, such that sides do not cross and holes lie inside the outline");
     return {};
   }
   Section section = polygon_section(polygon);
@@ -204,7 +205,7 @@ Section read_walls(const MapReader& map, const Units& units) {
     lines.push_back(*line);
   }
   if (const auto fault = walls_fault(lines)) {
-    map.context().fail(list->place, *fault, "lines are joined where they share a point, given in both");
+    map.context().fail(list->place, *fault, "to join two lines, write the shared point in both");
     return {};
   }
   Section section = walls_section(lines);

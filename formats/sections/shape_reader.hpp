@@ -11,10 +11,11 @@
 
 namespace tisserand::formats {
 
-/// Key sets of the shapes, "section_circle" and so on, which PART.md describes.
+/// Key sets of the maps of shapes, named "section_circle" and so on, as PART.md describes them.
 std::vector<KeySet> shape_key_sets();
 
-/// Section by its shape. `shape`: value of that key in `node`. After a reported error the section is empty.
+/// Reads a section given by its shape. `shape`: value of the key `shape` in `node`. After a recorded error the section
+/// is empty.
 Section read_shape(const Context& context, const YamlNode& node, const YamlNode& shape, const Units& units,
                    const std::string& prefix);
 

@@ -48,22 +48,24 @@ std::string substance_doubt(const Substance& s, const Units& units, const std::s
   std::string text = fmt::format("{}: ", s.what);
   if (heavy) {
     const std::string own = fmt::format("{}/{}^3", units.mass.label, units.length.label), usual = "kg/m^3";
-    text += fmt::format("a density of {:.4g} {}{}; usual are 10 to 30 000 {}", s.density, own,
+    text += fmt::format("a density of {:.4g} {}{}; usual values are 10 to 30 000 {}", s.density, own,
                         own == usual ? "" : fmt::format(", that is {:.3g} {}", density, usual), usual);
   }
   if (heavy && fast) text += "; ";
   if (fast)
     text += fmt::format(
         "a modulus of {:.4g} and a density of {:.4g} in units {}, {}, {} mean a speed of sound of {:.3g} m/s; usual "
-        "are 100 to 20 000 m/s",
+        "values are 100 to 20 000 m/s",
         s.modulus, s.density, units.length.label, units.mass.label, units.time.label, speed);
   std::vector<std::string> hints;
   const std::string other_density = likely_unit(s.density, per_volume, usual_density, owner);
   const std::string other_modulus = likely_unit(s.modulus, pressure, usual_modulus, owner);
   if (!other_density.empty()) hints.push_back("the density looks like " + other_density);
   if (!other_modulus.empty()) hints.push_back("the modulus looks like " + other_modulus);
-  return text + (hints.empty() ? ". Do length, mass, time and the material belong together (for example mm, t, s, MPa)?"
-                               : ": " + join(hints, ", "));
+  return text +
+         (hints.empty()
+              ? ". Check that the units of length, mass and time fit those of the material (for example mm, t, s, MPa)"
+              : ": " + join(hints, ", "));
 }
 
 }  // namespace tisserand::formats

@@ -8,16 +8,17 @@
 
 namespace tisserand::formats {
 
-/// Stiffness and density, both per length, per area or per volume.
+/// Stiffness and density of a beam (per length), a shell (per area) or a solid (per volume).
 struct Substance {
   std::string what;  ///< "material 'steel'"
   double modulus = 0.0;
   double density = 0.0;
 };
 
-/// Warning for a density outside 10 to 30 000 kg/m³ (aerogel, tungsten) or a speed of sound √(E/ρ) outside 100 to
-/// 20 000 m/s (rubber, diamond). It suggests units in which the numbers would be those of common materials. Empty:
-/// nothing unusual, no density, or units without names. `owner`: "the part", "the scene".
+/// Warning for unusual numbers of a material; empty if there is nothing unusual, no density, or units have no names.
+/// Unusual is a density outside 10 to 30 000 kg/m³ (aerogel, tungsten) or a speed of sound √(E/ρ) outside 100 to 20 000
+/// m/s (rubber, diamond). The warning suggests units in which the numbers would be those of common materials. `owner`:
+/// "the part", "the scene".
 std::string substance_doubt(const Substance& substance, const Units& units, const std::string& owner);
 
 }  // namespace tisserand::formats

@@ -187,7 +187,7 @@ std::optional<std::string> walls_fault(const std::vector<WallLine>& lines) {
     count += lines[i].points.size() - 1;
   }
   if (count == 0) return "there is no wall";
-  if (count > largest_wall_count) return fmt::format("{} walls are more than {}", count, largest_wall_count);
+  if (count > largest_wall_count) return fmt::format("{} walls exceed the limit of {}", count, largest_wall_count);
   Network network = network_of(lines);
   for (const Wall& wall : network.walls)
     if (wall.from == wall.to)

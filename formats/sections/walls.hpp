@@ -10,8 +10,8 @@
 
 namespace tisserand::formats {
 
-/// Line of straight walls with one thickness through points (y, z). A closed line repeats its first point. Lines are
-/// joined at common points.
+/// Line of straight walls with one thickness, through points (y, z). A closed line repeats its first point at the end.
+/// Lines are joined at common points.
 struct WallLine {
   Ring points;
   double thickness = 0.0;
@@ -24,7 +24,7 @@ inline constexpr std::size_t largest_wall_count = 500;
 /// straight line (better a rectangle), more than `largest_wall_count`.
 std::optional<std::string> walls_fault(const std::vector<WallLine>& lines);
 
-/// Centroid (y, z) in the coordinates of the points.
+/// Centroid (y, z) of the walls, in the coordinates of their points.
 Eigen::Vector2d walls_centroid(const std::vector<WallLine>& lines);
 
 /// Section with constants by the theory of thin walls, about the centroid, Poisson's ratio 0. Along a wall of thickness

@@ -44,7 +44,7 @@ std::string field_table(const std::vector<KeySet>& sets, const std::string& tabl
   return text;
 }
 
-bool tells_kind(const Field& field) {
+bool names_kind(const Field& field) {
   return field.type.starts_with("'") && field.type.find('\'', 1) == field.type.size() - 1;
 }
 
@@ -52,7 +52,7 @@ std::string kind_table(const std::vector<KeySet>& sets, const std::string& key) 
   std::string rows;
   for (const KeySet& set : sets)
     for (const Field& field : set.fields)
-      if (field.key == key && tells_kind(field) && !field.meaning.empty())
+      if (field.key == key && names_kind(field) && !field.meaning.empty())
         rows += fmt::format("| `{}` | {} |\n", field.type.substr(1, field.type.size() - 2), field.meaning);
   return rows.empty() ? "" : fmt::format("| `{}` | meaning |\n| --- | --- |\n{}", key, rows);
 }

@@ -9,7 +9,7 @@
 
 namespace tisserand::formats {
 
-/// Kind of file, part.yaml or scene.yaml, with its lists of fields.
+/// Kind of file (part.yaml or scene.yaml) with its key sets and named types.
 struct FileKind {
   std::string name;  ///< "part" or "scene"
   std::vector<KeySet> sets;
@@ -26,17 +26,19 @@ std::vector<FileKind> file_kinds();
 /// JSON Schema (2020-12) with a definition for each list and each named type.
 std::string schema_text(const FileKind& kind);
 
-/// Rows | key | meaning | default | of the fields of one table; empty if no list has it.
+/// Table | key | meaning | default | with a row per field of one table of the page, as Markdown. Empty if no key set
+/// has the table.
 std::string field_table(const std::vector<KeySet>& sets, const std::string& table);
 
 /// Whether the field determines the kind of the map by one word, for example `shape: circle`.
-bool tells_kind(const Field& field);
+bool names_kind(const Field& field);
 
-/// Rows | word | meaning | of all fields with that key that determine the kind of a map; empty if there is none.
+/// Table | word | meaning | of all fields with the given key that determine the kind of a map by one word, as Markdown.
+/// Empty if there is none.
 std::string kind_table(const std::vector<KeySet>& sets, const std::string& key);
 
-/// The page with new text between `<!-- fields: table -->` or `<!-- kinds: key -->` and `<!-- end -->`. Throws Error
-/// for an unknown table and for a mark without end.
+/// Text of the page with new tables between `<!-- fields: table -->` or `<!-- kinds: key -->` and `<!-- end -->`.
+/// Throws Error for an unknown table and for a mark without end.
 std::string with_field_tables(const std::string& page, const std::string& file, const std::vector<KeySet>& sets);
 
 }  // namespace tisserand::formats

@@ -53,7 +53,7 @@ void check_axes(const Study& study, const StudySeries& series, Faults& faults) {
                  "use letters, digits and _, or a path such as integrator.step");
     else if (!is_used(axis, series))
       faults.add(axis.where, "", fmt::format("axis '{}' sets nothing in series '{}'", axis.name, series.name),
-                 fmt::format("name it in a value of 'set' as ${}, or call it by the path that it sets", axis.name));
+                 fmt::format("use it as ${} in a value of 'set', or name it after the path that it sets", axis.name));
     for (std::size_t i = 0; i < axis.values.size(); ++i)
       for (std::size_t k = 0; k < i; ++k)
         if (axis.values[i].kind == YamlKind::scalar && axis.values[i].text == axis.values[k].text)
@@ -92,7 +92,7 @@ void check_reference_of(const Study& study, Faults& faults) {
                           texts_of(series.axes, &StudyAxis::name));
   }
   if (!reference.file.empty() && reference.source.empty())
-    faults.add("reference", "", "reference: the file has no source", "say with 'source' where its numbers come from");
+    faults.add("reference", "", "reference: the file has no 'source'", "write the origin of its numbers in 'source'");
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ void check_reference_of(const Study& study, Faults& faults) {
 void find_faults(const Study& study, Faults& faults) {
   if (study.series.empty()) faults.add(study.file, "series", "the study has no series", "name a scene in 'series'");
   if (study.quantities.empty())
-    faults.add(study.file, "quantities", "the study looks at no quantity", "name a channel in 'quantities'");
+    faults.add(study.file, "quantities", "the study has no quantity", "name a channel in 'quantities'");
   std::vector<std::string> seen;
   for (const StudyQuantity& quantity : study.quantities) {
     check_name("quantity", quantity, seen, faults);

@@ -7,7 +7,7 @@
 
 namespace tisserand::formats {
 
-/// Finds names without definition, unused axes and missing entries.
+/// Adds the faults of a study to `faults`: names without definition, unused axes and missing entries.
 void find_faults(const Study& study, Faults& faults);
 
 }  // namespace tisserand::formats

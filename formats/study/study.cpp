@@ -119,7 +119,7 @@ void read_reference(const MapReader& root, Study& study) {
 
 std::vector<NamedType> study_types() {
   std::vector<NamedType> types = common_types();
-  types.push_back({"setting_path", "/^[^.=]+([.][^.=]+)*$/", "as of `--set`"});
+  types.push_back({"setting_path", "/^[^.=]+([.][^.=]+)*$/", "as in `--set`"});
   types.push_back({"axis_values", "[any]1.."});
   return types;
 }
@@ -141,14 +141,14 @@ std::vector<KeySet> study_key_sets() {
         axes,
         set,
         {"quantities", "{name: study_quantity}+", "name -> quantity whose error is measured, and its norm", "required"},
-        {"reference", "study_reference", "what errors are measured against",
+        {"reference", "study_reference", "results with which all runs are compared",
          "the last values of all axes of the first series"},
         plain<&Study::along>("along", "text", "axis whose points a line of the diagrams connects",
                              "the last of each series"),
         choice<&Study::timing, timings>(
             "timing",
             "`alone`: one run at a time, repeated until the median time is known. `together`: each run once, several "
-            "in parallel; errors are the same, times are rough"),
+            "in parallel; errors are the same, times are approximate"),
         plain<&Study::within>("within", "positive",
                               "relative half width of the interval in which the median time must lie"),
         plain<&Study::repeats>("repeats", "integer>0", "largest number of runs of one setting"),

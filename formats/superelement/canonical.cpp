@@ -19,7 +19,7 @@ void check_internal_stiffness(const Eigen::MatrixXd& S_II, const std::string& wh
   for (Eigen::Index i = 0; i < S_II.rows(); ++i)
     if (!(S_II(i, i) > 0.0))
       throw Error(fmt::format("stiffness of internal coordinate {} is {:g}, not positive", i + 1, S_II(i, i)), where,
-                  "internal coordinates must not move without strain; write the file with fixed-boundary modes");
+                  "write the file with fixed-boundary modes, which have positive stiffness");
   const Eigen::VectorXd scale = S_II.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = scale.asDiagonal() * S_II * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
@@ -27,11 +27,10 @@ void check_internal_stiffness(const Eigen::MatrixXd& S_II, const std::string& wh
   if (smallest > kSmallestScaledEigenvalue) return;
   Eigen::Index row = 0;
   solver.eigenvectors().col(0).cwiseAbs().maxCoeff(&row);
-  throw Error(
-      fmt::format("internal stiffness S_II is {} (smallest eigenvalue {:.3g} of the scaled matrix, mostly internal "
-                  "coordinate {})",
-                  smallest < -kSmallestScaledEigenvalue ? "indefinite" : "singular", smallest, row + 1),
-      where, "remove the dependent or rigid internal coordinates from the file");
+  throw Error(fmt::format("internal stiffness S_II is {} (smallest eigenvalue {:.3g} of the scaled matrix, mainly "
+                          "internal coordinate {})",
+                          smallest < -kSmallestScaledEigenvalue ? "indefinite" : "singular", smallest, row + 1),
+              where, "remove the dependent or rigid internal coordinates from the file");
 }
 
 /// Internal coordinates with zero rows of S (loose), and the others (elastic).
@@ -116,7 +115,7 @@ CanonicalMatrices canonical_form(const PartitionedMatrices& matrices, const std:
   const double largest = std::max(mu[0], 0.0);
   if (mu[m - 1] < -1e-9 * largest || largest <= 0.0)
     throw Error(fmt::format("internal mass M_II has the eigenvalue {:.3g} (relative to S_II)", mu[m - 1]), where,
-                "the mass matrix must be positive semidefinite");
+                "write a mass matrix that is positive semidefinite");
   Eigen::Index kept = 0;
   while (kept < m && mu[kept] > kMassless * largest) ++kept;
   out.massless = m - kept;

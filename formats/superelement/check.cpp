@@ -42,14 +42,15 @@ void check_sizes(const Superelement& e, const FilePlace& place) {
     fail("/boundary/name", "there is no boundary node", "name at least one node at which the part can be joined");
   if (n < 1) fail("/dof/node", "there are no coordinates", "write one entry per row of /stiffness");
   if (n > max_coordinates)
-    fail("/dof/node", fmt::format("{} coordinates, at most {} are allowed", n, max_coordinates),
+    fail("/dof/node", fmt::format("has {} coordinates, at most {} are allowed", n, max_coordinates),
          "keep fewer nodes or modes");
   if (e.node_position.rows() != nodes)
-    fail("/boundary/position", fmt::format("{} rows for {} names in /boundary/name", e.node_position.rows(), nodes),
+    fail("/boundary/position",
+         fmt::format("has {} rows, but /boundary/name has {} names", e.node_position.rows(), nodes),
          "write one row x, y, z per name");
   if (static_cast<Eigen::Index>(e.dof_component.size()) != n)
-    fail("/dof/component", fmt::format("{} entries for {} in /dof/node", e.dof_component.size(), n),
-         "write one per row");
+    fail("/dof/component", fmt::format("has {} entries, but /dof/node has {}", e.dof_component.size(), n),
+         "write one entry per row of /stiffness");
   if (e.stiffness.rows() != n || e.stiffness.cols() != n)
     fail("/stiffness", fmt::format("has shape {} x {}, expected {} x {}", e.stiffness.rows(), e.stiffness.cols(), n, n),
          "write one row and column per entry of /dof/node");
@@ -62,11 +63,12 @@ void check_names(const Superelement& e, const FilePlace& place) {
   std::set<std::string> seen;
   for (std::size_t i = 0; i < e.node_name.size(); ++i) {
     if (!valid_name(e.node_name[i]))
-      throw Error(fmt::format("entry {} is '{}', which is no name of a node", i, printable_line(e.node_name[i], 60)),
-                  place.dataset("/boundary/name"), "use letters, digits, _ and -, beginning with a letter or _");
+      throw Error(
+          fmt::format("entry {} is '{}', which is not a valid name of a node", i, printable_line(e.node_name[i], 60)),
+          place.dataset("/boundary/name"), "use letters, digits, _ and -, beginning with a letter or _");
     if (!seen.insert(e.node_name[i]).second)
       throw Error(fmt::format("entry {} is '{}', the name of an earlier node", i, e.node_name[i]),
-                  place.dataset("/boundary/name"), "give each node a name of its own");
+                  place.dataset("/boundary/name"), "give each node its own name");
   }
 }
 
@@ -105,8 +107,7 @@ void check_dof_table(const Superelement& e, const FilePlace& place) {
     const bool whole = (translations == 0 || translations == 3) && (rotations == 0 || rotations == 3);
     if (!whole || translations + rotations == 0)
       throw Error(
-          fmt::format("node '{}' has {} translations and {} rotations, expected three of a kind or none of it, and "
-                      "at least one kind",
+          fmt::format("node '{}' has {} translations and {} rotations, expected 3 or 0 of each, and not 0 of both",
                       e.node_name[node], translations, rotations),
           place.dataset("/dof/component"), "keep x, y and z of a node together");
   }
@@ -119,7 +120,7 @@ void check_finite_matrix(const Superelement& e, const Eigen::MatrixXd& matrix, c
       if (!(std::abs(matrix(i, j)) < largest_value))
         throw Error(fmt::format("[{}, {}] = {} is not a usable number: {}, column of {}", i, j, matrix(i, j),
                                 row_text(e, i), row_text(e, j)),
-                    place.dataset(name), "write finite numbers");
+                    place.dataset(name), "write finite numbers below 1e100");
 }
 
 void check_finite(const Superelement& e, const FilePlace& place) {
@@ -128,7 +129,7 @@ void check_finite(const Superelement& e, const FilePlace& place) {
       if (!(std::abs(e.node_position(i, k)) < largest_value))
         throw Error(fmt::format("[{}, {}] = {} is not a usable number: {} of node '{}'", i, k, e.node_position(i, k),
                                 "xyz"[k], e.node_name[i]),
-                    place.dataset("/boundary/position"), "write finite numbers");
+                    place.dataset("/boundary/position"), "write finite numbers below 1e100");
   check_finite_matrix(e, e.stiffness, "/stiffness", place);
   check_finite_matrix(e, e.mass, "/mass", place);
 }
@@ -166,7 +167,7 @@ void check_semidefinite(const Superelement& e, const Eigen::MatrixXd& scaled, co
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(shifted);
     Eigen::Index row = 0;
     eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&row);
-    text += fmt::format(": scaled eigenvalue {:.3e} (largest {:.3e}), mainly {}",
+    text += fmt::format(": scaled eigenvalue {:.3e} (largest {:.3e}), mainly in {}",
                         eigen.eigenvalues()[0] - semidefinite_tolerance, eigen.eigenvalues()[n - 1], row_text(e, row));
   }
   throw Error(text, place.dataset(name), "check the reduction that made the file");
@@ -189,9 +190,10 @@ void check_rigid_rank(const Superelement& e, const FilePlace& place) {
   for (std::size_t i = 0; i < count; ++i)
     if (has_translation[i]) translating.push_back(static_cast<Eigen::Index>(i));
   const auto fail = [&](const std::string& motion, const std::string& remedy) {
-    throw Error(fmt::format("the boundary nodes cannot see the part {}", motion), place.dataset("/dof/node"), remedy);
+    throw Error(fmt::format("the coordinates of the boundary nodes do not change when the part {}", motion),
+                place.dataset("/dof/node"), remedy);
   };
-  if (translating.empty()) fail("moving in x, y or z", "keep the translations of at least one node");
+  if (translating.empty()) fail("moves in x, y or z", "keep the translations of at least one node");
   if (rotations) return;
   const auto name = [&](Eigen::Index node) { return e.node_name[node]; };
   const double tolerance = collinear_tolerance * characteristic_length(e);
@@ -201,7 +203,7 @@ void check_rigid_rank(const Superelement& e, const FilePlace& place) {
     if ((e.node_position.row(node) - a).norm() > (e.node_position.row(far) - a).norm()) far = node;
   const Eigen::RowVector3d line = e.node_position.row(far) - a;
   const std::string remedy = "keep rotations at a node, or the translations of three nodes that are not on one line";
-  if (line.norm() <= tolerance) fail(fmt::format("turning about node {}", name(translating.front())), remedy);
+  if (line.norm() <= tolerance) fail(fmt::format("turns about node {}", name(translating.front())), remedy);
   for (const Eigen::Index node : translating) {
     const Eigen::RowVector3d d = e.node_position.row(node) - a;
     if (d.cross(line.normalized()).norm() > tolerance) return;
@@ -212,7 +214,7 @@ void check_rigid_rank(const Superelement& e, const FilePlace& place) {
     if ((e.node_position.row(node) - e.node_position.row(far)).norm() >
         (e.node_position.row(other) - e.node_position.row(far)).norm())
       other = node;
-  fail(fmt::format("turning about the line {}-{}", name(std::min(other, far)), name(std::max(other, far))), remedy);
+  fail(fmt::format("turns about the line {}-{}", name(std::min(other, far)), name(std::max(other, far))), remedy);
 }
 
 /// Stiffness, rigid motions and errors of the entries, all scaled.
@@ -226,31 +228,32 @@ void check_rigid_strain(const Superelement& e, const ScaledStiffness& scaled, Su
   static constexpr const char* motions[] = {"moving in x",     "moving in y",     "moving in z",
                                             "turning about x", "turning about y", "turning about z"};
   const std::string positions =
-      "check positions of nodes and their unit, signs and order of rotations (in radians), or whether the part was "
-      "fixed to the ground";
+      "check the positions of the nodes and their unit, the signs and the order of the rotations (in radians), and "
+      "that the part is not fixed to the ground";
   Eigen::Index row = 0, motion = 0;
   report.rigid_residual = (scaled.S * scaled.R).cwiseAbs().maxCoeff(&row, &motion);
   if (report.rigid_residual <= rigid_residual_exact) return;
   if (report.rigid_residual > rigid_residual_filtered)
-    throw Error(fmt::format("the part resists rigid motion: {} gives a relative force of {:.3e} (at most {:g}) in {}",
-                            motions[motion], report.rigid_residual, rigid_residual_filtered, row_text(e, row)),
-                place.dataset("/stiffness"), positions);
+    throw Error(
+        fmt::format("the part resists rigid-body motion: {} gives a relative force of {:.3e} (at most {:g}) in {}",
+                    motions[motion], report.rigid_residual, rigid_residual_filtered, row_text(e, row)),
+        place.dataset("/stiffness"), positions);
   const RigidStrain strain = rigid_strain(0.5 * (scaled.S + scaled.S.transpose()), scaled.R, scaled.bound);
   report.rigid_change = strain.change;
   const bool explained = strain.cause == RigidStrainCause::rounding;
   if (strain.change <= (explained ? rigid_change_rounding : rigid_change_accepted)) return;
   const std::string found = fmt::format(
-      "the part resists rigid motion: {} gives a relative force of {:.3e} in {}, {:.3g} times what its softest "
-      "deformation takes",
+      "the part resists rigid-body motion: {} gives a relative force of {:.3e} in {}, which is {:.3g} times the "
+      "stiffness of its softest deformation",
       motions[strain.motion], strain.force, row_text(e, strain.row), strain.change);
   const std::string digits = report.rounding.empty() ? "" : fmt::format(" ({})", report.rounding);
   if (explained)
-    throw Error(fmt::format("{} (at most {:g}); rounding of the entries{} may explain this, but then they do not hold "
-                            "that deformation",
+    throw Error(fmt::format("{} (at most {:g}). Rounding of the entries{} may be the cause, but then the entries are "
+                            "too inaccurate for that deformation",
                             found, rigid_change_rounding, digits),
                 place.dataset("/stiffness"), "write the matrix with more digits; if it has them, " + positions);
-  throw Error(fmt::format("{} (at most {:g}), and rounding of the entries{} does not explain it", found,
-                          rigid_change_accepted, digits),
+  throw Error(fmt::format("{} (at most {:g}). Rounding of the entries{} is not the cause", found, rigid_change_accepted,
+                          digits),
               place.dataset("/stiffness"), positions);
 }
 
@@ -260,19 +263,22 @@ void check_rigid_mass(const Superelement& e, double length, const FilePlace& pla
   const Eigen::Matrix<double, 6, 6> M = R.transpose() * e.mass * R;
   const double m = M.topLeftCorner<3, 3>().trace() / 3.0;
   if (!(m > 0.0))
-    throw Error(fmt::format("the mass of the rigid part is {}, expected a positive number", m), place.dataset("/mass"),
-                "give the part a density or point masses");
+    throw Error(fmt::format("the rigid-body mass of the part is {}, expected a positive number", m),
+                place.dataset("/mass"), "give the part a density or point masses");
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       if (!(std::abs(M(i, j) - (i == j ? m : 0.0)) <= rigid_mass_tolerance * m))
-        throw Error(fmt::format("the mass of the rigid part is not the same in all directions: along x {}, y {}, z {}, "
-                                "coupling {}-{} {}",
-                                M(0, 0), M(1, 1), M(2, 2), "xyz"[i], "xyz"[j], i == j ? 0.0 : M(i, j)),
-                    place.dataset("/mass"), "check that every translation of the part carries the whole mass");
+        throw Error(
+            fmt::format("the rigid-body mass of the part is not the same in all directions: along x {}, y {}, z {}, "
+                        "coupling {}-{} {}",
+                        M(0, 0), M(1, 1), M(2, 2), "xyz"[i], "xyz"[j], i == j ? 0.0 : M(i, j)),
+            place.dataset("/mass"), "check that the whole mass moves with each translation of the part");
   const Eigen::Matrix3d C = M.topRightCorner<3, 3>();
   if (!((C + C.transpose()).cwiseAbs().maxCoeff() <= rigid_mass_tolerance * std::max(m, C.cwiseAbs().maxCoeff())))
-    throw Error("mass does not couple moving and turning as one centre of mass would (the coupling block is not skew)",
-                place.dataset("/mass"), "check positions and the signs of rotations");
+    throw Error(
+        "the coupling of translation and rotation does not fit one centre of mass (the coupling block is not "
+        "skew-symmetric)",
+        place.dataset("/mass"), "check the positions of the nodes and the signs of the rotations");
 }
 
 /// Checks principal moments ≥ 0 and the triangle inequality. A zero moment causes a warning that names the axis.
@@ -285,13 +291,13 @@ void check_inertia(const Superelement& e, double length, SuperelementReport& rep
   const double zero = semidefinite_tolerance * scale, tolerance = rigid_mass_tolerance * std::max(I[2], zero);
   if (!(I[0] >= -zero))
     throw Error(fmt::format("the inertia about the centre of mass has the negative principal moment {}", I[0]),
-                place.dataset("/mass"), "check positions and the signs of rotations");
+                place.dataset("/mass"), "check the positions of the nodes and the signs of the rotations");
   const std::string no_body = fmt::format(
-      "the principal moments of inertia {}, {}, {} belong to no body: the largest exceeds the sum of the others", I[0],
+      "no real body has the principal moments of inertia {}, {}, {}: the largest exceeds the sum of the others", I[0],
       I[1], I[2]);
   if (!(I[0] + I[1] >= (1.0 - triangle_accepted) * I[2] - 3 * zero))
     throw Error(no_body, place.dataset("/mass"),
-                "check the mass matrix; a short part without rotary inertia of bending does this");
+                "check the mass matrix; a short part without rotary inertia of bending can cause this");
   if (!(I[0] + I[1] >= I[2] - std::max(tolerance, 3 * zero)))
     report.warnings.push_back(fmt::format("{}: {}.", place.dataset("/mass"), no_body));
   for (int k = 0; k < 3; ++k) {
@@ -299,7 +305,7 @@ void check_inertia(const Superelement& e, double length, SuperelementReport& rep
     const Eigen::Vector3d axis = eigen.eigenvectors().col(k) * (eigen.eigenvectors().col(k).sum() < 0 ? -1.0 : 1.0);
     report.warnings.push_back(fmt::format(
         "The part has no inertia about the axis ({:.6g}, {:.6g}, {:.6g}) through its centre of mass ({:.6g}, {:.6g}, "
-        "{:.6g}); a mechanism must hold it against turning about this axis.",
+        "{:.6g}). The mechanism must prevent rotation about this axis.",
         axis[0] + 0.0, axis[1] + 0.0, axis[2] + 0.0, rigid.center_of_mass[0], rigid.center_of_mass[1],
         rigid.center_of_mass[2]));
   }
@@ -313,13 +319,13 @@ bool needs_filter(const SuperelementReport& report) {
 
 std::string filter_note(const SuperelementReport& report, const std::string& where) {
   const std::string note = fmt::format(
-      "{}: rigid motions strain the part (relative force {:.3e}, {:.1e} times what its softest deformation takes); "
-      "this was removed from /stiffness by projection",
+      "{}: rigid-body motions cause strain in the part (relative force {:.3e}, {:.1e} times the stiffness of its "
+      "softest deformation). This strain was removed from /stiffness by projection",
       where, report.rigid_residual, report.rigid_change);
   if (report.rigid_change <= rigid_change_accepted) return note + ".";
   return note + fmt::format(
-                    ". Rounding of the entries{} explains it and leaves the stiffness of that deformation uncertain by "
-                    "about as much; a matrix with more digits would not.",
+                    ". Rounding of the entries{} is the cause. The stiffness of that deformation is uncertain by about "
+                    "the same ratio; a matrix with more digits is more accurate.",
                     report.rounding.empty() ? "" : fmt::format(" ({})", report.rounding));
 }
 
@@ -347,7 +353,7 @@ SuperelementReport check(const Superelement& element, const std::string& where, 
   const Eigen::MatrixXd M = s.mass_row.asDiagonal() * element.mass * s.mass_row.asDiagonal() / s.mass_scale;
   if (!stiffness.S.allFinite() || !M.allFinite() || !stiffness.R.allFinite())
     throw Error("values of /boundary/position, /stiffness and /mass differ by too many powers of ten", where,
-                "choose units in which lengths, forces and masses are ordinary numbers");
+                "choose units in which lengths, forces and masses are neither very large nor very small");
   check_symmetry(element, element.stiffness, stiffness.S, "/stiffness", place);
   check_symmetry(element, element.mass, M, "/mass", place);
   check_rigid_rank(element, place);

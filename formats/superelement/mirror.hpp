@@ -14,11 +14,12 @@
 
 namespace tisserand::formats {
 
-/// Superelement with T S̄ T and T M̄ T: T = D on translations, det(D) D on rotations, 1 on internal coordinates.
-/// `content_id` is that of the image.
+/// Mirror image of a superelement under D = diag(axes), each 1 or −1. Its matrices are T S̄ T and T M̄ T with T = D on
+/// translations, det(D) D on rotations, 1 on internal coordinates. `content_id` becomes that of the image.
 LoadedSuperelement mirrored(LoadedSuperelement file, const Eigen::Vector3d& axes);
 
-/// Modal body with its frame at D p, in the orientation D R D. Data in axes of the frame transform by D.
+/// Mirror image of a modal body under D = diag(axes), each 1 or −1. Its frame is at D p with the orientation D R D, for
+/// the frame (p, R) of the original. Data in axes of the frame transform by D.
 LoadedModalBody mirrored(LoadedModalBody file, const Eigen::Vector3d& axes);
 
 }  // namespace tisserand::formats

@@ -6,7 +6,7 @@
 
 namespace tisserand::formats {
 
-/// Whether the name is [A-Za-z_][A-Za-z0-9_-]*, at most 255 bytes.
+/// Whether the name is valid: [A-Za-z_][A-Za-z0-9_-]*, at most 255 bytes.
 bool valid_name(const std::string& name);
 
 }  // namespace tisserand::formats

@@ -53,7 +53,7 @@ std::vector<int> read_integers(const hdf5::InputFile& file, const std::string& d
   std::vector<int> values;
   for (std::size_t i = 0; i < wide.size(); ++i) {
     if (wide[i] < std::numeric_limits<int>::min() || wide[i] > std::numeric_limits<int>::max())
-      throw Error(fmt::format("entry {} is {}, beyond 32-bit integers", i, wide[i]),
+      throw Error(fmt::format("entry {} is {}, outside the range of 32-bit integers", i, wide[i]),
                   fmt::format("{}: {}", file.path(), dataset), "correct the number");
     values.push_back(static_cast<int>(wide[i]));
   }
@@ -86,7 +86,7 @@ std::string unknown_items(const hdf5::InputFile& file) {
     if (std::find(known_attributes.begin(), known_attributes.end(), name) == known_attributes.end())
       unknown.push_back(fmt::format("attribute '{}'", name));
   if (unknown.empty()) return "";
-  return fmt::format("{}: ignored, as version 1.0 does not know them: {}.", file.path(), listed(unknown));
+  return fmt::format("{}: ignored, because they are not part of format version 1.0: {}.", file.path(), listed(unknown));
 }
 
 Superelement read_fields(const hdf5::InputFile& file) {
@@ -187,12 +187,12 @@ LoadedSuperelement read_superelement(const std::string& path) {
   const std::string stated = file.content_id.value_or(e.content_id);
   loaded.report = check(e, path);
   if (stated != e.content_id)
-    throw Error(fmt::format("is {}..., but the contents have {}...: the file was changed after it was written",
+    throw Error(fmt::format("is {}..., but the contents give {}...: the file was changed after it was written",
                             stated.substr(0, 12), e.content_id.substr(0, 12)),
                 path + ": attribute 'content_id'",
-                "reduce the part again, or compute the attribute anew after a change by hand");
+                "reduce the part again; after a change by hand, compute the attribute again");
   if (!file.content_id)
-    loaded.report.warnings.push_back(path + ": has no attribute 'content_id', so that damage cannot be noticed.");
+    loaded.report.warnings.push_back(path + ": has no attribute 'content_id', so damage cannot be detected.");
   if (!file.unknown.empty()) loaded.report.warnings.push_back(file.unknown);
   if (needs_filter(loaded.report)) {
     filter_rigid_motions(e);

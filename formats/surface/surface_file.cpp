@@ -33,7 +33,7 @@ std::string read_bytes(const std::string& path) {
   }
   const std::uint64_t size = std::filesystem::file_size(path, ignored);
   if (size > most_bytes)
-    throw Error(fmt::format("has {} bytes, more than {}", size, most_bytes), path, "reduce the surface before");
+    throw Error(fmt::format("has {} bytes; the limit is {}", size, most_bytes), path, "reduce the number of triangles");
   std::ifstream stream(path, std::ios::binary);
   std::string bytes(size, '\0');
   if (!stream || !stream.read(bytes.data(), static_cast<std::streamsize>(size)))
@@ -71,7 +71,7 @@ class Words {
 
   /// Point given by the words from `first` on.
   Eigen::Vector3d point(std::size_t first) const {
-    if (words_.size() < first + 3) fail("expected three coordinates");
+    if (words_.size() < first + 3) fail("the line has fewer than three coordinates");
     Eigen::Vector3d point;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::string_view word = words_[first + k];
@@ -79,7 +79,7 @@ class Words {
       const std::size_t plus = word.starts_with('+') ? 1 : 0;
       const auto [end, status] = std::from_chars(word.data() + plus, word.data() + word.size(), value);
       if (status != std::errc{} || end != word.data() + word.size() || !std::isfinite(value))
-        fail(fmt::format("'{}' is no finite number", printable_line(word, 40)));
+        fail(fmt::format("'{}' is not a finite number", printable_line(word, 40)));
       point[static_cast<Eigen::Index>(k)] = value;
     }
     return point;
@@ -99,7 +99,7 @@ class Joined {
 
   void add(const std::array<Eigen::Vector3d, 3>& corners) {
     if (surface_.triangles.size() == most_triangles)
-      throw Error(fmt::format("has more than {} triangles", most_triangles), path_, "reduce the surface before");
+      throw Error(fmt::format("has more than {} triangles", most_triangles), path_, "reduce the number of triangles");
     std::array<int, 3> triangle{};
     for (std::size_t k = 0; k < 3; ++k) {
       const auto [found, is_new] =
@@ -127,7 +127,7 @@ std::uint32_t little_endian(const char* bytes) {
 TriangleSurface read_binary_stl(const std::string& bytes, const std::string& path) {
   const std::size_t count = little_endian(bytes.data() + 80), there = (bytes.size() - stl_head) / stl_triangle;
   if (there < count)
-    throw Error(fmt::format("holds {} of the {} triangles that its head promises", there, count), path, again);
+    throw Error(fmt::format("has {} of the {} triangles that its header announces", there, count), path, again);
   Joined joined(path);
   for (std::size_t i = 0; i < count; ++i) {
     const char* at = bytes.data() + stl_head + i * stl_triangle + 12;  // after the normal
@@ -136,7 +136,8 @@ TriangleSurface read_binary_stl(const std::string& bytes, const std::string& pat
       corners[k / 3][k % 3] = static_cast<double>(std::bit_cast<float>(little_endian(at + 4 * k)));
     for (const Eigen::Vector3d& corner : corners)
       if (!corner.allFinite())
-        throw Error(fmt::format("triangle {} has a corner that is no finite number", i + 1), path, again);
+        throw Error(fmt::format("triangle {} has a corner with a coordinate that is not a finite number", i + 1), path,
+                    again);
     joined.add(corners);
   }
   return joined.take();
@@ -154,13 +155,13 @@ TriangleSurface read_text_stl(const std::string& bytes, const std::string& path)
       if (found == 3) words.fail("a facet has more than three vertices");
       corners[found++] = words.point(1);
     } else if (word == "endfacet") {
-      if (found != 3) words.fail(fmt::format("a facet has {} vertices", found));
+      if (found != 3) words.fail(fmt::format("a facet has {} vertices instead of 3", found));
       joined.add(corners);
       found = 0;
     }
     ended = word == "endsolid";
   }
-  if (!ended || found != 0) throw Error("is cut short: its last line is not 'endsolid'", path, again);
+  if (!ended || found != 0) throw Error("is incomplete: its last line is not 'endsolid'", path, again);
   return joined.take();
 }
 
@@ -171,7 +172,8 @@ int vertex_of(const Words& words, std::string_view word, std::size_t vertices) {
   const auto [end, status] = std::from_chars(first.data(), first.data() + first.size(), index);
   const long count = static_cast<long>(vertices), at = index < 0 ? count + index : index - 1;
   if (status != std::errc{} || end != first.data() + first.size() || at < 0 || at >= count)
-    words.fail(fmt::format("a face names the vertex '{}', there are {} before it", printable_line(word, 40), count));
+    words.fail(fmt::format("a face refers to vertex '{}', but there are {} vertices before it",
+                           printable_line(word, 40), count));
   return static_cast<int>(at);
 }
 
@@ -189,7 +191,8 @@ TriangleSurface read_obj(const std::string& bytes, const std::string& path) {
         corners.push_back(vertex_of(words, line[k], surface.vertices.size()));
       for (std::size_t k = 2; k < corners.size(); ++k)
         surface.triangles.push_back({corners[0], corners[k - 1], corners[k]});
-      if (surface.triangles.size() > most_triangles) words.fail(fmt::format("more than {} triangles", most_triangles));
+      if (surface.triangles.size() > most_triangles)
+        words.fail(fmt::format("the file has more than {} triangles", most_triangles));
     }
   }
   return surface;
@@ -216,7 +219,7 @@ TriangleSurface read_surface_file(const std::string& path) {
   TriangleSurface surface = is_obj(path)           ? read_obj(bytes, path)
                             : is_binary_stl(bytes) ? read_binary_stl(bytes, path)
                                                    : read_text_stl(bytes, path);
-  if (surface.triangles.empty()) throw Error("holds no triangle", path, again);
+  if (surface.triangles.empty()) throw Error("has no triangles", path, again);
   return surface;
 }
 

@@ -48,8 +48,8 @@ TimeTable read_csv_table(const std::string& path) {
     }
     if (values.empty()) continue;
     if (values.size() != 2)
-      throw Error(fmt::format("{} numbers instead of 2", values.size()), fmt::format("{}:{}:1", path, number),
-                  "give two numbers per line: time, value");
+      throw Error(fmt::format("the line has {} numbers instead of 2", values.size()),
+                  fmt::format("{}:{}:1", path, number), "give two numbers per line: time, value");
     table.time.push_back(values[0]);
     table.value.push_back(values[1]);
   }

@@ -8,8 +8,9 @@
 
 namespace tisserand::formats {
 
-/// Reads two numbers per line (time, value), separated by comma, semicolon or blanks. Skips lines that begin with #,
-/// empty lines and a first line of words. Throws Error with path:line:column.
+/// Reads a table of time and value from a text file. Each line holds two numbers, separated by comma, semicolon or
+/// blanks. Empty lines, lines that begin with # and a first line of words are skipped. Throws Error with
+/// path:line:column.
 TimeTable read_csv_table(const std::string& path);
 
 }  // namespace tisserand::formats

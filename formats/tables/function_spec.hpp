@@ -10,16 +10,18 @@
 
 namespace tisserand::formats {
 
-/// Function of time: a number, a table (linear between points, constant outside) or an expression in t.
+/// Expression in the time t, one of the three forms of TimeFunctionSpec. The others are a number and a table (linear
+/// between points, constant outside).
 struct TimeExpression {
   std::string text;
-  std::vector<double> breakpoints;  ///< instants at which steps must end
+  std::vector<double> breakpoints;  ///< instants at which time steps must end
   std::string where;
 };
 using TimeFunctionSpec = std::variant<double, TimeTable, TimeExpression>;
 
-/// Law between two quantities: proportional, or a table y(x) with ascending x.
+/// Interpolation between the points of a CurveSpec.
 enum class Interpolation { linear, cubic };
+/// Curve y(x) with ascending x. With LawSpec, a law between two quantities is a factor (proportional) or a curve.
 struct CurveSpec {
   Interpolation interpolation = Interpolation::linear;
   std::vector<double> x;

@@ -30,7 +30,7 @@ std::size_t find_column(const std::vector<std::string_view>& header, const std::
     if (header[i] == wanted) return i;
   if (!is_header())
     throw Error(fmt::format("there is no column '{}'", wanted), where,
-                fmt::format("give a table; this line has {}, and no numbers follow it",
+                fmt::format("give a table: this line has {}, and no line of numbers follows",
                             header.size() == 1 ? "1 cell" : fmt::format("{} cells", header.size())));
   std::vector<std::string> names;
   for (const std::string_view name : header) names.emplace_back(printable_line(name, 40));
@@ -38,14 +38,14 @@ std::size_t find_column(const std::vector<std::string_view>& header, const std::
   throw Error(
       fmt::format("there is no column '{}'", wanted), where,
       near ? fmt::format("did you mean '{}'?", *near)
-           : fmt::format("take one of its {} columns, by name or by number from 1: {}", names.size(), listed(names)));
+           : fmt::format("use one of its {} columns, by name or by number from 1: {}", names.size(), listed(names)));
 }
 
 double read_cell(const std::vector<std::string_view>& cells, std::size_t column, const std::string& where,
                  bool in_table) {
   double value = 0.0;
   if (column >= cells.size())
-    throw Error(fmt::format("has {} cells, column {} is missing", cells.size(), column + 1), where, "");
+    throw Error(fmt::format("the line has {} cells, but column {} is needed", cells.size(), column + 1), where, "");
   if (!read_finite(cells[column], value))
     throw Error(fmt::format("{} in column {} is not a finite number", quoted_cell(cells[column], in_table), column + 1),
                 where, "");
@@ -80,7 +80,7 @@ TimeTable read_text_table(const InputPlace& place) {
     table.time.push_back(read_cell(cells, time, where, in_table));
     table.value.push_back(read_cell(cells, value, where, in_table));
     if (table.time.size() > most_points)
-      throw Error(fmt::format("has more than {} points", most_points), place.file, "thin it out");
+      throw Error(fmt::format("has more than {} points", most_points), place.file, "reduce the number of points");
   }
   return table;
 }
@@ -90,7 +90,7 @@ std::vector<double> read_dataset(const hdf5::InputFile& file, const std::string&
   const hdf5::DatasetInfo info = file.info(dataset);
   if (info.shape.size() != 1 || info.shape[0] > most_points)
     throw Error(fmt::format("dataset {} has the shape {}", dataset, hdf5::shape_text(info.shape)), file.path(),
-                fmt::format("give one dimension of at most {} numbers", most_points));
+                fmt::format("give a one-dimensional dataset of at most {} numbers", most_points));
   std::vector<double> values(info.shape[0]);
   file.read(dataset, info.shape, "points", values.data());
   return values;
@@ -101,8 +101,8 @@ TimeTable read_hdf5_table(const InputPlace& place) {
   TimeTable table{read_dataset(file, place.time), read_dataset(file, place.value)};
   if (table.time.size() != table.value.size())
     throw Error(
-        fmt::format("{} has {} points, {} has {}", place.time, table.time.size(), place.value, table.value.size()),
-        place.file, "give datasets of one length");
+        fmt::format("{} has {} points, but {} has {}", place.time, table.time.size(), place.value, table.value.size()),
+        place.file, "give datasets of equal length");
   return table;
 }
 

@@ -6,10 +6,11 @@
 
 namespace tisserand::formats {
 
-/// Interpolation of a table for a prescribed motion (mechanism/forces/motion_table.hpp). Loads are always linear.
+/// Interpolation of a table that prescribes a motion (mechanism/forces/motion_table.hpp). Tables of loads are always
+/// linear.
 enum class TableMotion { smooth, natural, linear };
 
-/// Two columns of equal length. Time ascends.
+/// Table of a function of time: times, which ascend, and as many values.
 struct TimeTable {
   std::vector<double> time;
   std::vector<double> value;

@@ -11,6 +11,8 @@ namespace tisserand::formats {
 enum class Quantity { number, length, force, stiffness, damping, speed, pressure };
 enum class Versions { both, only_5_2, only_6_1 };
 
+/// Coefficient of the Magic Formula: name in the file, member that stores it, versions that have it, physical
+/// dimension.
 struct Coefficient {
   const char* name;
   double MagicFormula::*value;
@@ -18,7 +20,7 @@ struct Coefficient {
   Quantity dimension = Quantity::number;
 };
 
-/// Whether files of this version have the coefficient.
+/// Whether files of the given version of the Magic Formula have the coefficient.
 inline bool holds(Versions versions, MagicFormulaVersion version) {
   return versions == Versions::both || (versions == Versions::only_6_1) == (version == MagicFormulaVersion::mf_6_1);
 }

@@ -4,19 +4,20 @@
 
 namespace tisserand::formats {
 
-/// Versions. 5.2: MF-Tyre 5.2, called PAC2002 by Adams. 6.1: [Pac12] section 4.3.2, with inflation pressure. 6.2 has
-/// the force and moment coefficients of 6.1 and three more of the overturning moment.
+/// Versions of the Magic Formula. mf_5_2: MF-Tyre 5.2, called PAC2002 by Adams. mf_6_1: [Pac12] section 4.3.2, with
+/// inflation pressure. Version 6.2 has the force and moment coefficients of 6.1 and three more of the overturning
+/// moment.
 enum class MagicFormulaVersion { mf_5_2, mf_6_1 };
 
-/// Forces that a file provides (its USE_MODE without the tens).
+/// Forces that a tyre file provides (its USE_MODE without the tens).
 enum class MagicFormulaForces { none, longitudinal, lateral, uncombined, combined };
 
-/// Coefficients. Lengths, forces, pressures and speeds have units of the scene, others have none; angles are radians.
-/// The formulas are in mechanism/tyres/magic_formula.hpp.
+/// Coefficients of the Magic Formula. Lengths, forces, pressures and speeds have units of the scene; angles are in
+/// [rad]; others have no unit. The formulas are in mechanism/tyres/magic_formula.hpp.
 struct MagicFormula {
   MagicFormulaVersion version = MagicFormulaVersion::mf_6_1;
   MagicFormulaForces forces = MagicFormulaForces::combined;
-  bool transient = false;  ///< the file requests relaxation lengths (tens of USE_MODE)
+  bool transient = false;  ///< whether the file requests relaxation lengths (tens of USE_MODE)
 
   bool along() const { return forces != MagicFormulaForces::none && forces != MagicFormulaForces::lateral; }
   bool across() const { return forces != MagicFormulaForces::none && forces != MagicFormulaForces::longitudinal; }

@@ -82,8 +82,8 @@ void read_line(std::string_view text, int number, std::string& section, Property
   const std::string where = fmt::format("{}:{}", file.path, number);
   if (text.front() == '[') {
     if (text.back() != ']')
-      throw Error(fmt::format("'{}' opens a section and does not close it", printable_line(text, 60)), where,
-                  "write [MODEL]");
+      throw Error(fmt::format("the name of the section '{}' does not end with ]", printable_line(text, 60)), where,
+                  "write, for example, [MODEL]");
     section = capitals(trimmed(text.substr(1, text.size() - 2)));
     return;
   }
@@ -95,22 +95,24 @@ void read_line(std::string_view text, int number, std::string& section, Property
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) {
     const std::string quoted = is_tyre_file(file) ? fmt::format("'{}'", printable_line(text, 60)) : "the line";
-    throw Error(fmt::format("{} is no `KEY = value`", quoted), where, "give a tyre property file (.tir)");
+    throw Error(fmt::format("{} does not have the form `KEY = value`", quoted), where,
+                "give a tyre property file (.tir)");
   }
   const std::string key = (section == "UNITS" ? "UNITS." : "") + capitals(trimmed(text.substr(0, equals)));
   std::string_view value = trimmed(text.substr(equals + 1));
   if (value.size() >= 2 && value.front() == '\'' && value.back() == '\'') value = value.substr(1, value.size() - 2);
   if (!file.entries.emplace(key, Entry{std::string(trimmed(value)), number}).second)
-    throw Error(fmt::format("{} stands here and in line {}", printable_line(key, 40), file.entries.at(key).line), where,
-                "remove one of them");
+    throw Error(fmt::format("{} is given twice (first in line {})", printable_line(key, 40), file.entries.at(key).line),
+                where, "remove one");
 }
 
 PropertyLines read_lines(const std::string& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
-    throw Error("no such tyre property file", path, "check the path, which counts from the folder of the scene");
+    throw Error("there is no such tyre property file", path,
+                "check the path, which is relative to the folder of the scene");
   if (std::filesystem::file_size(path, ignored) > largest_file)
-    throw Error(fmt::format("has more than {} bytes, as no tyre property file has", largest_file), path,
+    throw Error(fmt::format("has more than {} bytes, the limit of a tyre property file", largest_file), path,
                 "give a .tir file of the Magic Formula");
   std::ifstream stream = open_table(path, "give a .tir file of the Magic Formula");
   PropertyLines file{path, {}, {}};
@@ -215,9 +217,9 @@ std::string find_version(const PropertyLines& file, MagicFormula& p) {
   const std::string said = !fit.empty()     ? "FITTYP = " + fit
                            : format.empty() ? "no FITTYP and no PROPERTY_FILE_FORMAT"
                                             : "PROPERTY_FILE_FORMAT = " + format;
-  throw Error(fmt::format("is a tyre of another kind: {}", printable_line(said, 60)),
+  throw Error(fmt::format("describes a kind of tyre that is not supported: {}", printable_line(said, 60)),
               kind != nullptr ? file.at("FITTYP") : file.at("PROPERTY_FILE_FORMAT"),
-              "files of MF-Tyre 5.2 (PAC2002; FITTYP 6, 21, 52), 6.1 and 6.2 (61, 62) are read");
+              "give a file of MF-Tyre 5.2 (PAC2002; FITTYP 6, 21, 52), 6.1 or 6.2 (FITTYP 61, 62)");
 }
 
 void read_use_mode(const PropertyLines& file, TyreProperties& tyre) {
@@ -226,7 +228,7 @@ void read_use_mode(const PropertyLines& file, TyreProperties& tyre) {
   const std::optional<double> mode = number_of(entry->text);
   const int digits = mode && *mode >= 0.0 && *mode < 1000.0 ? static_cast<int>(*mode) : -1;
   if (digits < 0 || digits != *mode || digits % 10 > 5)
-    throw Error(fmt::format("USE_MODE = {} is no mode of the Magic Formula", printable_line(entry->text, 40)),
+    throw Error(fmt::format("USE_MODE = {} is not a mode of the Magic Formula", printable_line(entry->text, 40)),
                 file.at("USE_MODE"), "use 4 (all forces, steady), or 14 (with relaxation)");
   constexpr std::array forces{MagicFormulaForces::none,     MagicFormulaForces::longitudinal,
                               MagicFormulaForces::lateral,  MagicFormulaForces::uncombined,
@@ -270,8 +272,8 @@ void apply_scale(const PropertyLines& file, const std::map<std::string, double>&
     const auto known = std::ranges::find_if(known_coefficients,
                                             [&](const Coefficient& c) { return c.name[0] == 'L' && key == c.name; });
     if (known == known_coefficients.end() || known->dimension != Quantity::number || !holds(known->versions, p.version))
-      throw Error(fmt::format("'{}' is no scaling factor of this tyre", printable_line(key, 40)), file.path,
-                  "scale LMUX, LMUY, LKX, LKY and the others of section [SCALING_COEFFICIENTS]");
+      throw Error(fmt::format("'{}' is not a scaling factor of this tyre", printable_line(key, 40)), file.path,
+                  "use factors of section [SCALING_COEFFICIENTS], such as LMUX, LMUY, LKX or LKY");
     if (!std::isfinite(value)) throw Error(fmt::format("scale {} must be finite", key), file.path, "");
     p.*(known->value) = value;
   }
@@ -289,8 +291,9 @@ void require_coefficients(const PropertyLines& file, const MagicFormula& p) {
   for (const std::string& key : needed)
     if (file.find(key) == nullptr) missing.push_back(key);
   if (!missing.empty())
-    throw Error("misses the coefficients " + join(missing, ", "), file.path,
-                "give a whole file, or a USE_MODE that needs fewer (1: along, 2: across, 3: both uncombined)");
+    throw Error("lacks the coefficients " + join(missing, ", "), file.path,
+                "give a complete file, or a USE_MODE that needs fewer (1: longitudinal, 2: lateral, 3: both forces, "
+                "uncombined)");
 }
 
 /// Checks values by which formulas divide, and ranges that must include zero.
@@ -318,21 +321,22 @@ void check_values(const PropertyLines& file, const std::map<std::string, double>
                 "give a file in the axes ISO-W, in which a positive slip angle gives a negative force");
   if (p.VERTICAL_DAMPING < 0.0)
     throw Error(fmt::format("VERTICAL_DAMPING = {:g} is negative", p.VERTICAL_DAMPING), file.at("VERTICAL_DAMPING"),
-                "");
+                "correct it");
   const auto encloses = [&](double low, double high, const char* key) {
     if ((low != 0.0 || high != 0.0) && !(low < 0.0 && high > 0.0))
       throw Error(fmt::format("the range from {:g} to {:g} does not enclose zero", low, high), file.at(key),
-                  "correct the range, or remove its two keys");
+                  "correct the range, or remove both of its keys");
   };
   encloses(p.KPUMIN, p.KPUMAX, "KPUMAX");
   encloses(p.ALPMIN, p.ALPMAX, "ALPMAX");
   encloses(p.CAMMIN, p.CAMMAX, "CAMMAX");
   if ((p.FZMIN != 0.0 || p.FZMAX != 0.0) && !(p.FZMIN >= 0.0 && p.FZMAX > p.FZMIN))
-    throw Error(fmt::format("the range of loads from {:g} to {:g} is none", p.FZMIN, p.FZMAX), file.at("FZMAX"),
-                "correct the range, or remove its two keys");
+    throw Error(fmt::format("the range of loads FZMIN = {:g}, FZMAX = {:g} is not valid", p.FZMIN, p.FZMAX),
+                file.at("FZMAX"), "give 0 <= FZMIN < FZMAX, or remove both keys");
   if (std::max(std::abs(p.ALPMIN), p.ALPMAX) > 1.6)
-    throw Error(fmt::format("slip angles of {:g} rad are beyond a right angle", p.ALPMAX), file.at("ALPMAX"),
-                "give ALPMIN and ALPMAX in radians");
+    throw Error(
+        fmt::format("the slip angles ALPMIN = {:g} rad, ALPMAX = {:g} rad exceed a right angle", p.ALPMIN, p.ALPMAX),
+        file.at("ALPMAX"), "give ALPMIN and ALPMAX in radians");
 }
 
 }  // namespace

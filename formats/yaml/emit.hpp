@@ -8,10 +8,11 @@
 
 namespace tisserand::formats {
 
-/// The value on one line, as --set path=value accepts it. parse_yaml() reads it back as the same tree.
+/// Text of the value on one line, in the form that --set path=value accepts. parse_yaml() reads the text back as an
+/// equal tree.
 std::string flow_text(const YamlNode& node);
 
-/// Text of a file with one key per line at its two outer levels, and `flow_text` below.
+/// Text of a YAML file: one key per line at the two outer levels, and flow_text() for the values below.
 std::string block_text(const YamlNode& root);
 
 }  // namespace tisserand::formats

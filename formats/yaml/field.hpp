@@ -11,8 +11,8 @@ namespace tisserand::formats {
 
 class MapReader;
 
-/// Key of a map. Most are made by plain(), choice() or words() (fields.hpp). Other code reads a field written as {key,
-/// type, meaning, fallback}.
+/// Description of one key of a map: its type, meaning, default and reader. Most fields are made by plain(), choice() or
+/// words() (fields.hpp). A field written as {key, type, meaning, fallback} is read by other code.
 ///
 /// Notation of `type`: `number`, `integer` (bounds may follow: "number>=0<1"), `text`, `text+` (not empty), `any`;
 /// "'word'", 2 or true literally; "/regular expression/"; the name of another list or of a NamedType; "[type]" a list,
@@ -21,32 +21,33 @@ class MapReader;
 struct Field {
   std::string_view key;
   std::string_view type;           ///< empty: one of `words`
-  std::string_view meaning;        ///< as in the page; `ditto`: in one row with the field before; empty: no row
-  std::string_view fallback = {};  ///< value without the key; "required": no default; empty: see `standard`
+  std::string_view meaning;        ///< text of the page; `ditto`: one row with the field before; empty: no row
+  std::string_view fallback = {};  ///< default; "required": the key is required; empty: see `standard`
   std::span<const std::string_view> words = {};
   const void* owner = nullptr;  ///< identifies the struct of the member; null: read by hand
   void (*read)(const MapReader& map, const Field& field, void* owner) = nullptr;
-  std::string (*standard)() = nullptr;  ///< value in a new struct, as text of the page
-  std::string_view table = {};          ///< noun of the list in whose table of the page it is
-  bool same_row = false;                ///< `meaning` was `ditto`
+  std::string (*standard)() = nullptr;  ///< returns the member's value in a new struct, as text of the page
+  std::string_view table = {};          ///< noun of the list whose table of the page has this field
+  bool same_row = false;                ///< whether `meaning` was given as `ditto`
 
   bool required() const { return fallback == "required"; }
   /// Default value as the page states it.
   std::string default_text() const { return fallback.empty() && standard ? standard() : std::string(fallback); }
 };
 
-/// Meaning and fallback equal to those of the field before, in one row of the page.
+/// Value of Field::meaning: meaning and default equal those of the field before, and both fields share one row of the
+/// page.
 inline constexpr std::string_view ditto = "\"";
 
-/// Allowed number of keys of a map. `most` 0: any number.
+/// Allowed number of keys of a map, from `fewest` to `most`. A `most` of 0 allows any number.
 struct KeyCount {
   int fewest = 0;
   int most = 0;
 };
 
-/// Allowed keys of a kind of map. `noun` is also its name in the JSON Schema and in the marks of the page.
+/// Allowed keys of a kind of map. `noun` names the kind in messages, in the JSON Schema and in the marks of the page.
 struct KeySet {
-  /// `shared`: fields made by shared_fields(), which follow its own.
+  /// `own`: fields of this kind alone. `shared`: fields made by shared_fields(), which follow the own ones.
   KeySet(std::string_view noun, std::vector<Field> own, const std::vector<Field>& shared = {}, KeyCount count = {});
 
   std::string_view noun;
@@ -54,20 +55,20 @@ struct KeySet {
   KeyCount count;
 };
 
-/// Fields that several lists share, and that form one table of the page.
+/// Copies of `fields` that several lists can share; they form one table of the page, named `table`.
 std::vector<Field> shared_fields(std::string_view table, std::vector<Field> fields);
 
-/// Keys of maps whose keys are names chosen by the user, such as `bodies`.
+/// Keys whose values are maps with names chosen by the user, such as `bodies`.
 std::vector<std::string_view> collection_keys(const std::vector<KeySet>& sets);
 
-/// Named type, which lists refer to.
+/// Type with a name, to which the `type` of fields can refer.
 struct NamedType {
   std::string_view name;
   std::string_view type;
   std::string_view meaning = {};
 };
 
-/// Types and lists that part.yaml and scene.yaml share: numbers, vectors, orientations, units.
+/// Types and key sets that part.yaml and scene.yaml share: numbers, vectors, orientations, units.
 std::vector<NamedType> common_types();
 std::vector<KeySet> common_key_sets();
 

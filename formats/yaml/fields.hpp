@@ -18,8 +18,8 @@
 
 namespace tisserand::formats {
 
-/// Reads the value of the key. Without the key `value` is unchanged. If it is required, that is an error, and numbers
-/// and vectors become not-a-number. Overloads for types of one kind of file are declared with its readers.
+/// Reads the value of the field's key. Without the key `value` stays unchanged; a missing required key is recorded as
+/// an error, and numbers and vectors become NaN. Overloads for types of one kind of file are declared with its readers.
 void read_value(const MapReader& map, const Field& field, double& value);
 void read_value(const MapReader& map, const Field& field, int& value);
 void read_value(const MapReader& map, const Field& field, std::string& value);
@@ -34,10 +34,10 @@ void read_value(const MapReader& map, const Field& field, Eigen::Matrix3d& value
 void read_value(const MapReader& map, const Field& field, Eigen::Quaterniond& value);
 void read_value(const MapReader& map, const Field& field, std::optional<Eigen::Quaterniond>& value);
 
-/// Node of the key, or null. A missing required key is an error.
+/// Node of the field's key, or null if the key is absent. Records an error if the key is required and absent.
 const YamlNode* find_or_require(const MapReader& map, const Field& field);
 
-/// Text of a value as the pages write it: 0.9, 1e-6, `[0, 0, 1]`. Empty for types without a meaningful text.
+/// Text of a value in the notation of the pages: 0.9, 1e-6, `[0, 0, 1]`. It is empty for types without such a notation.
 std::string standard_text(double value);
 std::string standard_text(int value);
 std::string standard_text(const Eigen::Vector3d& value);
@@ -55,7 +55,7 @@ struct MemberPointer<Value Struct::*> {
 template <auto member>
 using OwnerOf = typename MemberPointer<decltype(member)>::Owner;
 
-/// Mark whose address identifies the type.
+/// Mark of a type: the address of owner_mark<Struct> identifies the type.
 template <class Struct>
 inline constexpr char owner_mark = 0;
 
@@ -66,7 +66,8 @@ inline constexpr auto words_of = [] {
   return words;
 }();
 
-/// Field of a key whose value becomes the member. Without `fallback` its default is the member's value in a new struct.
+/// Field of a key whose value is read into `member`. Without `fallback` the default is the member's value in a new
+/// struct.
 template <auto member>
 Field plain(std::string_view key, std::string_view type, std::string_view meaning, std::string_view fallback = {}) {
   Field field{key, type, meaning, fallback};
@@ -78,13 +79,13 @@ Field plain(std::string_view key, std::string_view type, std::string_view meanin
   return field;
 }
 
-/// Field of a key with one of several words, read by hand. `choices` is a table of Choice.
+/// Field of a key with one of several words, which other code reads. `choices`: array of Choice with the words.
 template <const auto& choices>
 Field words(std::string_view key, std::string_view meaning, std::string_view fallback = {}) {
   return {key, "", meaning, fallback, words_of<choices>};
 }
 
-/// Field of a key with one of several words, whose value in the table becomes the member.
+/// Field of a key with one of several words. The word's value in the array `choices` is stored in `member`.
 template <auto member, const auto& choices>
 Field choice(std::string_view key, std::string_view meaning, std::string_view fallback = {}) {
   Field field = words<choices>(key, meaning, fallback);
@@ -106,14 +107,14 @@ Field choice(std::string_view key, std::string_view meaning, std::string_view fa
   return field;
 }
 
-/// Reads the keys of the map that are members of `spec`.
+/// Reads all keys of the map whose fields belong to members of `spec`.
 template <class Spec>
 void read_fields(const MapReader& map, Spec& spec) {
   for (const Field& field : map.fields())
     if (field.owner == &owner_mark<Spec>) field.read(map, field, &spec);
 }
 
-/// Field of a key whose value is a map with the keys of the list `noun`, read into the members of the member.
+/// Field of a key whose value is a map. The map has the keys of the list `noun` and is read into the struct `member`.
 template <auto member>
 Field nested(std::string_view key, std::string_view noun, std::string_view meaning, std::string_view fallback = {}) {
   Field field{key, noun, meaning, fallback};
@@ -130,7 +131,7 @@ Field nested(std::string_view key, std::string_view noun, std::string_view meani
   return field;
 }
 
-/// Reads an entry of a collection: its name, its place, and the keys that are its members.
+/// Reads an entry of a collection: its name, its place `where`, and the keys that belong to members of Spec.
 template <class Spec>
 Spec read_entry(const MapReader& map, Spec spec = {}) {
   spec.name = map.node().key;
@@ -139,8 +140,8 @@ Spec read_entry(const MapReader& map, Spec spec = {}) {
   return spec;
 }
 
-/// Reads the entries of the collection `key`, maps with the keys of the list `noun` ("point mass" for `point_mass`).
-/// `read_rest` reads the remaining keys.
+/// Reads all entries of the collection `key` into `specs`. Entries are maps with the keys of the list `noun` ("point
+/// mass" for `point_mass`). `read_rest`: reads the keys of an entry that belong to no member.
 template <class Spec, class Rest>
 void read_entries(const MapReader& top, std::string_view key, const std::string& noun, std::vector<Spec>& specs,
                   Rest read_rest) {

@@ -18,12 +18,14 @@ Eigen::Quaterniond from_matrix(const Context& context, const YamlNode& node, con
   if (!matrix.allFinite()) return Eigen::Quaterniond::Identity();
   const double error = (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (error > slack) {
-    context.fail(node.place, fmt::format("{} is not a rotation: RᵀR differs from 1 by {:.2g}", what, error),
+    context.fail(node.place,
+                 fmt::format("{} is not a rotation matrix R: RᵀR differs from the identity by {:.2g}", what, error),
                  "give orthonormal columns, or two axes {x: [..], y: [..]}");
     return Eigen::Quaterniond::Identity();
   }
   if (matrix.determinant() < 0.0)
-    context.fail(node.place, fmt::format("{} is a reflection: its determinant is -1", what), "flip one column");
+    context.fail(node.place, fmt::format("{} is a reflection: its determinant is -1", what),
+                 "change the sign of one column");
   return Eigen::Quaterniond(matrix).normalized();
 }
 
@@ -75,7 +77,7 @@ Eigen::Quaterniond from_axes(const MapReader& map) {
   const Eigen::Vector3d second = direction(map, names[given[1]]);
   const Eigen::Vector3d normal = second - first.dot(second) * first;
   if (normal.norm() < slack) {
-    map.fail("the two axes are parallel", "give two directions");
+    map.fail("the two axes are parallel", "give two directions that are not parallel");
     return Eigen::Quaterniond::Identity();
   }
   Eigen::Matrix3d axes;
@@ -141,7 +143,8 @@ Eigen::Quaterniond read_orientation(const Context& context, const YamlNode& node
     const MapReader map(context.inside(what), node, "orientation", what + ".");
     if (map.has("axis") || map.has("angle_deg")) {
       if (map.has("x") || map.has("y") || map.has("z"))
-        map.fail("both axis and angle and two axes are given", "give one form");
+        map.fail("'axis' or 'angle_deg' is given together with 'x', 'y' or 'z'",
+                 "give axis and angle_deg, or two of x, y and z");
       return from_axis_and_angle(map);
     }
     return from_axes(map);

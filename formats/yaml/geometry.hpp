@@ -12,24 +12,26 @@
 
 namespace tisserand::formats {
 
-/// Reads [x, y, z]. Not-a-number after an error.
+/// Reads a vector [x, y, z]. Returns NaN after a recorded error.
 Eigen::Vector3d read_vector(const Context& context, const YamlNode& node, const std::string& what);
 Eigen::Vector3d read_vector(const MapReader& map, std::string_view key, const Eigen::Vector3d& fallback);
 std::optional<Eigen::Vector3d> read_optional_vector(const MapReader& map, std::string_view key);
 
-/// Reads three rows of three numbers.
+/// Reads a 3 x 3 matrix as three rows of three numbers.
 Eigen::Matrix3d read_matrix(const Context& context, const YamlNode& node, const std::string& what);
 
-/// Reads [Ixx, Iyy, Izz], [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] (entries of the tensor, so Ixy = −∫xy dm) or three rows.
+/// Reads an inertia tensor: [Ixx, Iyy, Izz], [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] or three rows. The numbers are entries of
+/// the tensor, so Ixy = −∫xy dm.
 Eigen::Matrix3d read_inertia(const Context& context, const YamlNode& node, const std::string& what);
 
-/// Reads a rotation from the described axes to the axes in which they are written: a quaternion [w, x, y, z], a
-/// rotation matrix (three rows, its columns are the axes), {axis: [..], angle_deg: a}, or {x: [..], y: [..]} or another
-/// two of x, y, z (the first in alphabetical order is kept, the second made normal to it). Unit norm of the quaternion
-/// and orthonormality of the matrix must hold within 1e-6 and are then made exact.
+/// Reads a rotation from the described axes to the axes in which they are written. Forms: a quaternion [w, x, y, z]; a
+/// rotation matrix (three rows; its columns are the described axes); {axis: [..], angle_deg: a}; or two of x, y, z such
+/// as {x: [..], y: [..]}. Of two axes the first in alphabetical order is kept, and the second is made normal to it.
+/// Unit norm of a quaternion and orthonormality of a matrix must hold within 1e-6 and are then made exact.
 Eigen::Quaterniond read_orientation(const Context& context, const YamlNode& node, const std::string& what);
 
-/// Reads `yz`, `xz` or `xy` and returns the index of the axis normal to it. Empty after an error.
+/// Reads a mirror plane `yz`, `xz` or `xy` and returns the index of the axis normal to it. Returns nothing after an
+/// error.
 std::optional<Eigen::Index> read_mirror_plane(const Context& context, const YamlNode& node);
 
 }  // namespace tisserand::formats

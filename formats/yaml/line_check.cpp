@@ -38,7 +38,7 @@ void check_line(const LineToCheck& line, const Subject& subject) {
     subject.add("orientation", "orientation has zero length", "give the direction of the local y axis");
   } else if (!line.through && parallel(*line.orientation, chord)) {
     subject.add("orientation", fmt::format("orientation {} is parallel to the beam", text_of(*line.orientation)),
-                "give a direction across the beam: the local y axis");
+                "give the direction of the local y axis, not parallel to the beam");
   }
 }
 
@@ -51,7 +51,7 @@ void check_mass(double mass, const Eigen::Matrix3d& inertia, MassSign sign, cons
   const double scale = inertia.cwiseAbs().maxCoeff();
   if (scale == 0.0) return;
   if ((inertia - inertia.transpose()).cwiseAbs().maxCoeff() > 1e-9 * scale) {
-    subject.add("inertia", "inertia is not symmetric");
+    subject.add("inertia", "inertia is not symmetric", "give a symmetric matrix");
     return;
   }
   const Eigen::Matrix3d scaled = inertia / scale;
@@ -60,13 +60,16 @@ void check_mass(double mass, const Eigen::Matrix3d& inertia, MassSign sign, cons
   constexpr double round_off = 1e-9, typed = 1e-3;
   const Eigen::Vector3d shown = scale * principal;
   if (principal[0] < -round_off) {
-    subject.add("inertia", fmt::format("inertia has the negative principal moment {:g}", shown[0]));
-  } else if (principal[2] > principal[0] + principal[1] + typed * principal[2]) {
-    subject.add("inertia",
-                fmt::format("principal moments of inertia {:g}, {:g}, {:g}: the largest exceeds the sum of the others, "
-                            "which no body can have",
-                            shown[0], shown[1], shown[2]),
+    subject.add("inertia", fmt::format("inertia has the negative principal moment {:g}", shown[0]),
                 "check values, order and units");
+  } else if (principal[2] > principal[0] + principal[1] + typed * principal[2]) {
+    subject.add(
+        "inertia",
+        fmt::format(
+            "the largest of the principal moments of inertia {:g}, {:g}, {:g} exceeds the sum of the other two, "
+            "which is impossible for a body",
+            shown[0], shown[1], shown[2]),
+        "check values, order and units");
   }
 }
 
@@ -76,8 +79,8 @@ std::string inertia_doubt(const std::string& subject, const Eigen::Matrix3d& ine
   const double excess = principal[2] - principal[0] - principal[1];
   if (!(excess > 1e-9 * principal[2])) return {};
   return fmt::format(
-      "{}: of the principal moments of inertia {:g}, {:g}, {:g} the largest exceeds the sum of the others "
-      "by {:.2g} of it, which no body's does; they are taken as given",
+      "{}: the largest of the principal moments of inertia {:g}, {:g}, {:g} exceeds the sum of the other two "
+      "by {:.2g} of its value. This is impossible for a body. The values are used as given",
       subject, principal[0], principal[1], principal[2], excess / principal[2]);
 }
 

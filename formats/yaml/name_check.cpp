@@ -34,20 +34,20 @@ bool is_path_name(const std::string& text) {
   return is_name(text.substr(begin));
 }
 
-void tell_bad_name(const Subject& subject) {
+void report_bad_name(const Subject& subject) {
   subject.add("", "not a valid name", "use letters, digits, _ and -, and begin with a letter or _");
 }
 
 }  // namespace
 
 void check_name(const Subject& subject, const std::string& name, std::vector<std::string>& seen) {
-  if (!is_name(name)) tell_bad_name(subject);
+  if (!is_name(name)) report_bad_name(subject);
   if (std::ranges::find(seen, name) != seen.end()) subject.add("", "the name is used twice", "rename one");
   seen.push_back(name);
 }
 
 void check_path_name(const Subject& subject, const std::string& name, std::unordered_set<std::string>& seen) {
-  if (!is_path_name(name)) tell_bad_name(subject);
+  if (!is_path_name(name)) report_bad_name(subject);
   if (!seen.insert(name).second) subject.add("", "the name is used twice", "rename one");
 }
 
@@ -57,7 +57,7 @@ void check_reference(const Subject& subject, const std::string& key, const std::
   subject.add(key, fmt::format("there is no {} '{}'", noun, name),
               did_you_mean(name, known,
                            known.empty() ? fmt::format("define it; no {} is defined", noun)
-                                         : fmt::format("known are {}", listed(known))));
+                                         : fmt::format("use one of {}", listed(known))));
 }
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known, const std::string& otherwise) {

@@ -11,10 +11,11 @@
 
 namespace tisserand::formats {
 
-/// Whether the text is [A-Za-z_][A-Za-z0-9_-]*.
+/// Whether the text is a valid name: [A-Za-z_][A-Za-z0-9_-]*.
 bool is_name(const std::string& text);
 
-/// Texts of the entries, one each: `texts_of(scene.joints, &JointSpec::name)`.
+/// List with one text of each entry. `text`: member or function that gives it, as in `texts_of(scene.joints,
+/// &JointSpec::name)`.
 template <class Entries, class Text>
 std::vector<std::string> texts_of(const Entries& entries, Text text) {
   std::vector<std::string> texts;
@@ -22,7 +23,7 @@ std::vector<std::string> texts_of(const Entries& entries, Text text) {
   return texts;
 }
 
-/// Text "did you mean 'arm'?" if a known word is near, else `otherwise`.
+/// Text "did you mean 'arm'?" if one of the names `known` is near to `word`, else the text `otherwise`.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known, const std::string& otherwise);
 
 /// Subject of findings about an entry of a collection: "beam 'rod'".
@@ -31,9 +32,9 @@ Subject subject_of(const std::string& noun, const Entry& entry, Faults& faults) 
   return {noun + " '" + entry.name + "'", entry.where, faults};
 }
 
-/// Adds a finding if the name is invalid or in `seen`; adds it to `seen`.
+/// Checks a name: adds a finding if it is invalid or already in `seen`. Then adds the name to `seen`.
 void check_name(const Subject& subject, const std::string& name, std::vector<std::string>& seen);
-/// Checks the name of an entry and returns its subject. `noun` is, for example, "beam".
+/// Checks the name of an entry and returns the entry's subject. `noun`: kind of entry, for example "beam".
 template <class Entry>
 Subject check_name(const std::string& noun, const Entry& entry, std::vector<std::string>& seen, Faults& faults) {
   Subject subject = subject_of(noun, entry, faults);
@@ -41,7 +42,8 @@ Subject check_name(const std::string& noun, const Entry& entry, std::vector<std:
   return subject;
 }
 
-/// Checks names of a scene, which may be paths of instances: "corner_fl/arm", "link[3]/bar".
+/// Checks a name of a scene, which may be the path of an instance's entry: "corner_fl/arm", "link[3]/bar". Adds it to
+/// `seen`.
 void check_path_name(const Subject& subject, const std::string& name, std::unordered_set<std::string>& seen);
 template <class Entry>
 Subject check_path_name(const std::string& noun, const Entry& entry, std::unordered_set<std::string>& seen,
@@ -51,7 +53,8 @@ Subject check_path_name(const std::string& noun, const Entry& entry, std::unorde
   return subject;
 }
 
-/// Adds a finding with the nearest name if `name` is not in `known`: "beam 'rod': there is no section 'owm'".
+/// Adds a finding if `name` is not in `known`: "beam 'rod': there is no section 'owm'". The finding suggests the
+/// nearest name.
 void check_reference(const Subject& subject, const std::string& key, const std::string& noun, const std::string& name,
                      const std::vector<std::string>& known);
 

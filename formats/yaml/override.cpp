@@ -52,7 +52,7 @@ YamlNode& enter_map(const Walk& walk, YamlNode& node, std::size_t i) {
   if (!last && collection) {
     const std::vector<std::string> known = texts_of(node.children, &YamlNode::key);
     walk.fail(fmt::format("'{}' has no entry '{}'", walk.path_to(i), step),
-              did_you_mean(step, known, known.empty() ? "" : fmt::format("entries are {}", listed(known))));
+              did_you_mean(step, known, known.empty() ? "" : fmt::format("use one of {}", listed(known))));
   }
   YamlNode child;
   child.key = step;
@@ -96,7 +96,8 @@ void apply(YamlDocument& document, const Override& change, const std::vector<std
     try {
       value = parse_yaml(change.value, "value").root;
     } catch (const Error& error) {
-      throw Error(error.message(), where_of(change), "quote the whole option for the shell, and texts inside for YAML");
+      throw Error(error.message(), where_of(change),
+                  "put quotes around the whole option for the shell, and around texts inside it for YAML");
     }
   }
   mark_source(value, source);
@@ -118,7 +119,7 @@ Override parse_override(const std::string& text) {
   Override change{text.substr(0, equals), text.substr(equals + 1)};
   for (const std::string& step : split(change.path))
     if (step.empty())
-      throw Error(fmt::format("path '{}' has an empty step", change.path), where, "write --set path.to.key=value");
+      throw Error(fmt::format("path '{}' has an empty key", change.path), where, "write --set path.to.key=value");
   return change;
 }
 

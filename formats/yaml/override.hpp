@@ -10,7 +10,8 @@ namespace tisserand::formats {
 
 struct YamlDocument;
 
-/// Option --set path.to.key=value. Steps: keys of maps, and indices or the `name` of entries in lists. Value: YAML.
+/// Override of a value, from the option --set path.to.key=value. Steps of the path are keys of maps, and indices or the
+/// `name` of entries in lists. The value is YAML.
 struct Override {
   std::string path;
   std::string value;
@@ -19,9 +20,9 @@ struct Override {
 /// Splits "path=value" at the first '='. Throws Error if there is no path or no '='.
 Override parse_override(const std::string& text);
 
-/// Sets the values in the tree and creates absent maps. A collection is a map with names chosen by the user, such as
-/// `bodies`. Its entries are not created on the path to a deeper key, since that would hide a misspelt name. Throws all
-/// errors together.
+/// Sets the values of the overrides in the tree and creates absent maps on their paths. `collections`: keys of maps
+/// with names chosen by the user, such as `bodies`. An entry of a collection is not created on the path to a deeper
+/// key, since that would hide a misspelt name. Throws one Error with all errors.
 void apply_overrides(YamlDocument& document, const std::vector<Override>& overrides,
                      const std::vector<std::string_view>& collections);
 

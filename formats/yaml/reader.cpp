@@ -37,7 +37,7 @@ std::string number_remedy(const YamlNode& node) {
   if (node.kind != YamlKind::scalar) return "";
   if (node.quoted && parse_number(node.text).whole_text) return "remove the quotes";
   const bool starts = !node.text.empty() && (std::isdigit(static_cast<unsigned char>(node.text[0])) != 0);
-  if (starts && node.text.find(',') != std::string::npos) return "write decimals with a point";
+  if (starts && node.text.find(',') != std::string::npos) return "write a decimal point instead of the comma";
   if (starts && node.text.find(' ') != std::string::npos) return "give the number alone, in the units of the file";
   return "";
 }
@@ -53,16 +53,16 @@ struct FormerKey {
   std::string_view noun, key, remedy;
 };
 constexpr FormerKey former_keys[] = {
-    {"integrator", "stabilisation", "leave it out: bdf projects onto the constraints"},
-    {"integrator", "baumgarte", "leave it out: bdf projects onto the constraints"},
-    {"error_control", "absolute", "leave it out, and give `tolerance` relative to the extent of the scene"},
-    {"output", "ledger", "leave it out, and call `mechanism ledger`"},
-    {"study", "whole_budget", "leave it out: after an interruption the next call goes on"},
-    {"part", "verify", "leave it out: modes are counted where that costs little, and always with `cutoff`"},
+    {"integrator", "stabilisation", "remove it: bdf projects onto the constraints"},
+    {"integrator", "baumgarte", "remove it: bdf projects onto the constraints"},
+    {"error_control", "absolute", "remove it, and give `tolerance` relative to the size of the scene"},
+    {"output", "ledger", "remove it, and run `mechanism ledger`"},
+    {"study", "whole_budget", "remove it: after an interruption the next call continues"},
+    {"part", "verify", "remove it: the program counts the modes where this costs little, and always with `cutoff`"},
 };
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
-  return did_you_mean(word, known, fmt::format("known are {}", join(known, ", ")));
+  return did_you_mean(word, known, fmt::format("use one of {}", join(known, ", ")));
 }
 
 std::string remedy_of_unknown(const std::string& key, const KeySet& set) {
@@ -132,9 +132,9 @@ void YamlReader::raise(const Faults& faults) const {
     return std::tuple(placed.place.source, placed.place.line, placed.place.column);
   });
   std::vector<Error> errors;
-  std::set<std::string> told;  // two bodies may share one faulty section
+  std::set<std::string> reported;  // two bodies may share one faulty section
   for (const Placed& placed : all)
-    if (told.insert(placed.error.what()).second) errors.push_back(placed.error);
+    if (reported.insert(placed.error.what()).second) errors.push_back(placed.error);
   if (!errors.empty()) throw merge_errors(errors);
 }
 
@@ -220,7 +220,7 @@ std::optional<std::size_t> read_word(const Context& context, const YamlNode& nod
     context.fail(node.place, fmt::format("unknown {} '{}'", what, node.text), suggestion(node.text, words));
   } else {
     context.fail(node.place, fmt::format("{} must be one word, not {}", what, describe(node)),
-                 fmt::format("known are {}", join(words, ", ")));
+                 fmt::format("use one of {}", join(words, ", ")));
   }
   return std::nullopt;
 }
@@ -245,8 +245,9 @@ MapReader::MapReader(Context context, const YamlNode& node, std::string_view nou
   for (const YamlNode& child : node.children) {
     const auto [first, is_new] = seen.try_emplace(child.key, child.key_place);
     if (!has_key(keys_, child.key) && !is_quotable(child)) {
-      context_.fail(child.key_place, "the file has an unknown key here, and no known one",
-                    fmt::format("keys are {}; is it another kind of file?", join(key_words(keys_), ", ")));
+      context_.fail(
+          child.key_place, "this key is unknown, and the file has no known key",
+          fmt::format("keys are {}; check that this is the right kind of file", join(key_words(keys_), ", ")));
       return;
     }
     if (!has_key(keys_, child.key))

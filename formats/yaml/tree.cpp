@@ -55,7 +55,8 @@ class TreeBuilder : public YAML::EventHandler {
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto found = anchors_.find(anchor);
-    if (found == anchors_.end()) fail(mark, "alias refers to a value that contains it", "write the value out");
+    if (found == anchors_.end())
+      fail(mark, "the alias refers to a value that contains this alias", "write the value instead of the alias");
     const Extent extent = measure(found->second);
     if (stack_.size() + extent.depth > largest_depth) fail_depth(mark);
     count(extent.values, mark);
@@ -95,7 +96,8 @@ class TreeBuilder : public YAML::EventHandler {
     throw Error(what, fmt::format("{}:{}:{}", file_, mark.line + 1, mark.column + 1), remedy);
   }
   [[noreturn]] void fail_depth(const YAML::Mark& mark) const {
-    fail(mark, fmt::format("values are nested more than {} deep", largest_depth), "look for brackets that never close");
+    fail(mark, fmt::format("values are nested more than {} levels deep", largest_depth),
+         "look for brackets that are not closed");
   }
 
   void check_tag(const YAML::Mark& mark, const std::string& tag) const {
@@ -116,14 +118,14 @@ class TreeBuilder : public YAML::EventHandler {
         return;
       }
     }
-    fail(mark, "not valid YAML: the quote that opens here is never closed", "close it");
+    fail(mark, "not valid YAML: the quote that opens here is not closed", "close it");
   }
 
   void count(std::size_t values, const YAML::Mark& mark) {
     values_ += values;
     if (values_ > most_values)
-      fail(mark, fmt::format("the file has more than {} values once its aliases are followed", most_values),
-           "use fewer aliases, or put long tables into a file of their own");
+      fail(mark, fmt::format("the file has more than {} values, counting the values of its aliases", most_values),
+           "use fewer aliases, or put long tables into separate files");
   }
 
   YamlNode make(YamlKind kind, const YAML::Mark& mark) {
@@ -168,7 +170,8 @@ class TreeBuilder : public YAML::EventHandler {
       frame.node.children.push_back(std::move(node));
     } else if (!frame.key) {
       if (node.kind != YamlKind::scalar) fail(mark, fmt::format("a key must be text, not {}", describe(node)), "");
-      if (node.text == "<<" && !node.quoted) fail(mark, "YAML merge keys '<<' are not supported", "write the keys out");
+      if (node.text == "<<" && !node.quoted)
+        fail(mark, "YAML merge keys '<<' are not supported", "copy the keys to this place");
       frame.key = std::move(node);
     } else {
       node.key = std::move(frame.key->text);
@@ -209,7 +212,7 @@ void check_characters(const std::string& text, const std::string& file) {
     const std::size_t length = character_length(text, i);
     if (length == 0)
       throw Error(fmt::format("byte 0x{:02x} is not text in UTF-8", static_cast<unsigned char>(text[i])),
-                  fmt::format("{}:{}:{}", file, line, column), "is this another kind of file? Save it as UTF-8 text");
+                  fmt::format("{}:{}:{}", file, line, column), "check that this is a text file, and save it as UTF-8");
     column = text[i] == '\n' ? 1 : column + 1;
     line += text[i] == '\n' ? 1 : 0;
     i += length;
@@ -224,8 +227,6 @@ void check_only_one(YAML::Parser& parser, const std::string& text, const std::st
               "keep one document per file");
 }
 
-
-
 }  // namespace
 
 std::string YamlDocument::where(const YamlPlace& place) const {
@@ -237,7 +238,7 @@ std::string YamlDocument::where(const YamlPlace& place) const {
 YamlDocument parse_yaml(const std::string& text, const std::string& file) {
   if (text.size() > most_bytes)
     throw Error(fmt::format("the file has more than {} bytes", most_bytes), file,
-                "put long tables into csv files of their own");
+                "put long tables into separate csv files");
   check_characters(text, file);
   const std::string body = text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;  // without byte order mark
   TreeBuilder builder(body, file);

@@ -10,7 +10,7 @@ namespace tisserand::formats {
 
 enum class YamlKind { null, scalar, sequence, map };
 
-/// Line and column (1-based) in a source of the document.
+/// Place in a YAML document: line and column (from 1) in one of its sources.
 struct YamlPlace {
   int line = 0;
   int column = 0;
@@ -19,7 +19,8 @@ struct YamlPlace {
   bool operator==(const YamlPlace&) const = default;
 };
 
-/// A value, with its key if it is in a map. Children are in the order of the file, with duplicate keys.
+/// Node of a YAML tree: a value, with its key if it is in a map. Children are in the order of the file and may have
+/// duplicate keys.
 struct YamlNode {
   YamlKind kind = YamlKind::null;
   bool quoted = false;  ///< scalar in quotes: text, never a number
@@ -32,18 +33,19 @@ struct YamlNode {
 
 /// Kind of a source: a file, or the text of an override.
 enum class YamlSourceKind { file, option };
+/// Source of values of a YAML document: its kind, name and folder.
 struct YamlSource {
   YamlSourceKind kind = YamlSourceKind::file;
   std::string name;
-  std::string folder;  ///< of an included file, relative to the first file's folder; "": the same
+  std::string folder;  ///< folder of an included file, relative to the first file's folder; "": equal to it
 };
 
-/// Tree with its sources: first the file, then its includes and the overrides that changed it.
+/// YAML tree with its sources: first the file, then its includes and the overrides that changed it.
 struct YamlDocument {
   YamlNode root;
   std::vector<YamlSource> sources;
 
-  /// Text "file:line:column", or the text of the override.
+  /// Text of a place: "file:line:column", or the text of the override.
   std::string where(const YamlPlace& place) const;
 };
 
@@ -51,16 +53,16 @@ struct YamlDocument {
 /// Limits: depth 100, one million values, 16 MiB. Throws Error with file:line:column.
 YamlDocument parse_yaml(const std::string& text, const std::string& file);
 
-/// Reads a file and parses it. Throws Error (missing, a folder, empty, binary, syntax).
+/// Reads a file and parses it with parse_yaml(). Throws Error (missing, a folder, empty, binary, syntax).
 YamlDocument load_yaml(const std::string& path);
 
-/// Marks the node and everything below it as read from source `source`.
+/// Sets the source index of the places of the node and of everything below it to `source`.
 void mark_source(YamlNode& node, int source);
 
 /// Number of nodes of a tree, including its root.
 std::size_t count_nodes(const YamlNode& node);
 
-/// Value of a key of a map, or null.
+/// Value of a key of the map `node`, or null if there is none.
 const YamlNode* find_child(const YamlNode& node, std::string_view key);
 YamlNode* find_child(YamlNode& node, std::string_view key);
 

@@ -7,7 +7,8 @@
 
 namespace tisserand::formats {
 
-/// Reads `consistent`, or {length: m, mass: kg, time: s} with all three. SI if the key is absent.
+/// Reads the key `units`: `consistent`, or {length: m, mass: kg, time: s} with all three. Returns SI if the key is
+/// absent.
 Units read_units(const MapReader& map);
 
 }  // namespace tisserand::formats

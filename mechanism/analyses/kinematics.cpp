@@ -105,9 +105,9 @@ void require_determined(const Model& model, const Mobility& mobility, const std:
     if (flexible.empty() && deforms) flexible = fmt::format("body '{}'", name_of(model, body));
   });
   if (!flexible.empty())
-    throw Error(fmt::format("{} is flexible: its deformation is no matter of kinematics", flexible), where,
-                "write `effects: {flexibility: off}`, take superelements with `use: rigid`, modal bodies with `modes: "
-                "0` and rigid bodies in place of beams, or run dynamics");
+    throw Error(fmt::format("{} is flexible, but kinematics does not compute deformations", flexible), where,
+                "write `effects: {flexibility: off}`; or use superelements with `use: rigid`, modal bodies with "
+                "`modes: 0` and rigid bodies instead of beams; or run dynamics");
   if (mobility.degrees_of_freedom == 0) return;
   std::vector<std::string> names;
   if (model.sizes.velocities() <= most_linearised) {

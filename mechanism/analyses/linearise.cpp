@@ -112,8 +112,9 @@ Linearisation begin(const Model& model, const State& state, Evaluation& evaluati
   const int n = model.sizes.velocities();
   if (n > most_linearised)
     throw Error(
-        fmt::format("the linearised matrices are dense: {} coordinates, at most {} are possible", n, most_linearised),
-        model.name, "use fewer elements, or superelements in place of beams");
+        fmt::format("the linearised matrices are dense: the model has {} coordinates, but at most {} are possible", n,
+                    most_linearised),
+        model.name, "use fewer elements, or superelements instead of beams");
   evaluate(model, state, evaluation);
   Linearisation l;
   l.r.resize(n);

@@ -10,43 +10,50 @@
 
 namespace tisserand::mechanism {
 
-/// Matrices of M ξ'' + C ξ' + K ξ + Bᵀ δλ = 0, B ξ = 0 for small motions ξ. The axes turn with a constant angular
-/// velocity ω and coincide with the world axes at this instant. ξ holds [δx; δθ] per node (displacement and small
-/// rotation), then the internal coordinates: n velocity coordinates. B has one row per active constraint.
+/// Matrices of M ξ'' + C ξ' + K ξ + Bᵀ δλ = 0, B ξ = 0 for small motions ξ of a mechanism about a state. ξ holds
+/// [δx; δθ] per node (displacement and small rotation), then the internal coordinates: n velocity coordinates. B has
+/// one row per active constraint. The axes of ξ turn with a constant angular velocity ω and coincide with the world
+/// axes at the instant of the state.
 ///
-/// They follow from the exact tangents of r(q, v, v̇) for material rotation increments δΘ = Rᵀδθ, with
+/// The matrices follow from the exact tangents of r(q, v, v̇) for material rotation increments δΘ = Rᵀδθ, with
 ///   δẋ = ξ' + ω×ξ,       δẍ = ξ'' + 2 ω×ξ' + ω×(ω×ξ),
 ///   δΩ = Rᵀ(θ' + ω×θ),   δΩ̇ = Rᵀ(θ'' + 2 ω×θ' + ω×(ω×θ)) − Ω×Rᵀ(θ' + ω×θ).
 /// The coefficients are constant, and modes are meaningful, if the state is steady in these axes: equilibrium (ω = 0),
 /// common rotation of all bodies (ω is its rate), or symmetric bodies that spin about axes at rest there.
 struct Linearisation {
-  Eigen::MatrixXd M, C, K;  ///< n x n
-  Eigen::MatrixXd B;        ///< active constraints x n
-  Eigen::VectorXd r;        ///< n: residual with Bᵀλ, rotation rows in world axes
+  Eigen::MatrixXd M, C, K;  ///< mass, damping and stiffness matrices (n x n)
+  Eigen::MatrixXd B;        ///< Jacobian of the active constraints (rows x n)
+  Eigen::VectorXd r;        ///< residual (n) with Bᵀλ, THEORY (58); rotation rows in world axes
 };
 
-/// Linearises at `state` with its v̇ and λ; evaluates first. Dense: throws Error if n exceeds `most_linearised`.
+/// Linearises the mechanism at `state` with the state's v̇ and λ, and evaluates the model there. `omega`: angular
+/// velocity of the axes. The matrices are dense. Throws Error if the number n of coordinates exceeds `most_linearised`.
 Linearisation linearise(const Model& model, const State& state, const Eigen::Vector3d& omega, Evaluation& evaluation);
 
+/// Largest number of velocity coordinates that linearise() accepts, since its matrices are dense.
 constexpr int most_linearised = 4000;
 
-/// Linearises K, B and r alone at a state of rest (M and C stay empty).
+/// Linearises only K, B and r at a state of rest; M and C stay empty.
 Linearisation linearise_stiffness(const Model& model, const State& state, Evaluation& evaluation);
 
-/// Converts ξ to an increment of retract(), with rotations in material axes, at the last evaluate().
+/// Converts small motions ξ of a Linearisation to an increment for retract(), with rotations in material axes. The
+/// orientations are those of the last evaluate().
 Eigen::VectorXd material_increment(const Model& model, const Evaluation& evaluation, Eigen::VectorXd xi);
 
-/// Moves the state by ξ, and adds `multipliers` (in the order of the active rows) to its multipliers.
+/// Moves the state by ξ of a Linearisation, and adds `multipliers` to the state's multipliers. `multipliers`: one value
+/// per active constraint row, in the order of the rows of B.
 void move_by(const Model& model, const Eigen::VectorXd& xi, const Eigen::VectorXd& multipliers,
              const Evaluation& evaluation, State& state);
 
 /// Jacobian B of the active constraints for material rotation increments. Evaluates `state`.
 Eigen::MatrixXd active_jacobian(const Model& model, const State& state, Evaluation& evaluation);
 
-/// Entries of the active constraints, in the order of the rows of B.
+/// Entries of `of_constraints` that belong to active constraint rows, in the order of the rows of B. `of_constraints`:
+/// one value per constraint row.
 Eigen::VectorXd active_part(const State& state, const Eigen::Ref<const Eigen::VectorXd>& of_constraints);
 
-/// Adds values in the order of the rows of B to the multipliers of active constraints.
+/// Adds `values` to the multipliers of the active constraints. `values`: one per active row, in the order of the rows
+/// of B.
 void add_to_multipliers(const Eigen::VectorXd& values, State& state);
 
 }  // namespace tisserand::mechanism

@@ -34,7 +34,7 @@ constexpr double most_free_length = 100.0;  // of a spring, over its length at t
 constexpr double most_reach = 5.0;
 constexpr double most_slender = 0.1;  // least over largest principal moment of inertia
 
-constexpr int most_told = 3;  // largest number of messages of one kind; further ones are only counted
+constexpr int most_listed = 3;  // largest number of messages of one kind; further ones are only counted
 
 /// Messages by kind. If many parts share one mistake, only a few are named.
 class Doubts {
@@ -46,8 +46,8 @@ class Doubts {
     const fmt::string_view pattern = format;
     Kind& kind = kinds_[std::string(pattern.data(), pattern.size())];
     std::string text = fmt::format(format, std::forward<T>(values)...);
-    if (std::ranges::find(kind.told, text) != kind.told.end()) return;
-    if (++kind.count <= most_told) kind.told.push_back(std::move(text));
+    if (std::ranges::find(kind.reported, text) != kind.reported.end()) return;
+    if (++kind.count <= most_listed) kind.reported.push_back(std::move(text));
   }
   std::string length(double value) const {
     return fmt::format("{:.4g}{}", value, after_number(unit_label(units, 1, 0, 0)));
@@ -55,8 +55,9 @@ class Doubts {
   std::vector<std::string> list() && {
     std::vector<std::string> all;
     for (auto& [format, kind] : kinds_) {
-      if (kind.count > most_told) kind.told.back() += fmt::format(" (and {} more like this)", kind.count - most_told);
-      std::ranges::move(kind.told, std::back_inserter(all));
+      if (kind.count > most_listed)
+        kind.reported.back() += fmt::format(" (and {} more like this)", kind.count - most_listed);
+      std::ranges::move(kind.reported, std::back_inserter(all));
     }
     return all;
   }
@@ -65,7 +66,7 @@ class Doubts {
 
  private:
   struct Kind {
-    std::vector<std::string> told;
+    std::vector<std::string> reported;
     int count = 0;
   };
   std::map<std::string, Kind> kinds_;
@@ -76,7 +77,7 @@ void doubt_gravity(const std::string& whose, const Vector3d& g, Doubts& doubts) 
   if (!units.named() || g.isZero(0.0)) return;
   const double si = g.norm() * units.length.factor / (units.time.factor * units.time.factor);
   if (si >= least_gravity && si <= most_gravity) return;
-  doubts.add("{} is {:.4g}{}, that is {:.3g} m/s^2: the Earth's is {:.4g} in these units", whose, g.norm(),
+  doubts.add("{} is {:.4g}{}, that is {:.3g} m/s^2: the Earth's gravity is {:.4g} in these units", whose, g.norm(),
              after_number(unit_label(units, 1, 0, -2)), si,
              9.81 * units.time.factor * units.time.factor / units.length.factor);
 }
@@ -102,7 +103,7 @@ void doubt_inertia(const formats::Scene& scene, const Model& model, Doubts& doub
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(body->inertia, Eigen::EigenvaluesOnly);
     const double gyration = std::sqrt(principal.eigenvalues()[2] / body->mass);
     if (gyration > most_gyration * std::max(model.length, box.diagonal().norm()))
-      doubts.add("'{}' has a radius of gyration of {}, the scene an extent of {}: check `inertia`", body->name,
+      doubts.add("'{}' has a radius of gyration of {}, but the scene has an extent of {}: check `inertia`", body->name,
                  doubts.length(gyration), doubts.length(model.length));
   }
 }
@@ -123,7 +124,7 @@ void doubt_body(const formats::BeamBodySpec& beam, Doubts& doubts) {
   const double gyration =
       section.area > 0.0 ? std::sqrt(std::max(section.second_moment_y, section.second_moment_z) / section.area) : 0.0;
   if (!section.by_stiffness && gyration > most_section * length)
-    doubts.add("the section of '{}' has a radius of gyration of {}, the beam a length of {}", beam.name,
+    doubts.add("the section of '{}' has a radius of gyration of {}, but the beam has a length of {}", beam.name,
                doubts.length(gyration), doubts.length(length));
 }
 
@@ -146,8 +147,8 @@ void doubt_times(const formats::Scene& scene, Doubts& doubts) {
     if (held.time.empty() || (held.time.front() < end && held.time.back() > start)) return;
     const auto [least, most] = std::ranges::minmax(held.value);
     if (least == most) return;  // the table is constant on purpose
-    doubts.add("the table of {} holds {:g} to {:g}{}, the run goes from {:g} to {:g}{}: the value is constant", whose,
-               held.time.front(), held.time.back(), second, start, end, second);
+    doubts.add("the table of {} covers {:g} to {:g}{}, but the run goes from {:g} to {:g}{}: the value is constant",
+               whose, held.time.front(), held.time.back(), second, start, end, second);
   };
   const auto function = [&](const std::string& whose, const formats::TimeFunctionSpec& spec) {
     if (const auto* values = std::get_if<formats::TimeTable>(&spec)) table(whose, *values);
@@ -162,8 +163,9 @@ void doubt_times(const formats::Scene& scene, Doubts& doubts) {
     if (spring.force) function(fmt::format("spring '{}'", spring.name), *spring.force);
   for (const formats::InputSpec& input : scene.inputs) table(fmt::format("input '{}'", input.name), input.table);
   if (const auto interval = scene.output.interval; interval && *interval > end - start)
-    doubts.add("`output: {{interval: {:g}}}` is longer than the run of {:g}{}: only the ends of the run are stored",
-               *interval, end - start, second);
+    doubts.add(
+        "`output: {{interval: {:g}}}` is longer than the run of {:g}{}: only its first and last instants are stored",
+        *interval, end - start, second);
 }
 
 void doubt_free_lengths(const Model& model, const Evaluation& now, Doubts& doubts) {
@@ -171,8 +173,8 @@ void doubt_free_lengths(const Model& model, const Evaluation& now, Doubts& doubt
     if (spring.free_at_start || model.coordinates[spring.coordinate].relation.kind != RelationKind::distance) continue;
     const double length = now.coordinates[spring.coordinate].value;
     if (length > 1e-3 * model.length && spring.free > most_free_length * length)
-      doubts.add("spring '{}' has a free length of {}, and {} at the start", spring.name, doubts.length(spring.free),
-                 doubts.length(length));
+      doubts.add("spring '{}' has a free length of {}, but a length of {} at the start", spring.name,
+                 doubts.length(spring.free), doubts.length(length));
   }
 }
 
@@ -209,7 +211,7 @@ std::string far_centres(const Model& model) {
   }
   if (texts.empty()) return {};
   return "slender bodies with a centre of mass far from their joints and springs: " + listed(texts) +
-         ". That fits a weight on a light arm; else check `center_of_mass` and `inertia`";
+         ". This is normal for a weight on a light arm; otherwise check `center_of_mass` and `inertia`";
 }
 
 std::vector<std::string> number_doubts(const formats::Scene& scene, const Model& model, const Evaluation& now) {

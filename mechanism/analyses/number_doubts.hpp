@@ -11,12 +11,13 @@
 
 namespace tisserand::mechanism {
 
-/// One sentence for each implausible number of the scene. `now` is at the poses of the start. Quantities with unnamed
-/// units are not checked.
+/// Sentences, one for each implausible number of the scene. `now`: evaluation of the model at the poses of the start.
+/// Quantities with unnamed units are not checked.
 std::vector<std::string> number_doubts(const formats::Scene& scene, const Model& model, const Evaluation& now);
 
-/// Note on slender rigid bodies whose centre of mass is far from all that holds them, against the radius of gyration.
-/// Empty if there is none. A weight on a light arm looks like this, and so does a centre of mass in wrong units.
+/// Note on slender rigid bodies whose centre of mass is far from all that holds them, compared with the radius of
+/// gyration. Empty if there is no such body. A weight on a light arm looks like this, and so does a centre of mass in
+/// wrong units.
 std::string far_centres(const Model& model);
 
 }  // namespace tisserand::mechanism

@@ -138,7 +138,7 @@ void add_inertia_doubts(const Model& model, std::vector<std::string>& doubts) {
 std::string groups_text(const std::vector<std::vector<std::string>>& groups) {
   std::vector<std::string> texts;
   for (const std::vector<std::string>& names : groups) texts.push_back(listed(names));
-  return fmt::format("{} groups that nothing connects: {}", groups.size(), listed(texts, " | "));
+  return fmt::format("{} groups of bodies without a connection between them: {}", groups.size(), listed(texts, " | "));
 }
 
 }  // namespace
@@ -202,23 +202,22 @@ std::vector<PreflightLine> preflight_doubts(const Preflight& preflight, const Un
   if (preflight.groups.size() > 1) lines.push_back({"connections", groups_text(preflight.groups)});
   if (!preflight.gaps.empty())
     lines.push_back({"open joints", gaps_text(preflight.gaps, after_number(unit_label(units, 1, 0, 0)))});
-  for (const std::string& doubt : preflight.doubts) lines.push_back({"doubtful", doubt});
+  for (const std::string& doubt : preflight.doubts) lines.push_back({"warning", doubt});
   return lines;
 }
 
 std::vector<PreflightLine> preflight_table(const Preflight& preflight, const Mobility& mobility, const Units& units) {
   std::vector<PreflightLine> lines;
-  lines.push_back(
-      {"bodies", fmt::format("{}, as rigid ones: mobility {}, by Gruebler's count {} · {} - {} = {}", mobility.parts,
-                             mobility.rigid_mobility, mobility.freedoms, mobility.parts, mobility.constraints,
-                             mobility.gruebler())});
-  lines.push_back({"repeated", mobility.redundant.empty()
-                                   ? "no constraint equation"
-                                   : fmt::format("{} of {} constraint equations", mobility.redundant.size(),
-                                                 mobility.constraints)});
+  lines.push_back({"bodies", fmt::format("{}; with rigid bodies: mobility {}, by Gruebler's count {} · {} - {} = {}",
+                                         mobility.parts, mobility.rigid_mobility, mobility.freedoms, mobility.parts,
+                                         mobility.constraints, mobility.gruebler())});
+  lines.push_back({"redundant", mobility.redundant.empty()
+                                    ? "no constraint equation"
+                                    : fmt::format("{} of {} constraint equations", mobility.redundant.size(),
+                                                  mobility.constraints)});
   if (!mobility.free.empty()) lines.push_back({"free", listed(mobility.free)});
-  if (preflight.groups.size() <= 1) lines.push_back({"connections", "all bodies with the ground"});
-  if (preflight.gaps.empty()) lines.push_back({"joints", "all meet at the start"});
+  if (preflight.groups.size() <= 1) lines.push_back({"connections", "all bodies are connected to the ground"});
+  if (preflight.gaps.empty()) lines.push_back({"joints", "all are closed at the start"});
   if (preflight.doubts.empty()) lines.push_back({"masses", "plausible"});
   for (PreflightLine& doubt : preflight_doubts(preflight, units)) lines.push_back(std::move(doubt));
   return lines;

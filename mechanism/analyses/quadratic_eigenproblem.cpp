@@ -32,7 +32,7 @@ Spectrum eigen(MatrixXd A, Vectors kind) {
   if (!A.allFinite())  // LAPACK would not return
     throw Error(
         "the linearised scene has no finite shifted inverse: its inertia, damping and stiffness are singular together",
-        "modes", "fix or remove bodies that neither mass nor stiffness holds");
+        "modes", "fix or remove bodies that have neither mass nor stiffness");
   const int n = static_cast<int>(A.rows()), one = 1;
   const char* right = kind == Vectors::right ? "V" : "N";
   VectorXd real(n), imaginary(n), work(1);
@@ -46,7 +46,8 @@ Spectrum eigen(MatrixXd A, Vectors kind) {
   dgeev_("N", right, &n, A.data(), &n, real.data(), imaginary.data(), nullptr, &one, V.data(), &ldv, work.data(), &size,
          &info);
   if (info != 0)
-    throw Error("the eigenvalues of the linearised scene were not found", "modes", "change the state a little");
+    throw Error("the iteration for the eigenvalues of the linearised scene does not converge", "modes",
+                "change the state slightly");
   Spectrum spectrum{real.cast<Complex>() + Complex(0, 1) * imaginary.cast<Complex>(), {}};
   if (kind == Vectors::none) return spectrum;
   spectrum.vectors = V.cast<Complex>();

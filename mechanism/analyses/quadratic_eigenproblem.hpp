@@ -8,25 +8,27 @@
 
 namespace tisserand::mechanism {
 
-/// Matrices of the problem, k x k each.
+/// Matrices M, C and K (k x k each) of the quadratic eigenproblem P(λ) η = (λ²M + λC + K) η = 0.
 struct QuadraticProblem {
   Eigen::MatrixXd M, C, K;
 };
 
-/// The problem with TᵀMT, TᵀCT, TᵀKT.
+/// Eigenproblem with the matrices TᵀMT, TᵀCT and TᵀKT, for coordinates η = T ζ in the basis T.
 QuadraticProblem in_basis(const Eigen::MatrixXd& T, const QuadraticProblem& m);
 
-/// Limit of |λ| of a rigid motion, relative to the shift. Round-off moves a double eigenvalue 0 by its root.
+/// Limit of |λ|/s of a rigid motion, where s is the shift of choose_shift(). Round-off moves a double eigenvalue 0 by
+/// the root of the round-off.
 constexpr double rigid_tolerance = 1e-5;
 
-/// A shift s > 0 [1/time] of the size of the lowest frequency that is not a rigid motion. Throws Error if inertia,
-/// damping and stiffness are singular together.
+/// Shift s > 0 [1/time] of the size of the lowest frequency that is not a rigid motion. Throws Error if M, C and K are
+/// singular together.
 double choose_shift(const QuadraticProblem& m);
 
-/// Basis T with TᵀHT = 1 and TᵀMT diagonal. H is the symmetric part of P(σ) = σ²M + σC + K with the first σ = s, 10 s,
-/// … that makes it definite. The columns are modes up to damping and asymmetry. In this basis matrices of widely spread
-/// frequencies are graded, and the balancing of LAPACK keeps the accuracy of each. In another basis the round-off of
-/// the largest affects all. If no σ makes H definite, T is the unit matrix.
+/// Basis T (k x k) with TᵀHT = 1 and TᵀMT diagonal. H is the symmetric part of P(σ) = σ²M + σC + K, for the first σ =
+/// s, 10 s, … that makes H positive definite. The columns of T are modes, apart from damping and asymmetry. In this
+/// basis matrices with widely spread frequencies are graded, so that LAPACK's balancing keeps the accuracy of each
+/// frequency. In other bases the round-off of the highest frequency affects all. T is the unit matrix if no σ makes H
+/// definite.
 Eigen::MatrixXd graded_basis(const QuadraticProblem& m, double s);
 
 /// Eigenvalues λ [1/time] and eigenvectors, one column each.
@@ -35,24 +37,26 @@ struct Spectrum {
   Eigen::MatrixXcd vectors;
 };
 
-/// Growth below this times |λ| is round-off.
+/// Limit of Re λ/|λ| below which the growth of a mode is round-off.
 constexpr double growth_tolerance = 1e-7;
 
-/// All finite eigenvalues, ascending |λ|, from μ of the inverse (A − sE)⁻¹E of the first-order form, λ = s + 1/μ
-/// (LAPACK). Eigenvalues far above the shift lose digits. Those among the lowest `count`, and all if one of them seems
-/// to grow, come from further inverses with shifts of their own size. Massless directions have no eigenvalue. Throws
-/// Error as choose_shift does.
+/// All finite eigenvalues λ in ascending order of |λ|, with their vectors. LAPACK finds the eigenvalues μ of the
+/// inverse (A − sE)⁻¹E of the first-order form, and λ = s + 1/μ with the shift s. Eigenvalues far above the shift lose
+/// digits. Further inverses with larger shifts replace the inaccurate eigenvalues among the lowest `count`. They go on
+/// as long as an inaccurate eigenvalue seems to grow. Massless directions have no finite eigenvalue. Throws Error if M,
+/// C and K are singular together.
 Spectrum eigenpairs(const QuadraticProblem& m, double s, int count);
 
-/// One eigenvalue with its right and left vector, P(λ) x = 0 and yᴴP(λ) = 0.
+/// Eigenvalue λ of the quadratic eigenproblem with its right vector x and left vector y: P(λ) x = 0 and yᴴP(λ) = 0.
 struct RefinedPair {
   std::complex<double> value;
   Eigen::VectorXcd x, y;
-  double slope = 0.0;  ///< |yᴴ P'(λ) x|: an error E of P moves λ by |yᴴ E x| / slope
+  double slope = 0.0;  ///< derivative |yᴴ P'(λ) x|: an error E of P moves λ by |yᴴ E x| / slope
 };
 
-/// Eigenvalue nearest to `near`, by inverse iteration and the two-sided Rayleigh quotient yᴴP(λ)x = 0. Its error is of
-/// second order in the errors of the vectors, so it regains the digits that the shifted inverse lost far from s.
+/// Improves the eigenvalue `near` with the right vector `x` by inverse iteration and the two-sided Rayleigh quotient
+/// yᴴP(λ)x = 0. The error of the quotient λ is of second order in the errors of x and y. So λ regains digits that
+/// eigenpairs() lost because λ is far from the shift.
 RefinedPair refined(const QuadraticProblem& m, std::complex<double> near, const Eigen::VectorXcd& x);
 
 }  // namespace tisserand::mechanism

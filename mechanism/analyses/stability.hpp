@@ -12,35 +12,40 @@
 
 namespace tisserand::mechanism {
 
-/// Counts of directions of ZᵀKZ. Z is the null space of the active constraint rows, K the exact stiffness with the
-/// forces of the state. Without friction and follower forces an equilibrium is stable if and only if no direction is
-/// negative (Lagrange, Dirichlet).
+/// Stability of a static equilibrium: numbers of negative and neutral directions of the stiffness ZᵀKZ. Z is the null
+/// space of the active constraint rows, and K the exact stiffness with the forces of the state. Without friction and
+/// follower forces an equilibrium is stable if and only if no direction is negative (Lagrange, Dirichlet).
 struct Stability {
-  bool counted = false;   ///< false: more than `most_linearised` coordinates
+  bool counted = false;   ///< whether directions were counted; false above `most_linearised` coordinates
   bool symmetric = true;  ///< whether the stiffness is symmetric; otherwise the count does not decide
-  int unstable = 0;       ///< negative directions
-  int neutral = 0;        ///< directions without stiffness
-  std::string
-      direction;  ///< joint coordinate or node that moves most in the most negative direction, else in a neutral one
+  int unstable = 0;       ///< number of directions with negative stiffness
+  int neutral = 0;        ///< number of directions without stiffness
+  /// Name of the joint coordinate or node that moves most in the most negative direction, else in a neutral one.
+  std::string direction;
 };
 
-/// Counts by the inertia of [K Bᵀ; B 0] (LDLᵀ of Bunch and Kaufman). The direction is named if `name` is true.
+/// Counts negative and neutral directions by the inertia of [K Bᵀ; B 0] (LDLᵀ of Bunch and Kaufman). `name`: whether to
+/// fill in Stability::direction.
 Stability stability_of(const Model& model, const State& state, Evaluation& evaluation, bool name);
 
-/// Predicate that judges the last evaluation, or reports an interruption by the user.
+/// Predicate of descend(). As `balanced` it returns whether the last evaluation is in balance, as `interrupted` whether
+/// the user has interrupted.
 using Balanced = std::function<bool()>;
 
+/// Result of descend().
 struct DescentReport {
-  bool found = false;  ///< an equilibrium without negative directions
+  bool found = false;  ///< an equilibrium without negative directions was found
   int iterations = 0;
-  std::string direction;  ///< if none was found: what moved most, or what is free
+  std::string direction;  ///< if none was found: name of what moved most, or of what is free
 };
 
-/// Searches an equilibrium without negative directions. Each step moves along the eigenvectors of ZᵀKZ by −v·r/(|λ| +
-/// μ), at most by a tenth of the scene's length or of a radian. It is Newton's step where the stiffness λ is positive,
-/// and goes downhill in potential energy where λ is negative. From an unstable equilibrium it starts along the most
-/// negative direction. `balanced` judges the last evaluation, whose load factor counts. Dense, up to 1000 coordinates.
-/// If the search fails, it starts again with steps that are shortened where the forces along them change sign.
+/// Searches an equilibrium without negative directions of the stiffness ZᵀKZ. Each step moves along the eigenvectors v
+/// of ZᵀKZ by −v·r/(|λ| + μ), where r is the residual, λ the eigenvalue and μ ≥ 0 a damping. A step is at most a tenth
+/// of the scene's length or of a radian. Where λ is positive it is Newton's step. Where λ is negative it reduces the
+/// potential energy. From an unstable equilibrium the search starts along the most negative direction. `balanced`
+/// judges the last evaluation, whose load factor counts. The matrices are dense, so at most 1000 coordinates are
+/// accepted. If the search fails, it starts again with shorter steps where the forces along the eigenvectors change
+/// sign.
 DescentReport descend(const Model& model, const Balanced& balanced, const Balanced& interrupted, State& state,
                       Evaluation& evaluation);
 

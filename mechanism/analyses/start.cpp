@@ -69,9 +69,9 @@ void require_facing(const Model& model, const std::string& where, const Workspac
     if (!hinge && !fixed) continue;
     throw Error(hinge ? fmt::format("the {} axes of the markers of {} joint '{}' point in opposite directions",
                                     "xyz"[axis], formats::joint_word(joint.kind), joint.name)
-                      : fmt::format("the axes of the markers of {} joint '{}' are turned against each other",
+                      : fmt::format("the axes of the markers of {} joint '{}' are rotated relative to each other",
                                     formats::joint_word(joint.kind), joint.name),
-                where, "turn the orientation of one marker, so that the axes of both agree at the start");
+                where, "change the orientation of one marker so that the axes of both agree at the start");
   }
 }
 
@@ -79,13 +79,13 @@ void require_facing(const Model& model, const std::string& where, const Workspac
 void require_met(const Model& model, const formats::Scene& scene, const Violation& worst, const Workspace& workspace) {
   if (worst.value <= scene.initial_tolerance) return;
   throw Error(
-      fmt::format(
-          "joint '{}' is not met at the start: off by {:.3g} {} (initial_tolerance allows {:.3g}). Open joints: {}",
-          constraint_name(model, worst.row), worst.value, "of the characteristic length or radians",
-          scene.initial_tolerance, gaps_text(marker_gaps(model, workspace.now), "")),
+      fmt::format("joint '{}' is not closed at the start: it is off by {:.3g} {} (initial_tolerance allows {:.3g}). "
+                  "Open joints: {}",
+                  constraint_name(model, worst.row), worst.value, "of the characteristic length or radians",
+                  scene.initial_tolerance, gaps_text(marker_gaps(model, workspace.now), "")),
       scene.file,
-      "correct poses or markers; `initial: {<coordinate>: {value: ..}}` moves closed joints to a position, "
-      "`analysis: assembly` closes open ones; or raise initial_tolerance to let the program move the bodies");
+      "correct poses or markers, close the joints by `analysis: assembly`, or increase initial_tolerance to let the "
+      "program move the bodies. `initial: {<coordinate>: {value: ..}}` moves closed joints to a position");
 }
 
 /// Throws Error if massless bodies can move freely, because then no equation determines their motion.
@@ -112,7 +112,7 @@ double move_to_values(const formats::Scene& scene, BuiltModel& built, Workspace&
   const AssemblyReport assembly = assemble(model, {value_tolerance, built.initial}, state, workspace.now);
   if (!assembly.closed)
     throw Error(
-        fmt::format("no position of the bodies has the initial values: open stay {}", gaps_text(assembly.open, "")),
+        fmt::format("the bodies cannot reach the initial values: these remain open: {}", gaps_text(assembly.open, "")),
         scene.file, "give values that joints and drives allow, or fewer of them");
   set_written_velocities(built);
   return (state.x() - before.x()).colwise().norm().maxCoeff();
@@ -172,9 +172,10 @@ double project_positions(const Model& model, const formats::Scene& scene, State&
   }
   const Violation left = largest_violation(model, workspace.now.constraint);
   if (!(left.value <= 1e-9))
-    throw Error(fmt::format("the joints cannot be closed: '{}' stays open by {:.3g}", constraint_name(model, left.row),
-                            left.value),
-                scene.file, "correct the poses of the bodies");
+    throw Error(
+        fmt::format("the joints cannot be closed: '{}' remains open by {:.3g} of the characteristic length or radians",
+                    constraint_name(model, left.row), left.value),
+        scene.file, "correct the poses of the bodies");
   require_facing(model, scene.file, workspace);
   return corrected;
 }
@@ -276,8 +277,8 @@ bool solve_accelerations(const Model& model, double step, const std::string& whe
     if (rubs && settled) break;
   }
   if (!settled)
-    throw Error("the accelerations do not settle: reactions and friction of the joints drive each other", where,
-                "reduce the coefficients of friction, or raise their velocity");
+    throw Error("the accelerations do not converge: reactions and friction of the joints amplify each other", where,
+                "reduce `coefficient` of the friction, or increase its `velocity`");
   evaluate(model, state, workspace.now);
   return massless;
 }

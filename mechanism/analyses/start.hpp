@@ -15,36 +15,41 @@
 
 namespace tisserand::mechanism {
 
-/// Largest corrections by the projection. Position: |Φ| before it, relative to the characteristic length (angles in
-/// rad). Velocity: |B v| relative to the largest velocity.
+/// Largest corrections by the projection of positions and velocities on the constraints. `position` is |Φ| before the
+/// projection, relative to the characteristic length (angles in rad). `velocity` is |B v| before it, relative to the
+/// largest velocity.
 struct Projection {
   double position = 0.0;
   double velocity = 0.0;
 };
 
-/// Solves [M Bᵀ; B 0][v̇; λ] = [F − G; −Ḃ v] for v̇ and λ. A singular mass matrix is regularised with step² times the
-/// stiffness, so that massless directions are in static equilibrium. Returns whether it was regularised. Throws Error
-/// that names a direction without mass, stiffness and constraint.
+/// Solves [M Bᵀ; B 0][v̇; λ] = [F − G; −Ḃ v] for accelerations v̇ and multipliers λ, THEORY (58), (59). A singular mass
+/// matrix is regularised with `step`² times the stiffness, so that massless directions are in static equilibrium.
+/// Returns whether it was regularised. Throws Error that names a direction without mass, stiffness and constraint.
 bool solve_accelerations(const Model& model, double step, const std::string& where, State& state, Workspace& workspace);
 
+/// Report of start(): mobility, checks, corrections and derived velocities.
 struct StartReport {
   Mobility mobility;
   Preflight preflight;
   Projection projection;
   StartVelocities velocities;
-  bool massless = false;  ///< the mass matrix was regularised
+  bool massless = false;  ///< whether a singular mass matrix was regularised
   double moved = 0.0;     ///< largest displacement of a node by initial values
 };
 
 /// Starts the analysis of the scene. Redundant constraint rows become inactive. Initial values move bodies rigidly
-/// (only with `poses`). Free velocities are derived, except in statics. Then positions and velocities are projected.
-/// Dynamics also gets the consistent start, and its energies count from here.
+/// (only with StartFrom::poses). Velocities that the scene does not give are derived, except in statics. Then positions
+/// and velocities are projected on the constraints. In dynamics consistent accelerations and multipliers follow, and
+/// the energy balance counts from this state.
 StartReport start(const formats::Scene& scene, StartFrom from, BuiltModel& built, Workspace& workspace);
 
-/// Sets work, dissipation and energy to zero at this state.
+/// Sets work and dissipation to zero at this state, and stores its energy as the initial energy. The energy balance
+/// counts from here.
 void begin(const Model& model, State& state, Workspace& workspace);
 
-/// Solves accelerations and multipliers again after a step that ended on a breakpoint, with the loads after the jump.
+/// Solves for accelerations and multipliers again after a step that ended on a breakpoint, if loads or drives jump
+/// there. Uses the loads after the jump.
 void pass_breakpoint(const Model& model, const formats::Scene& scene, State& state, Workspace& workspace);
 
 }  // namespace tisserand::mechanism

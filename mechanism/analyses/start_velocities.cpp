@@ -210,12 +210,10 @@ std::string differences_text(const StartProblem& problem, const StartSolution& n
   const StartSolution nearest = solve_start(open, free_motions(open), &deformations, open.model.sizes.constraints);
   if (nearest.gap > motion_found)
     throw Error(text + "; joints and drives contradict each other", where,
-                "remove a drive, give it the speed that the others leave to it, or start away from a dead point");
-  throw Error(fmt::format("{}. In the nearest motion that joints and drives allow {}", text,
+                "remove a drive, give it a speed that the other drives allow, or start away from a dead point");
+  throw Error(fmt::format("{}. In the nearest motion that joints and drives allow, {}", text,
                           differences_text(problem, nearest)),
-              where,
-              "correct these velocities or rates, or leave out those that should follow from the others: absent ones "
-              "do");
+              where, "correct these velocities or rates, or omit those that should follow from the others");
 }
 
 /// Sets v = R w + d of the parts whose motion changes; other velocities stay bitwise equal.
@@ -247,8 +245,8 @@ void set_velocities_of(const StartProblem& problem, const StartSolution& solutio
   }
 }
 
-StartVelocities told(const StartProblem& problem, const Deformations* deformations, const StartSolution& solution) {
-  StartVelocities told;
+StartVelocities reported(const StartProblem& problem, const Deformations* deformations, const StartSolution& solution) {
+  StartVelocities reported;
   const double shown = motion_found * std::max(largest_entry(solution.w), largest_entry(problem.c));
   std::vector<double> energy(problem.starts.size(), 0.0);
   if (deformations != nullptr) {
@@ -258,14 +256,14 @@ StartVelocities told(const StartProblem& problem, const Deformations* deformatio
   }
   const double shown_energy = 0.5 * shown * shown * largest_entry(problem.M.diagonal());
   for (std::size_t i = 0; i < problem.starts.size(); ++i) {
-    told.deformation += energy[i];
+    reported.deformation += energy[i];
     const bool deforms = energy[i] > shown_energy;
     if (deforms || largest_entry((solution.w - problem.w).segment<6>(6 * static_cast<Eigen::Index>(i))) > shown)
-      told.derived.push_back(problem.parts.name[i]);
-    if (deforms) told.deforming.push_back(problem.parts.name[i]);
+      reported.derived.push_back(problem.parts.name[i]);
+    if (deforms) reported.deforming.push_back(problem.parts.name[i]);
   }
-  told.kinetic_energy = 0.5 * solution.w.dot(problem.M * solution.w) + told.deformation;
-  return told;
+  reported.kinetic_energy = 0.5 * solution.w.dot(problem.M * solution.w) + reported.deformation;
+  return reported;
 }
 
 void set_given_velocities(StartFrom from, BuiltModel& built) {
@@ -307,7 +305,7 @@ StartVelocities derive_velocities(BuiltModel& built, StartFrom from, double tole
     if (!(solution.gap <= tolerance)) throw_contradiction(problem, deformations, solution, tolerance, where);
   }
   set_velocities_of(problem, solution, state, evaluation);
-  return told(problem, rigid ? nullptr : &deformations, solution);
+  return reported(problem, rigid ? nullptr : &deformations, solution);
 }
 
 void require_followers(const BuiltModel& built, double tolerance, const std::string& where, Evaluation& evaluation) {
@@ -324,10 +322,10 @@ void require_followers(const BuiltModel& built, double tolerance, const std::str
         std::max({largest_entry(built.state.v()), velocity.norm(), omega.norm(),
                   body.velocity.value_or(velocity).norm(), body.angular_velocity.value_or(omega).norm()});
     if (std::max(gap, turn) <= std::max(tolerance, motion_found) * scale) continue;
-    throw Error(fmt::format("virtual body '{}' is given velocities that differ by {:.3g} and {:.3g} rad per time from "
-                            "those of what fixed joints tie it to",
+    throw Error(fmt::format("the velocities of virtual body '{}' differ by {:.3g} (length per time) and {:.3g} (rad "
+                            "per time) from those of the body to which fixed joints tie it",
                             body.name, gap, turn),
-                where, "leave out the velocities of the virtual body: it follows");
+                where, "omit the velocities of the virtual body: it moves with that body");
   }
 }
 

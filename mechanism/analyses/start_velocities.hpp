@@ -13,30 +13,33 @@ namespace tisserand::mechanism {
 
 /// Source of positions and velocities at a start.
 enum class StartFrom {
-  poses,  ///< the bodies of the scene: written velocities are given
-  rest,   ///< another analysis that ended at rest: only velocities of `initial` are given
-  motion  ///< another analysis: all velocities are given
+  poses,  ///< poses of the bodies in the scene; velocities written there are given
+  rest,   ///< end of an analysis at rest; only velocities of `initial` are given
+  motion  ///< end of another analysis; all velocities are given
 };
 
-/// Report of the derivation of velocities.
+/// Report of derive_velocities().
 struct StartVelocities {
-  std::vector<std::string> derived;    ///< bodies whose velocity follows from that of others
-  std::vector<std::string> deforming;  ///< those of them that deform, because no rigid motion fits
-  double kinetic_energy = 0.0;         ///< of the start; 0 if nothing was derived
-  double deformation = 0.0;            ///< part of it in which bodies deform
+  std::vector<std::string> derived;    ///< names of bodies whose velocity follows from that of others
+  std::vector<std::string> deforming;  ///< names of the bodies in `derived` that deform, because no rigid motion fits
+  double kinetic_energy = 0.0;         ///< kinetic energy of the start; 0 if nothing was derived
+  double deformation = 0.0;            ///< kinetic energy of the rates of deformation, a part of `kinetic_energy`
 };
 
-/// Sets the velocities of bodies as the scene gives them, and zero where it gives none, at the present positions.
+/// Sets the velocities of bodies at the present positions: those that the scene gives, and zero where it gives none.
 void set_written_velocities(BuiltModel& built);
 
-/// Derives the free velocities. Bodies move rigidly, w = [v of a point; ω] each. The result has the least
-/// ½ (w − w₀)ᵀ M (w − w₀) that satisfies B v = −Φ_t and the rates of `initial`. Given components of w stay. w₀ holds
-/// the given velocities and zeros, so a body without any contributes its kinetic energy. If no w satisfies the rows,
-/// flexible bodies without a given velocity deform: v = R w + d. Then dᵀ M d is least, with internal coordinates, and w
-/// is the nearest to w₀ among the solutions. A state that satisfies the rows to round-off does not change. Both cases
-/// are the limit of one proximal iteration on
+/// Derives the velocities that the scene does not give. Each part moves rigidly with w = [v of a point; ω]. The result
+/// has the least ½ (w − w₀)ᵀ M (w − w₀) that satisfies B v = −Φ_t, THEORY (59), and the rates of `initial`. w₀ holds
+/// the given velocities and zeros, so a body without given velocity contributes its kinetic energy. Given components of
+/// w stay.
+///
+/// If no w satisfies the rows, flexible bodies without a given velocity deform: v = R w + d. Then dᵀ M d is least, with
+/// internal coordinates, and w is the nearest to w₀ among the solutions. A state that satisfies the rows to round-off
+/// does not change. The rigid and the deforming solution are the limit of one proximal iteration on
 ///   [A 0 Bᵀ; 0 δM Jᵀ; B J −μ], J = B R,
 /// which needs no exceptions for dependent rows and massless bodies.
+///
 /// Throws Error if given velocities, rates and drives contradict each other by more than `tolerance` of the largest
 /// velocity. The message names the gap, and the bodies and entries that conflict.
 StartVelocities derive_velocities(BuiltModel& built, StartFrom from, double tolerance, const std::string& where,

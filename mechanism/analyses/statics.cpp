@@ -224,7 +224,8 @@ StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& opti
     }
   }
   if (failed && !model.tyres.empty())
-    report.explanation += "; tyres hold nothing along the road in statics: on a slope a drive or a spring must";
+    report.explanation +=
+        "; in statics, tyres have no force along the road: on a slope, hold the vehicle with a drive or a spring";
   return report;
 }
 

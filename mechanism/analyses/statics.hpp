@@ -14,23 +14,24 @@
 
 namespace tisserand::mechanism {
 
-/// Callback before every iteration; true ends the analysis.
+/// Callback before every iteration. The analysis ends if it returns true.
 using Interrupt = std::function<bool()>;
 
-/// Limit of the reciprocal condition (after scaling) of a stiffness matrix. Below it a rigid motion is free.
+/// Limit of the reciprocal condition number of a scaled stiffness matrix. Below this limit a rigid motion is free.
 inline constexpr double free_motion_condition = 1e-14;
+/// Report of solve_statics().
 struct StaticsReport {
   StepOutcome outcome = StepOutcome::accepted;
   int iterations = 0;
-  int load_steps = 0;     ///< number of load steps, including halved ones
-  double residual = 0.0;  ///< largest force, largest moment / length
-  double constraint = 0.0;
+  int load_steps = 0;       ///< number of load steps, including halved ones
+  double residual = 0.0;    ///< largest force, or largest moment / characteristic length
+  double constraint = 0.0;  ///< largest violation of the constraints
   bool interrupted = false;
   Stability stability;         ///< stability of the final state
   double stable_until = 0.0;   ///< load factor of the last stable load step before the first unstable one
   double unstable_from = 2.0;  ///< load factor of the first unstable load step; above 1: none
   int descents = 0;            ///< iterations of the search for a stable equilibrium
-  std::string explanation;     ///< for a failure: equation and likely cause
+  std::string explanation;     ///< explanation of a failure: equation and likely cause
 };
 
 /// Arguments and report of a search for equilibrium.
@@ -43,18 +44,19 @@ struct EquilibriumSearch {
   StaticsReport report = {};
 };
 
-/// Result of a search that starts from a state with a free motion. It ends where all loads and gravity hold the scene,
-/// as a pendulum hangs.
+/// Result of settle_under_load().
 struct Settled {
-  std::string free;  ///< motion that is free even there; empty: an equilibrium was found
-  int descents = 0;  ///< iterations of the search; 0: the first state was already held
+  std::string free;  ///< name of a motion that is free even there; empty: an equilibrium was found
+  int descents = 0;  ///< iterations of the search; 0: the loads hold the first state already
 };
+/// Searches the equilibrium of a state with a free motion, where all loads and gravity hold the scene as a pendulum
+/// hangs. If there is one, the state moves there. Otherwise the state does not change.
 Settled settle_under_load(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
                           State& state, Workspace& workspace);
 
-/// Finds the equilibrium under loads (at the state's time) and gravity, from `state` with all velocities zero. Load
-/// steps are halved where the iteration fails. If the options have a steady rotation, its inertia forces count. If the
-/// scene can move freely, the outcome is `singular` and names the direction.
+/// Finds the equilibrium under gravity and the loads at the state's time, from `state` with all velocities zero. Load
+/// steps are halved where Newton's iteration fails. If the options have a steady rotation, its inertia forces count as
+/// loads. If the scene can move freely, the outcome is `singular` and the explanation names the direction.
 [[nodiscard]] StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options,
                                           const Interrupt& interrupted, State& state, Workspace& workspace);
 

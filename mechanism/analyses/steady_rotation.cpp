@@ -173,7 +173,7 @@ std::string change_by_turn(const SteadyTurn& steady, double passed, const Vector
     const bool drive = std::ranges::any_of(
         model.couplings, [&](const Coupling& coupling) { return coupling.row == row && coupling.motion >= 0; });
     if (!drive && violation_of(model, evaluation.constraint, row) > share)
-      return fmt::format("'{}' does not turn with the scene", constraint_name(model, row));
+      return fmt::format("'{}' does not rotate with the scene", constraint_name(model, row));
   }
   // Moments have material axes and stay, forces turn. Forces on joints and drives do not matter.
   VectorXd change = evaluation.residual - before;
@@ -190,7 +190,7 @@ std::string change_by_turn(const SteadyTurn& steady, double passed, const Vector
   const double allowed = std::max(share * force_size(model, evaluation), 1e3 * force_round_off(model, state));
   Eigen::Index at = 0;
   if (change.size() == 0 || !(change.cwiseAbs().maxCoeff(&at) > allowed)) return {};
-  return fmt::format("Gravity, a load, a spring or a bushing does not turn with the scene: what it does to {} changes",
+  return fmt::format("Gravity, a load, a spring or a bushing does not rotate with the scene: its force on {} changes",
                      coordinate_name(model, static_cast<int>(at)));
 }
 
@@ -256,7 +256,7 @@ std::string what_does_not_turn(const Model& model, const formats::RotationSpec& 
   evaluate(model, state, evaluation);
   for (int row = 0; row < model.sizes.constraints; ++row)
     if (violation_of(model, evaluation.constraint_rate, row) > round_off * rate)
-      return fmt::format("'{}' forbids the velocities of the turn", constraint_name(model, row));
+      return fmt::format("'{}' does not allow the velocities of this rotation", constraint_name(model, row));
   const VectorXd before = evaluation.residual;
   const State begin = state;
   std::string found;

@@ -13,7 +13,8 @@
 namespace tisserand::mechanism {
 
 /// Name of the joint coordinate or node that moves most when the whole scene turns about the rotation axis. Empty if
-/// joints, drives or springs hold this turn. Away from equilibrium the stiffness does not reveal that the turn is free.
+/// joints, drives or springs prevent this turn. The stiffness is taken at rest, since away from equilibrium it does not
+/// reveal that the turn is free.
 std::string free_turn_name(const Model& model, const formats::RotationSpec& rotation, State state,
                            Evaluation& evaluation);
 
@@ -22,15 +23,15 @@ std::string free_turn_name(const Model& model, const formats::RotationSpec& rota
 std::string free_motion_name(const Model& model, const formats::RotationSpec& rotation, State state,
                              Evaluation& evaluation);
 
-/// Name of what prevents a steady rotation; empty if nothing does. It is a joint or drive that forbids the velocities
-/// of the turn, or forces on a node that change when the scene turns by a radian. Examples are gravity across the axis,
-/// loads, springs and bushings to the ground.
+/// Name of what prevents a steady rotation; empty if nothing prevents it. It is a joint or drive that forbids the
+/// velocities of the turn, or forces on a node that change when the scene turns by a radian. Examples are gravity
+/// across the axis, loads, springs and bushings to the ground.
 std::string what_does_not_turn(const Model& model, const formats::RotationSpec& rotation, State state,
                                Evaluation& evaluation);
 
 /// Finds the equilibrium of loads, gravity and the inertia of the steady rotation under the present load factor. The
-/// rate grows with the root of this factor. Newton's iteration uses the stiffness of `linearise` (dense, with the
-/// softening by the rotation). The final state has the velocities and accelerations of the rotation.
+/// angular velocity grows with the root of this factor. Newton's iteration uses the dense stiffness of linearise(),
+/// which contains the softening by the rotation. The final state has the velocities and accelerations of the rotation.
 [[nodiscard]] StepOutcome balance_turning(EquilibriumSearch& search);
 
 }  // namespace tisserand::mechanism

@@ -10,8 +10,8 @@ struct Bdf::Data {};
 bool bdf_available() { return false; }
 
 Bdf::Bdf(const formats::Scene& scene, const Model&, State&, Workspace&) {
-  throw Error("integrator: this build has no CVODE, which method: bdf needs", scene.file,
-              "configure with -DTISSERAND_CVODE=ON and install libsundials-dev, or use method: generalised_alpha with "
+  throw Error("integrator: method: bdf needs CVODE, which this build does not have", scene.file,
+              "install libsundials-dev and configure with -DTISSERAND_CVODE=ON, or use method: generalised_alpha with "
               "error_control");
 }
 

@@ -184,7 +184,7 @@ std::string Bdf::step(const StepEnd& stop) {
   realtype reached = data_->now;
   const int flag = CVode(data_->cvode, stop.time, data_->y, &reached, CV_ONE_STEP);
   if (data_->failure) std::rethrow_exception(std::exchange(data_->failure, nullptr));
-  if (flag < 0) return fmt::format("CVODE gives up: {}", data_->message);
+  if (flag < 0) return fmt::format("CVODE failed: {}", data_->message);
   const double size = reached - std::exchange(data_->now, reached);
   data_->unpack(reached, values_of(data_->y));
   data_->complete();

@@ -66,10 +66,10 @@ void Index1::factor_mass() {
     name = factors.singular_column < model_.sizes.boundary
                ? coordinate_name(model_, factors.singular_column)
                : constraint_name(model_, factors.singular_column - model_.sizes.boundary);
-  throw Error(fmt::format("integrator: method: bdf needs mass in every free direction: {} has none, or its constraint "
-                          "repeats others",
+  throw Error(fmt::format("integrator: method: bdf needs mass in every free direction and no redundant constraint "
+                          "equations; {} has no mass or is redundant",
                           name),
-              scene_.file, "use method: generalised_alpha with error_control, or give mass and inertia there");
+              scene_.file, "use method: generalised_alpha with error_control, or add mass and inertia there");
 }
 
 bool Index1::try_accelerate() {
@@ -100,8 +100,8 @@ bool Index1::try_accelerate() {
 
 void Index1::accelerate() {
   if (!try_accelerate())
-    throw Error("the accelerations do not settle: reactions and friction of the joints drive each other", scene_.file,
-                "reduce the coefficients of friction, or raise their velocity");
+    throw Error("the accelerations do not converge: reactions and friction of the joints amplify each other",
+                scene_.file, "reduce `coefficient` of the friction, or increase its `velocity`");
 }
 
 void Index1::rates(const double* y, double* ydot) const {

@@ -11,21 +11,22 @@
 
 namespace tisserand::mechanism {
 
-/// Constants of a rigid body. Its node is at the centre of mass with the axes of the part, and so is its inertia.
+/// Constants of a rigid body. Its node lies at the centre of mass and has the axes of the part. `inertia` is the
+/// inertia about the centre of mass in the axes of the part.
 struct RigidBody {
   std::string name;
   int node = 0;
   double mass = 0.0;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
-  bool gyroscopic = true;  ///< false: Ω × J Ω is omitted
+  bool gyroscopic = true;  ///< false: the gyroscopic moment Ω × J Ω is omitted
 };
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// Newton-Euler residual r = [m (ẍ − g); J Ω̇ + Ω × J Ω], force in world axes, moment in body axes. In planar models J
-/// does not couple with rotations out of the plane.
+/// Newton-Euler residual r = [m (ẍ − g); J Ω̇ + Ω × J Ω] with mass m, inertia J and gravity g. The force is in world
+/// axes, the moment in body axes. With D = 2 (planar models) it has two forces and the moment J_zz Ω̇_z.
 template <int D>
 CarrierVector<D> residual(const RigidBody& body, const NodeMotion& n, const Eigen::Vector3d& gravity) {
   constexpr int turns = Space<D>::turns;
@@ -37,7 +38,8 @@ CarrierVector<D> residual(const RigidBody& body, const NodeMotion& n, const Eige
   return r;
 }
 
-/// Computes A = c_m ∂r/∂v̇ + c_c ∂r/∂v; the stiffness is zero.
+/// Computes the tangent A = c_m ∂r/∂v̇ + c_c ∂r/∂v (6 x 6) of residual(). The stiffness ∂r/∂q is zero. `c`:
+/// coefficients c_m and c_c of the time step, THEORY (68).
 inline void tangent(const RigidBody& body, const NodeMotion& n, const TangentCoefficients& c, Matrix6d& A) {
   A.setZero();
   A.diagonal().head<3>().setConstant(c.mass * body.mass);

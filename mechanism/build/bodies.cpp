@@ -79,8 +79,8 @@ std::string missing_turns_text(const formats::Companion& companion, const format
   Eigen::Index axis = 0;
   if (!(share.maxCoeff(&axis) > counts)) return "";
   return fmt::format(
-      "its companion file has version 1.{}, which lacks the second order of rotary inertia ({:.2g} % of the inertia "
-      "about {}): frequencies and motion at speed may be wrong. Reduce the part again",
+      "its companion file has version 1.{}. This version lacks the second-order terms of rotary inertia ({:.2g} % of "
+      "the inertia about {}). Frequencies and motion at speed may be wrong. Reduce the part again",
       companion.minor_version, 100.0 * std::min(1.0, share[axis]), "xyz"[axis]);
 }
 
@@ -170,15 +170,15 @@ class BodyBuilder {
     if (!body.load_cases.empty()) use.companion_id = companion.file->companion_id;
     if (const SecondOrderChoice choice = choose_second_order(spec, companion.terms); choice.any()) {
       use.companion_id = companion.file->companion_id;
-      c_.note_body(spec.name, describe(choice) + ", by the companion file");
+      c_.note_body(spec.name, describe(choice) + ", from the companion file");
       if (const std::string text = missing_turns_text(*companion.terms, element); !text.empty())
         c_.note_body(spec.name, text);
     } else if (may_use_companion(spec) && (body.modes > 0 || body.node.size() > 1)) {
       c_.note_body(spec.name, companion.terms == nullptr
-                                  ? "there is no companion file, so it is linear: no stiffening, no exact inertia "
-                                    "(`second_order: off` at the body asks for that)"
-                                  : "its companion file has load cases only, so it is linear: no stiffening, no exact "
-                                    "inertia (`second_order: off` at the body asks for that)");
+                                  ? "there is no companion file, so the body is linear: no stiffening, no exact "
+                                    "inertia. If this is intended, set `second_order: off` at the body"
+                                  : "its companion file has load cases only, so the body is linear: no stiffening, no "
+                                    "exact inertia. If this is intended, set `second_order: off` at the body");
     }
     for (const SuperelementNode& node : body.node) {
       const std::string name = spec.name + "/" + node.name;
@@ -371,12 +371,11 @@ Construction with_bodies(const formats::Scene& scene, const BodyFiles& files) {
   if (origin.isZero(0.0)) return c;
   Construction about = with_bodies(scene, files, origin);
   const double distance = origin.cwiseAbs().maxCoeff();
-  about.notes.push_back(
-      fmt::format("the scene stands {:.3g} times its size from the origin: it is computed about [{:.9g}, {:.9g}, "
-                  "{:.9g}], from where its potential energy counts too; stored positions count from the origin, where "
-                  "they are rounded to {:.1e} {}",
-                  distance / about.model.length, origin.x(), origin.y(), origin.z(),
-                  distance * std::numeric_limits<double>::epsilon(), scene.units.length.label));
+  about.notes.push_back(fmt::format(
+      "the scene is {:.3g} times its size away from the origin. It is computed relative to [{:.9g}, {:.9g}, {:.9g}], "
+      "where its potential energy is zero. Stored positions are relative to the origin and are rounded to {:.1e} {}",
+      distance / about.model.length, origin.x(), origin.y(), origin.z(),
+      distance * std::numeric_limits<double>::epsilon(), scene.units.length.label));
   return about;
 }
 

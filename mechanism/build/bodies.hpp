@@ -18,30 +18,33 @@
 
 namespace tisserand::mechanism {
 
-/// A note on several bodies in one line.
+/// Note on one or several bodies, which fits in one line of the report.
 struct BodyNote {
   std::string text;
-  std::vector<std::string> bodies;  ///< quoted names
+  std::vector<std::string> bodies;  ///< names of the bodies, quoted
 };
 
-/// Data that grow while a model is built; errors are collected and thrown together.
+/// Data that grow while a model is built. Errors are collected and thrown together.
 struct Construction {
   explicit Construction(const formats::Scene& from) : scene(from) {}
 
   const formats::Scene& scene;
   Model model;
   MarkerTable markers;
-  std::vector<Eigen::Quaterniond> frames;                             ///< frames of the superelements at the start
-  std::vector<BodyStart> starts;                                      ///< start velocities of all bodies
-  std::map<std::string, std::vector<PartResultant>> part_resultants;  ///< resultants of load cases on rigid bodies
-  std::set<std::string> vanished;                                     ///< joints of eliminated virtual bodies
-  std::vector<RigidArm> arms;
-  std::vector<ReferenceModel> reference_models;  ///< models of modal bodies whose files hold a residual
+  std::vector<Eigen::Quaterniond> frames;  ///< orientations of the floating frames of the superelements at the start
+  std::vector<BodyStart> starts;           ///< start velocities of all bodies
+  /// Resultants of load cases on rigid bodies, by the name of the body.
+  std::map<std::string, std::vector<PartResultant>> part_resultants;
+  std::set<std::string> vanished;  ///< names of joints that disappear with eliminated virtual bodies
+  std::vector<RigidArm> arms;      ///< rigid arms of joints
+  /// Reference models of modal bodies whose files hold residual flexibility.
+  std::vector<ReferenceModel> reference_models;
   std::set<double> breakpoints;
   std::vector<std::string> notes;
   std::vector<BodyNote> body_notes;
   std::vector<Error> errors;
 
+  /// Adds the body to the note with this text, or adds a new note.
   void note_body(const std::string& name, const std::string& text) {
     auto same = std::ranges::find(body_notes, text, &BodyNote::text);
     if (same == body_notes.end()) same = body_notes.insert(same, {text, {}});
@@ -49,6 +52,7 @@ struct Construction {
   }
 
   template <class Action>
+  /// Runs the action and stores the Error that it throws, if any.
   void collect(Action action) {
     try {
       action();
@@ -56,17 +60,19 @@ struct Construction {
       errors.push_back(error);
     }
   }
+  /// Throws all stored errors as one Error.
   void throw_errors() const {
     if (!errors.empty()) throw merge_errors(errors);
   }
 };
 
-/// Builds all bodies of the scene, virtual ones last, and its characteristic length, the extent of the nodes. A scene
-/// far from the origin gets an origin of its own (Model::origin) and a note, because 1e6 m away doubles are 1e-10 m
-/// apart. Throws Error.
+/// Builds all bodies of the scene, virtual ones last, and measures its characteristic length, the extent of the nodes.
+/// A scene far from the origin gets an origin of its own (Model::origin) and a note, because 1e6 m away doubles are
+/// 1e-10 m apart. Throws Error.
 Construction with_bodies(const formats::Scene& scene, const BodyFiles& files);
 
-/// Replaces positions on virtual bodies by positions on their carriers; the joints that tie them vanish.
+/// Eliminates virtual bodies: replaces positions on them by positions on their carriers. The fixed joints that tie them
+/// disappear.
 void eliminate_virtual_bodies(Construction& c);
 
 }  // namespace tisserand::mechanism

@@ -16,50 +16,58 @@
 
 namespace tisserand::mechanism {
 
-/// Superelement files by path; each is read once.
+/// Loaded superelement files by path, so that each file is read once.
 using SuperelementFiles = std::map<std::string, formats::LoadedSuperelement>;
 
-/// All files from which bodies are built; each is read once. Superelements alone convert to it.
+/// Contents of all files from which the bodies of a scene are built. Each file is read once. A SuperelementFiles alone
+/// converts to it.
 struct BodyFiles {
   BodyFiles() = default;
   BodyFiles(SuperelementFiles files) : superelements(std::move(files)) {}
   SuperelementFiles superelements;
-  std::map<std::string, formats::Companion> companions;  ///< companions by the path of their superelement
-  std::map<std::string, formats::LoadedModalBody> modal_bodies;
+  std::map<std::string, formats::Companion> companions;          ///< companions by the path of their superelement
+  std::map<std::string, formats::LoadedModalBody> modal_bodies;  ///< modal body files by path
 };
 
 /// Reads the superelement, companion and modal body files of a scene, each once. Throws one Error that lists all
-/// unreadable files, each once.
+/// unreadable files.
 BodyFiles read_body_files(const formats::Scene& scene);
 
-/// Velocity of a body at the start as the scene gives it, world axes; absent components are free.
+/// Velocity of a body at the start, as the scene gives it, in world axes. Absent components are free.
 struct BodyStart {
   std::string name;
-  Marker origin;         ///< part frame, on the first node of the body or on the carrier that a virtual body follows
-  bool follows = false;  ///< an eliminated virtual body, which moves with its carrier
-  std::optional<Eigen::Vector3d> velocity;  ///< velocity of the origin
+  /// Origin of the part frame, on the first node of the body or on the carrier that an eliminated virtual body follows.
+  Marker origin;
+  bool follows = false;                     ///< whether it is an eliminated virtual body, which moves with its carrier
+  std::optional<Eigen::Vector3d> velocity;  ///< velocity of `origin`
   std::optional<Eigen::Vector3d> angular_velocity;
-  bool kept = false;  ///< given by `initial`: also used if the run continues from an analysis at rest
+  /// Whether `initial` of the scene gives the velocity, which then also counts if the run continues from an analysis at
+  /// rest.
+  bool kept = false;
 };
 
-/// Joint coordinate with a value or rate at the start.
+/// Joint coordinate whose value or rate at the start the scene gives.
 struct CoordinateStart {
   std::string name;
-  int coordinate = 0;  ///< row of Model::coordinates
+  int coordinate = 0;  ///< index of its row in Model::coordinates
   std::optional<double> value;
   std::optional<double> rate;
 };
 
+/// Model of a scene, with its state and what the scene gives for the start.
 struct BuiltModel {
   Model model;
-  State state;                    ///< positions and velocities of the scene, absent ones zero; not yet projected
-  std::vector<BodyStart> starts;  ///< start velocities of every body
-  std::vector<CoordinateStart> initial;
-  std::vector<std::string> notes;  ///< conversions, cut modes, warnings: whole sentences
+  /// State with the positions and velocities of the scene, not yet projected on the constraints. Absent velocities are
+  /// zero.
+  State state;
+  std::vector<BodyStart> starts;         ///< start velocities of all bodies
+  std::vector<CoordinateStart> initial;  ///< joint coordinates with a value or rate at the start
+  std::vector<std::string> notes;        ///< sentences on conversions, omitted modes and warnings
 };
 
-/// Builds the model; of a scene with switches, with the active effects (build/effects.hpp). Throws Error that lists all
-/// errors: unknown names, joints on nodes without rotations, and so on.
+/// Builds model and start state of a scene. If the scene has effect switches (key `effects`), the model contains only
+/// the effects that are on. Throws Error that lists all errors: unknown names, joints on nodes without rotations, and
+/// so on.
 BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files);
 
 }  // namespace tisserand::mechanism

@@ -43,9 +43,10 @@ Share share_of_weight(const Spec& spec, const formats::Scene& scene) {
 
 Share share_of_rigid(Effect effect) {
   if (effect == Effect::gyroscopic) return own_term;
-  return no_share(effect == Effect::flexibility      ? "a rigid body has none: take a superelement, or use: flexible"
-                  : effect == Effect::rotary_inertia ? "a rigid body turns with its 'inertia'"
-                                                     : "rigid bodies have none");
+  return no_share(effect == Effect::flexibility
+                      ? "replace the rigid body by a superelement, or set `use: flexible` at a superelement"
+                  : effect == Effect::rotary_inertia ? "the key 'inertia' of a rigid body defines its rotary inertia"
+                                                     : "rigid bodies do not have this effect");
 }
 
 /// Choice of second-order terms by the companion of the file, if there is one and the body may use it.
@@ -61,32 +62,34 @@ Share share_of(const formats::SuperelementBodySpec& spec, Effect effect, const f
   if (effect == Effect::flexibility) return own_term;
   if (effect == Effect::stiffening)
     return share_if(choice_of(spec, files).stiffening != formats::StiffeningOption::off,
-                    "write the companion file (second_order: yes in the part file), or give 'stiffening'");
+                    "write a companion file (`second_order: yes` in the part file), or give the body 'stiffening'");
   if (effect == Effect::damping) return share_if(is_damped(spec.damping), no_damping);
   if (effect == Effect::rotary_inertia)
-    return inseparable("it is in the mass matrix: write rotary_inertia: off at the beams of the part file");
-  return inseparable("its inertia forces go together: choose 'inertia' of the body");
+    return inseparable("it is part of the mass matrix: set `rotary_inertia: off` at the beams of the part file");
+  return inseparable("the key 'inertia' of the body selects all inertia forces together");
 }
 
 Share share_of(const formats::ModalBodySpec& spec, Effect effect, const formats::Scene& scene, const BodyFiles& files) {
   if (effect == Effect::gravity) return share_of_weight(spec, scene);
   const formats::ModalBody& file = files.modal_bodies.at(spec.file).body;
-  if (effect == Effect::flexibility) return share_if(spec.modes.value_or(1) > 0 && file.modes() > 0, "give it 'modes'");
+  if (effect == Effect::flexibility)
+    return share_if(spec.modes.value_or(1) > 0 && file.modes() > 0, "give the body 'modes'");
   if (effect == Effect::damping) return share_if(is_damped(spec.damping) || !file.zeta.isZero(0.0), no_damping);
   if (effect == Effect::stiffening)
-    return no_share("modal bodies have none: take a superelement with a companion file");
-  if (effect == Effect::rotary_inertia) return inseparable("write its file with masses without inertia");
-  return inseparable("its inertia forces go together");
+    return no_share("modal bodies do not have this effect: use a superelement with a companion file");
+  if (effect == Effect::rotary_inertia) return inseparable("write its file with masses that have no rotary inertia");
+  return inseparable("the inertia forces of a modal body cannot be separated");
 }
 
 Share share_of(const formats::BeamBodySpec& spec, Effect effect, const formats::Scene& scene, const BodyFiles&) {
   if (effect == Effect::gravity) return share_of_weight(spec, scene);
   if (effect == Effect::rotary_inertia) return own_term;
-  if (effect == Effect::damping) return no_share("beams have none: put dampers beside it");
+  if (effect == Effect::damping)
+    return no_share("beams do not have this effect: add dampers between the nodes of the beam");
   if (effect == Effect::flexibility) return inseparable("make it a rigid body, or reduce it to a superelement");
   if (effect == Effect::stiffening)
-    return inseparable("the strains of beams are nonlinear: reduce it to a superelement");
-  return no_share("that of its sections goes with rotary_inertia: off");
+    return inseparable("the strains of beams are always nonlinear: reduce the beam to a superelement");
+  return no_share("`rotary_inertia: off` also removes the gyroscopic moments of its sections");
 }
 
 Share share_of(const formats::RigidBodySpec& spec, Effect effect, const formats::Scene& scene, const BodyFiles&) {
@@ -221,10 +224,10 @@ class SwitchCheck {
 
   [[noreturn]] static void throw_part(const formats::EffectSwitch& one, const std::string& body, const char* remedy) {
     throw Error(
-        fmt::format("effects: {} of body '{}' is no term of its own that could be switched",
+        fmt::format("effects: {} of body '{}' cannot be switched, because it is part of other terms",
                     formats::effect_word(one.effect), body),
         one.where,
-        fmt::format("{}{}", remedy, one.owner.empty() && !one.automatic ? "; or switch other bodies by name" : ""));
+        fmt::format("{}{}", remedy, one.owner.empty() && !one.automatic ? "; or switch the other bodies by name" : ""));
   }
 
   void check_of_body(const formats::EffectSwitch& one) const {
@@ -294,8 +297,8 @@ void require_switches_fit(const formats::Scene& scene, const BodyFiles& files) {
       if (one.effect != Effect::planar)
         switches.check(one);  // build/planar.hpp
       else if (one.on && automatic)
-        throw Error("effects: planar beside effects that are 'auto', which are judged in space", one.where,
-                    "give the others 'on' or 'off', or do without planar");
+        throw Error("effects: planar cannot be combined with 'auto', which works on three-dimensional models only",
+                    one.where, "set the other effects 'on' or 'off', or remove planar");
     } catch (const Error& error) {
       errors.push_back(error);
     }

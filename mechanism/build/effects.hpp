@@ -11,32 +11,34 @@
 
 namespace tisserand::mechanism {
 
-/// One effect of one body, joint (friction) or spring (stops) that can be omitted from the equations.
+/// Effect of one body, joint (friction) or spring (stops), which can be omitted from the equations.
 struct EffectUse {
   formats::Effect effect = formats::Effect::gravity;
-  std::string owner;
-  bool on = true;          ///< state by the switches of the scene
-  bool automatic = false;  ///< if `on`: the run may deactivate it (mechanism/run/automatic_effects.hpp)
+  std::string owner;  ///< name of the body, joint or spring
+  bool on = true;     ///< whether the switches of the scene have it on
+  /// Whether the run may switch the effect off, if it is on (mechanism/run/automatic_effects.hpp).
+  bool automatic = false;
 };
 
-/// All effects of the scene, on or off, in the order of effects, then of bodies, joints or springs. A body whose
-/// flexibility is off has neither stiffening nor damping.
+/// List of all effects of the scene, on or off, in the order of effects, then of bodies, joints or springs. A body
+/// whose flexibility is off has neither stiffening nor damping in the list.
 std::vector<EffectUse> effects_of(const formats::Scene& scene, const BodyFiles& files);
 
 /// Name of an effect: "flexibility of 'rod'".
 std::string effect_name(const EffectUse& use);
 
-/// Effects that the run may switch.
+/// List of the effects that the run may switch.
 std::vector<EffectUse> automatic_effects(const formats::Scene& scene, const BodyFiles& files);
 
-/// The scene with the switches of `uses` and without automatic ones.
+/// Scene in which each effect of `uses` is switched as EffectUse::on says, and none is automatic.
 formats::Scene with_switches(formats::Scene scene, const std::vector<EffectUse>& uses);
 
-/// Summary: "flexibility, gravity, planar; off: friction, damping of 'rod'".
+/// Summary of the effects in `uses`: "flexibility, gravity, planar; off: friction, damping of 'rod'".
 std::string effects_text(const std::vector<EffectUse>& uses, bool planar);
 
-/// The scene after its switches were applied (automatic effects are on), without switches; absent if it has none.
-/// Throws Error that lists all effects which the scene or a named owner lacks, or which are no separate term there.
+/// Scene to which its effect switches were applied, and which has no switches. Automatic effects are on in it. Absent
+/// if the scene has no switches. Throws Error that lists all switched effects that the scene or a named owner lacks, or
+/// that are no separate term there.
 std::optional<formats::Scene> with_effects_switched(const formats::Scene& scene, const BodyFiles& files);
 
 }  // namespace tisserand::mechanism

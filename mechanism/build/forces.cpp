@@ -110,17 +110,18 @@ std::string JointBuilder::turned_at_start(const std::vector<formats::BushingSpec
   }
   if (names.empty()) return "";
   return fmt::format(
-      "{}: the bodies start turned against each other, and 'free' counts turns from there, since the markers have the "
-      "same axes at the start. Give both markers an orientation if it counts from the axes of the bodies",
+      "{}: the bodies have different orientations at the start. 'free' is measured from there, because the markers "
+      "have the same axes at the start. If 'free' is relative to the axes of the bodies, give both markers an "
+      "orientation",
       listed(names));
 }
 
 void JointBuilder::require_two_nodes(const std::string& subject, const formats::MarkerPairSpec& spec,
                                      const std::string& where, const Marker& a, const Marker& b) {
   if (a.node != b.node) return;
-  throw Error(
-      fmt::format("{} connects '{}' and '{}', which do not move against each other", subject, spec.a.node, spec.b.node),
-      where, "connect two different nodes");
+  throw Error(fmt::format("{} connects '{}' and '{}', which do not move relative to each other", subject, spec.a.node,
+                          spec.b.node),
+              where, "connect two different nodes");
 }
 
 void JointBuilder::add(const formats::InputSpec& spec) {

@@ -6,8 +6,8 @@
 
 namespace tisserand::mechanism {
 
-/// State with the poses and velocities of the scene. Sets in the model the constants measured there: angles and lengths
-/// at the start, scales of mass and stiffness.
+/// State with the poses and velocities of the scene. Sets in `model` the constants that are measured at this state:
+/// angles and lengths at the start, scales of mass and stiffness.
 State initial_state(const Construction& c, Model& model);
 
 }  // namespace tisserand::mechanism

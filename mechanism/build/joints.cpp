@@ -29,11 +29,11 @@ void JointBuilder::add(const formats::JointSpec& spec) {
   set_relations(spec.kind, spec.hold, joint);
   if (joint.a.node == joint.b.node)
     throw Error(fmt::format("joint '{}' connects '{}' and '{}', which are {}", spec.name, spec.a.node, spec.b.node,
-                            joint.a.node < 0 ? "both ground" : "on one and the same node"),
+                            joint.a.node < 0 ? "both ground" : "on the same node"),
                 spec.where,
                 joint.a.follower < 0 && joint.b.follower < 0
                     ? "connect two different nodes"
-                    : "fixed joints tie these bodies together already: remove the joint, or one of the fixed ones");
+                    : "fixed joints already connect these bodies: remove this joint, or one of the fixed joints");
   if (formats::joint_kind(spec.kind).axes == formats::JointAxes::required && !spec.axis && !spec.a.orientation &&
       !spec.b.orientation)
     throw Error(fmt::format("{} joint '{}' has no axis", formats::joint_word(spec.kind), spec.name), spec.where,
@@ -53,8 +53,9 @@ void JointBuilder::set_length(const formats::JointSpec& spec, Joint& joint) cons
   joint.constant = spec.length.value_or(start);
   // Assembly can reach a given length from coincident markers.
   if (!spec.length && !(start > 1e-9 * model_.length))
-    throw Error(fmt::format("joint '{}' holds the distance of two markers at the same place", spec.name), spec.where,
-                "use a spherical joint, give the markers different positions, or give its length");
+    throw Error(
+        fmt::format("joint '{}' keeps the distance between two markers, but both are at the same place", spec.name),
+        spec.where, "use a spherical joint, give the markers different positions, or give the joint a length");
 }
 
 double JointBuilder::distance_at_start(const Marker& a, const Marker& b) const {
@@ -95,7 +96,7 @@ void JointBuilder::add_friction(const formats::JointSpec& joint) {
 
 int JointBuilder::add_thread(const formats::JointSpec& spec) {
   Coupling thread;
-  thread.name = spec.name + ", advance with the turn";
+  thread.name = spec.name + ", advance with the rotation";
   thread.length = true;
   thread.thread = true;
   thread.from_start = true;
@@ -156,7 +157,7 @@ void JointBuilder::add(const formats::MotionSpec& spec) {
   if (!function.channels().empty())
     throw Error(
         fmt::format("motion '{}' uses channel '{}'", spec.name, model_.scope.channels[function.channels().front()]),
-        spec.where, "a motion is a function of t and inputs; forces may use channels");
+        spec.where, "write the motion as a function of t and inputs; only forces may use channels");
   breakpoints_.insert(function.breakpoints().begin(), function.breakpoints().end());
   model_.motions.push_back(spec.value);
   activate(motion);

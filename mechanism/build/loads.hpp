@@ -6,7 +6,8 @@
 
 namespace tisserand::mechanism {
 
-/// Adds a load. Throws Error for a load on ground or on a node without the coordinates on which it acts.
+/// Adds a load to the model under construction. Throws Error for a load on ground or on a node without the coordinates
+/// on which it acts.
 void add_load(const formats::LoadSpec& spec, Construction& c);
 
 }  // namespace tisserand::mechanism

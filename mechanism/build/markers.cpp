@@ -84,9 +84,9 @@ void check_marker(const Model& model, const std::string& subject, MarkerUse use,
                 place.where, "keep the translations of that node in the superelement");
   if (has_rotation(model, marker.node)) return;
   if (use.axes && use.other_way_round)
-    throw Error(fmt::format("{} takes its axes from node '{}', which has no rotations", subject, place.node),
-                place.where,
-                "exchange a and b: the axes are those of a; or keep the rotations of that node in the superelement");
+    throw Error(
+        fmt::format("{} takes its axes from node '{}', which has no rotations", subject, place.node), place.where,
+        "exchange a and b, because the axes are those of a; or keep the rotations of that node in the superelement");
   if (use.axes)
     throw Error(fmt::format("{} holds the rotation of node '{}', which has none", subject, place.node), place.where,
                 "use a spherical joint, or keep the rotations of that node in the superelement");
@@ -99,10 +99,10 @@ void check_marker(const Model& model, const std::string& subject, MarkerUse use,
 void add_rigid_arms(const MarkerTable& markers, const formats::JointSpec& spec, const Joint& joint, double length,
                     std::vector<RigidArm>& arms) {
   constexpr double shown = 1e-6;
-  const bool told = spec.position || spec.a.position || spec.b.position;
+  const bool reported = spec.position || spec.a.position || spec.b.position;
   const bool axes_kept = keeps_orientation(joint) || aligned_axis(joint) >= 0;
   const auto add = [&](const formats::MarkerSpec& side, const Marker& marker) {
-    if (marker.node < 0 || side.position || (told && markers.frames.contains(side.node))) return;
+    if (marker.node < 0 || side.position || (reported && markers.frames.contains(side.node))) return;
     const Vector3d arm = markers.position(marker) - markers.position(markers.find(side));
     const Vector3d in_A = marker_rotation(joint.a, markers.motion(joint.a.node)).transpose() * arm;
     const bool is_b = &side == &spec.b;
@@ -121,7 +121,7 @@ std::string rigid_arms_text(std::vector<RigidArm> arms, const Units& units) {
   std::vector<std::string> texts;
   for (const RigidArm& arm : arms)
     texts.push_back(fmt::format("'{}' {:.4g}{} from '{}'", arm.joint, arm.length, unit, arm.place));
-  return "joints away from the nodes that they name, which rigid arms bridge: " + listed(texts);
+  return "rigid arms connect joints with the nodes that they name: " + listed(texts);
 }
 
 }  // namespace tisserand::mechanism

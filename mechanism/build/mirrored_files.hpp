@@ -15,12 +15,15 @@ namespace tisserand::mechanism {
 
 /// Table of files and their mirror images. File: formats::LoadedSuperelement or formats::LoadedModalBody.
 template <class File>
+/// Table of files and their mirror images, in which each image is made once. `File`: formats::LoadedSuperelement or
+/// formats::LoadedModalBody.
 class MirroredFiles {
  public:
-  /// `files` by path must outlive this object.
+  /// Starts a table of `files` by path, without mirror images. Requires that `files` outlives this object.
   explicit MirroredFiles(const std::map<std::string, File>& files) : files_(files) {}
 
-  /// File at `path`, mirrored by `axes`, the diagonal of the mirror (formats/superelement/mirror.hpp).
+  /// File at `path`, mirrored by `axes`. `axes`: diagonal of the mirror, entries ±1 (formats/superelement/mirror.hpp);
+  /// all 1: unchanged.
   const File& at(const std::string& path, const Eigen::Vector3d& axes) {
     const File& file = files_.at(path);
     if ((axes.array() > 0.0).all()) return file;

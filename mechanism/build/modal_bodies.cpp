@@ -24,11 +24,11 @@ using Eigen::MatrixXd;
 int count_modes(const formats::ModalBody& file, const formats::ModalBodySpec& spec, const UnitConversion& units) {
   const int all = static_cast<int>(file.modes());
   if (spec.modes && *spec.modes > all)
-    throw Error(fmt::format("body '{}': {} modes are asked for, the file has {}", spec.name, *spec.modes, all),
-                spec.where, "ask for fewer, or write a file with more");
+    throw Error(fmt::format("body '{}': {} modes are requested, but the file has {}", spec.name, *spec.modes, all),
+                spec.where, "request fewer modes, or write a file with more modes");
   if (count_of(spec.damping.ratios) > all)
     throw Error(fmt::format("body '{}': damping: {} ratios for {} modes", spec.name, spec.damping.ratios.size(), all),
-                spec.where, "give one ratio per mode at most");
+                spec.where, "give at most one ratio per mode");
   if (spec.modes) return *spec.modes;
   if (!spec.cutoff) return all;
   const double limit = 2.0 * std::numbers::pi * *spec.cutoff * units.time;
@@ -70,8 +70,8 @@ bool node_turns(const formats::ModalBody& file, std::size_t k) {
   return held == 3;
 }
 
-constexpr double told_excess = 0.02;    ///< smallest excess of the first frequency that is reported
-constexpr double share_of_a_row = 0.1;  ///< smallest entry of a held component, relative to the largest of its row
+constexpr double reported_excess = 0.02;  ///< smallest excess of the first frequency that is reported
+constexpr double share_of_a_row = 0.1;    ///< smallest entry of a held component, relative to the largest of its row
 
 /// Adds six rows of a joint's side on a body, in components of the body: axes of the frame, units of the file.
 void add_rows(const ReferenceModel& model, const std::string& node, const Eigen::Matrix<double, Eigen::Dynamic, 6>& B,
@@ -155,13 +155,13 @@ std::string too_stiff(const ReferenceModel& model, const MatrixXd& held, const H
   const double to_hertz = 1.0 / (2.0 * std::numbers::pi * model.units.time);
   const std::string what = beyond_reference(model, held), unit = unit_label(units, 0, 0, -1) == "s^-1" ? " Hz" : "";
   const std::string by_modes = std::isinf(found.by_modes)
-                                   ? fmt::format("cannot deform by its {} modes", model.omega2.size())
-                                   : fmt::format("has its first frequency at {:.4g}{} by its {} modes",
+                                   ? fmt::format("cannot deform with its {} modes", model.omega2.size())
+                                   : fmt::format("has its first frequency at {:.4g}{} with its {} modes",
                                                  found.by_modes * to_hertz, unit, model.omega2.size());
   return fmt::format(
-      "modal body '{}' is too stiff: the scene holds it on the ground at {}, which the `reference` of its modes leaves "
-      "free. The body alone, held like this, {}; with its static flexibility there it has {:.4g}{}. Take more modes, a "
-      "`reference` that holds what the scene holds, or the superelement of the part",
+      "modal body '{}' is too stiff. The scene holds it on the ground at {}, but the `reference` of its modes leaves "
+      "this free. Held in this way, the body alone {}. With its static flexibility there, its first frequency is "
+      "{:.4g}{}. Use more modes, a `reference` that holds the same as the scene, or the superelement of the part",
       model.name, what.empty() ? "its nodes" : what, by_modes, found.with_residual * to_hertz, unit);
 }
 
@@ -197,10 +197,10 @@ void note_held_modes(Construction& c) {
     const MatrixXd held = held_rows(model, c, ground);
     if (held.rows() == 0 || model.omega2.size() == 0) continue;
     const HeldFrequencies found = held_frequencies(model, held);
-    if (!(found.with_residual > 0.0) || !(found.by_modes > (1.0 + told_excess) * found.with_residual)) continue;
+    if (!(found.with_residual > 0.0) || !(found.by_modes > (1.0 + reported_excess) * found.with_residual)) continue;
     // Checks again with all joints held: the modes may suit a body between moving ones.
     const HeldFrequencies joined = held_frequencies(model, held_rows(model, c, {}));
-    if (joined.by_modes > 0.0 && joined.by_modes < (1.0 + told_excess) * joined.with_residual) continue;
+    if (joined.by_modes > 0.0 && joined.by_modes < (1.0 + reported_excess) * joined.with_residual) continue;
     c.notes.push_back(too_stiff(model, held, found, c.model.units));
   }
 }

@@ -10,22 +10,26 @@
 
 namespace tisserand::mechanism {
 
+/// Modal body made from a file, with its nodes and the pose of its frame in the part frame.
 struct BuiltModalBody {
-  ModalBody body;  ///< without the node of its frame
+  ModalBody body;  ///< modal body, not yet on the node of its frame
   std::vector<ModalNode> nodes;
-  Eigen::Vector3d frame_position = Eigen::Vector3d::Zero();  ///< body frame in the part frame, scene units
+  /// Origin of the body frame in the part frame, units of the scene.
+  Eigen::Vector3d frame_position = Eigen::Vector3d::Zero();
   Eigen::Matrix3d frame_rotation = Eigen::Matrix3d::Identity();
 };
 
-/// Builds a modal body with the lowest `modes`, or those below `cutoff`. Damping of the scene adds to that of the file.
-/// It acts on the modes alone, so rigid motion is not damped. Throws Error for more modes or ratios than the file has.
+/// Builds a modal body with the lowest `modes` of the file, or with those below `cutoff` (keys of `spec`). `units`:
+/// from the units of the file to those of the scene. Damping of the scene adds to that of the file. It acts on the
+/// modes alone, so rigid motion is not damped. Throws Error for more modes or damping ratios than the file has.
 BuiltModalBody build_modal_body(const formats::ModalBody& file, const formats::ModalBodySpec& spec,
                                 const UnitConversion& units);
 
 struct Construction;
 
-/// Notes each modal body whose first frequency, held as joints to ground hold it, is over 2 % too high because static
-/// flexibility is missing. Requires all joints. Not for planar scenes: motion out of the plane has no effect there.
+/// Adds a note for each modal body whose first frequency is more than 2 % too high, because static flexibility is
+/// missing. The frequency is that of the body held as its joints to ground hold it. Requires that all joints were
+/// added. Not for planar scenes: motion out of the plane has no effect there.
 void note_held_modes(Construction& c);
 
 }  // namespace tisserand::mechanism

@@ -20,11 +20,11 @@ Error missing_load_case(const formats::PartLoadSpec& load, const formats::Supere
   const std::string who =
       fmt::format("load '{}': body '{}' has no load case '{}'", load.name, load.body, load.load_case);
   if (companion == nullptr)
-    return {fmt::format("{}: there is no {}", who, path), load.where,
-            "let the program that made it write one: `load_cases` in the part file"};
+    return {fmt::format("{}: there is no file {}", who, path), load.where,
+            "write load cases with `load_cases` in the part file"};
   if (companion->load_cases.empty())
-    return {fmt::format("{}: {} has none", who, path), load.where,
-            "let the program that made it write one: `load_cases` in the part file"};
+    return {fmt::format("{}: the file {} has no load cases", who, path), load.where,
+            "write load cases with `load_cases` in the part file"};
   std::vector<std::string> names;
   for (const formats::LoadCase& one : companion->load_cases) names.push_back(one.name);
   return {fmt::format("{} in {}", who, path), load.where, "its load cases are " + listed(names)};

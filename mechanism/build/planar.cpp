@@ -34,7 +34,7 @@ class PlanarCheck {
   void bodies() const {
     for_each_body(model_, [&](const auto& body) {
       require_in_plane(body.gravity, body.gravity.norm(), fmt::format("gravity of body '{}'", name_of(model_, body)),
-                       "turn it into the plane");
+                       "rotate it into the plane");
     });
     for (const RigidBody& body : model_.rigid_bodies)
       require_normal(body.inertia.col(2) - body.inertia(2, 2) * Vector3d::UnitZ(), body.inertia.trace(),
@@ -51,9 +51,9 @@ class PlanarCheck {
       const Vector3d v = body.velocity.value_or(Vector3d::Zero()),
                      omega = body.angular_velocity.value_or(Vector3d::Zero());
       require_in_plane(v, std::max(fastest, v.norm()), fmt::format("the velocity of body '{}'", body.name),
-                       "start it in the plane");
+                       "give it a velocity in the plane");
       require_normal(omega, std::max(fastest / model_.length, omega.norm()),
-                     fmt::format("the angular velocity of body '{}'", body.name), "let it turn about the normal");
+                     fmt::format("the angular velocity of body '{}'", body.name), "let it rotate about the normal");
     }
   }
 
@@ -66,7 +66,7 @@ class PlanarCheck {
   void rotations() const {
     const auto require = [this](const std::optional<Vector3d>& omega, const char* name) {
       if (omega)
-        require_normal(model_.axes.transpose() * *omega, omega->norm(), name, "let the scene turn about the normal");
+        require_normal(model_.axes.transpose() * *omega, omega->norm(), name, "let the scene rotate about the normal");
     };
     const std::optional<formats::RotationSpec>& steady = c_.scene.statics.rotation;
     if (c_.scene.analysis == formats::AnalysisKind::statics)
@@ -81,7 +81,7 @@ class PlanarCheck {
     for (const Load& one : model_.loads) load(one);
     for (const PartLoad& one : model_.part_loads) {
       if (one.node < 0) continue;
-      const std::string name = fmt::format("part load '{}'", one.name), remedy = "leave it out";
+      const std::string name = fmt::format("part load '{}'", one.name), remedy = "remove it";
       require_in_plane(one.force, one.force.norm(), name, remedy);
       require_normal(one.moment, std::max(one.moment.norm(), model_.length * one.force.norm()), "the moment of " + name,
                      remedy);
@@ -92,14 +92,15 @@ class PlanarCheck {
     for (const Tyre& tyre : model_.tyres) {
       const NodeMotion& wheel = c_.markers.start[tyre.wheel.node];
       const std::string name = fmt::format("tyre '{}'", tyre.name);
-      require_normal(marker_rotation(tyre.wheel, wheel).col(1), 1.0, "the axle of " + name, "let it be the normal");
+      require_normal(marker_rotation(tyre.wheel, wheel).col(1), 1.0, "the axle of " + name,
+                     "make it parallel to the normal");
       if (std::abs(tyre.wheel.p.z()) > planar_share * model_.length)
-        leave(fmt::format("{} rolls {:.6g} out of the plane of its node", name, tyre.wheel.p.z()),
-              "put it into the plane");
+        leave(fmt::format("{} rolls {:.6g} away from the plane of its node", name, tyre.wheel.p.z()),
+              "move it into the plane");
       road(model_.roads[tyre.road], tyre, marker_position(tyre.wheel, wheel));
       if (const double sideways = sideways_share(tyre); !(sideways <= planar_share))
-        leave(fmt::format("{} pulls sideways by {:.3g} of its load where it rolls straight", name, sideways),
-              "scale its shifts to nothing (LHY, LVY, LVYKA, LVMX, LRES, LS: 0)");
+        leave(fmt::format("{} has a side force of {:.3g} of its load while it rolls straight", name, sideways),
+              "set the scale factors of its shifts to 0 (LHY, LVY, LVYKA, LVMX, LRES, LS)");
     }
   }
 
@@ -134,9 +135,9 @@ class PlanarCheck {
       for (int row = 0; row < 3; ++row) {
         const Parts parts = parts_of(Row12(terms.B.row(row)), joint.a, joint.b);
         if (row < 2 && !parts.stays())
-          leave(fmt::format("{} is {:.6g} and {:.6g} out of the planes of the nodes that it joins", name,
+          leave(fmt::format("{} is {:.6g} and {:.6g} away from the planes of the nodes that it connects", name,
                             joint.a.node < 0 ? 0.0 : joint.a.p.z(), joint.b.node < 0 ? 0.0 : joint.b.p.z()),
-                "put it into their planes");
+                "move it into their planes");
       }
       if (!(std::abs(terms.phi[2]) <= planar_share * model_.length))
         leave(fmt::format("{} is open by {:.6g} along the normal", name, terms.phi[2]), "close it at the start");
@@ -175,18 +176,19 @@ class PlanarCheck {
   [[noreturn]] void leave(const std::string& what, const std::string& remedy) const {
     throw Error(
         fmt::format("effects: the scene is not planar: {} (normal of the plane {})", what, text_of(model_.axes.col(2))),
-        c_.scene.planar_at, remedy + ", or give planar: off");
+        c_.scene.planar_at, remedy + ", or set planar: off");
   }
 
   /// Throws Error if the component of `v` out of the plane is not negligible relative to `size`.
   void require_in_plane(const Vector3d& v, double size, const std::string& what, const std::string& remedy) const {
     if (!(std::abs(v.z()) <= planar_share * size))
-      leave(fmt::format("{} has the part {:.6g} along it", what, v.z()), remedy);
+      leave(fmt::format("{} has a component of {:.6g} normal to the plane", what, v.z()), remedy);
   }
 
   void require_normal(const Vector3d& v, double size, const std::string& what, const std::string& remedy) const {
     const double across = v.head<2>().norm();
-    if (!(across <= planar_share * size)) leave(fmt::format("{} has the part {:.6g} across it", what, across), remedy);
+    if (!(across <= planar_share * size))
+      leave(fmt::format("{} has a component of {:.6g} parallel to the plane", what, across), remedy);
   }
 
   void require_apart(const MatrixXd& A, const std::vector<bool>& in_plane, const std::string& what) const {
@@ -195,10 +197,10 @@ class PlanarCheck {
       for (Eigen::Index j = 0; j < A.cols(); ++j) {
         const double size = std::sqrt(std::abs(A(i, i) * A(j, j)));
         if (in_plane[i] != in_plane[j] && !(std::abs(A(i, j)) <= std::max(planar_share * size, round_off)))
-          leave(fmt::format(
-                    "{} couples motion in it with motion out of it: entry {:.3g} beside diagonals of {:.3g} and {:.3g}",
-                    what, A(i, j), A(i, i), A(j, j)),
-                "make it symmetric to the plane");
+          leave(fmt::format("{} couples motion in the plane with motion out of the plane: entry {:.3g}, diagonal "
+                            "entries {:.3g} and {:.3g}",
+                            what, A(i, j), A(i, i), A(j, j)),
+                "make it symmetric about the plane");
       }
   }
 
@@ -206,9 +208,11 @@ class PlanarCheck {
     const Coordinate& one = model_.coordinates[index];
     const Parts parts = parts_of(evaluate(one.relation, markers(one.a, one.b)).G, one.a, one.b);
     if (!parts.stays())
-      leave(fmt::format("{} acts along coordinate '{}', which is not in it ({:.3g} out of it, {:.3g} in it)", user,
-                        one.name, parts.out, parts.in),
-            "act in the plane");
+      leave(
+          fmt::format(
+              "{} acts along coordinate '{}', which is not in the plane ({:.3g} out of the plane, {:.3g} in the plane)",
+              user, one.name, parts.out, parts.in),
+          "use a coordinate in the plane");
   }
 
   void coordinates() const {
@@ -223,9 +227,9 @@ class PlanarCheck {
     const int modal = modal_node(model_, marker.node);
     if (modal < 0) return;
     if (const ModalNode& node = model_.modal_nodes[modal]; node.x.z() != 0.0)
-      leave(fmt::format("{} is on node '{}' of modal body '{}', {:.6g} beside the plane through its centre of mass",
+      leave(fmt::format("{} is on node '{}' of modal body '{}', {:.6g} away from the plane through its centre of mass",
                         user, node.name, model_.modal_bodies[node.body].name, node.x.z()),
-            "take a node in this plane");
+            "use a node in this plane");
   }
 
   void bushing(const Bushing& one) const {
@@ -238,8 +242,8 @@ class PlanarCheck {
     const std::string name = fmt::format("bushing '{}'", one.name);
     const Parts parts = parts_of(terms.force.transpose(), one.a, one.b);
     if (!parts.stays() && parts.out > 0.0)
-      leave(fmt::format("{} pulls out of it with {:.3g}, beside {:.3g} in it", name, parts.out, parts.in),
-            "let its preload and its deflection without force be in the plane");
+      leave(fmt::format("{} has a force of {:.3g} out of the plane ({:.3g} in the plane)", name, parts.out, parts.in),
+            "choose its `preload` and `free` in the plane");
     std::vector<bool> in_plane;
     for (int k = 0; k < 12; ++k) in_plane.push_back(k % 6 < 3 ? k % 3 < 2 : k % 3 == 2);
     Square12 A;
@@ -257,18 +261,19 @@ class PlanarCheck {
   /// Checks a road: it may slope along the plane only, and be level across it where the wheel rolls.
   void road(const Road& one, const Tyre& tyre, const Vector3d& center) const {
     const std::string name = fmt::format("the normal of road '{}'", one.name);
-    require_in_plane(one.R.col(2), 1.0, name, "incline it along the plane alone");
+    require_in_plane(one.R.col(2), 1.0, name, "incline the road along the plane only");
     if (one.surface)
       leave(fmt::format("road '{}' has heights over a surface", one.name),
             "give its heights along the plane as a curve");
     if (one.left.empty() && one.right.empty()) return;
-    require_normal(one.R.col(1), 1.0, fmt::format("y of road '{}'", one.name), "let its x lie in the plane");
+    require_normal(one.R.col(1), 1.0, fmt::format("the y axis of road '{}'", one.name),
+                   "let its x axis lie in the plane");
     const double beside = std::abs(one.R.col(1).dot(center - one.p));
     if (one.transition > 0.0 && beside < 0.5 * one.transition + base_of_plane * tyre.radius)
-      leave(
-          fmt::format("tyre '{}' rolls {:.6g} beside the middle of road '{}', where one track goes over into the other",
-                      tyre.name, beside, one.name),
-          "put the wheel on one of its tracks");
+      leave(fmt::format("tyre '{}' rolls {:.6g} away from the middle of road '{}', where one track changes "
+                        "into the other",
+                        tyre.name, beside, one.name),
+            "put the wheel on one of its tracks");
   }
 
   /// Checks a load: components that vary must act in the plane, the constant ones in sum.
@@ -283,16 +288,17 @@ class PlanarCheck {
       const Vector3d direction = axes.col(k);
       const Vector3d out = force ? Vector3d(0, 0, direction.z()) : Vector3d(direction.x(), direction.y(), 0);
       if (constant == nullptr && out.norm() > planar_share)
-        leave(fmt::format("component {} of {} is no constant and has the part {:.3g} out of it", "xyz"[k], name,
+        leave(fmt::format("component {} of {} varies, and {:.3g} of it acts out of the plane", "xyz"[k], name,
                           out.norm()),
-              "let what points out of the plane be the number 0");
+              "set components out of the plane to the number 0");
       sum += constant == nullptr ? Vector3d(Vector3d::Zero()) : Vector3d(*constant * out);
       size = std::max(size, constant == nullptr ? 0.0 : std::abs(*constant));
     }
     if (sum.norm() > planar_share * size)
-      leave(fmt::format("{} has the part {:.6g} out of it", name, sum.norm()), "leave it out");
+      leave(fmt::format("{} has a component of {:.6g} out of the plane", name, sum.norm()), "remove this component");
     if (force && one.at.node >= 0 && std::abs(one.at.p.z()) > planar_share * model_.length)
-      leave(fmt::format("{} acts {:.6g} out of the plane of its node", name, one.at.p.z()), "let it act in the plane");
+      leave(fmt::format("{} acts {:.6g} away from the plane of its node", name, one.at.p.z()),
+            "move it into the plane");
   }
 
   /// Checks mass and stiffness of beams at the start.
@@ -329,10 +335,11 @@ class PlanarCheck {
         std::abs(terms.value - constant) <= planar_share * size)
       return false;
     leave(parts.leaves() ? fmt::format("{} is open by {:.6g} out of the plane", name, terms.value - constant)
-                         : fmt::format("{} ties motion in the plane to motion out of it ({:.3g} beside {:.3g})", name,
-                                       parts.out, parts.in),
-          "put its markers at the places of their bodies in the plane, and all their axes along the normal or in the "
-          "plane (x_axis)");
+                         : fmt::format("{} couples motion in the plane with motion out of the plane ({:.3g} out of the "
+                                       "plane, {:.3g} in the plane)",
+                                       name, parts.out, parts.in),
+          "move its markers into the plane of their bodies, and set their axes along the normal or in the plane "
+          "(x_axis)");
   }
 
   Construction& c_;
@@ -374,8 +381,8 @@ auto named(const std::string& kind, const std::string& name, const Construction&
   try {
     return reduce();
   } catch (const LeavesPlane& fault) {
-    throw Error(fmt::format("effects: the scene is not planar: of {} '{}', {}", kind, name, fault.what),
-                c.scene.planar_at, remedy + ", or give planar: off");
+    throw Error(fmt::format("effects: the scene is not planar: {} '{}': {}", kind, name, fault.what), c.scene.planar_at,
+                remedy + ", or set planar: off");
   }
 }
 
@@ -393,7 +400,7 @@ void make_superelements_planar(const std::vector<Eigen::Matrix3d>& axes, Constru
     while (at < made.size() && (made[at].from != use.body || (made[at].axes - own).cwiseAbs().maxCoeff() > same_axes))
       ++at;
     if (at == made.size()) {
-      bodies.push_back(named("superelement", use.name, c, "make the part symmetric to the plane",
+      bodies.push_back(named("superelement", use.name, c, "make the part symmetric about the plane",
                              [&] { return planar_body(model.superelement_bodies[use.body], own); }));
       made.push_back({use.body, own});
     }
@@ -413,7 +420,8 @@ void make_modal_bodies_planar(const std::vector<Eigen::Matrix3d>& axes, Construc
     for (ModalNode& node : model.modal_nodes)
       if (node.body == i) nodes.push_back(&node);
     named("modal body", body.name, c,
-          "make the part symmetric to the plane, use both modes of a pair of one frequency and damp them alike",
+          "make the part symmetric about the plane, use both modes of each pair with equal frequencies, and give both "
+          "the same damping",
           [&] { make_planar(axes[body.node], model.length, body, nodes); });
   }
 }

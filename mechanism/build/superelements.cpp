@@ -44,22 +44,24 @@ bool make_the_same(const SuperelementOptions& a, const SuperelementOptions& b) {
 void refuse_wrong_combinations(const formats::SuperelementBodySpec& spec, const SecondOrderChoice& choice) {
   using formats::InertiaOption, formats::StiffeningOption;
   if (choice.stiffening == StiffeningOption::full && choice.inertia != InertiaOption::F)
-    throw Error("stiffening full without inertia F: it is the stress of that inertia", spec.where,
-                "give inertia: F, or stiffening: stress with inertia: M");
+    throw Error("stiffening full needs inertia F, because it contains the stress of these inertia forces", spec.where,
+                "set inertia: F, or stiffening: stress with inertia: M");
   if (choice.stiffening == StiffeningOption::stress &&
       (choice.inertia == InertiaOption::A || choice.inertia == InertiaOption::B))
-    throw Error("stiffening with inertia A or B, which errs by 30 % where bodies turn and translate fast", spec.where,
-                "give inertia: F (or M with stiffening: stress), or second_order: on");
+    throw Error(
+        "stiffening cannot be combined with inertia A or B: errors reach 30 % if bodies rotate and translate fast",
+        spec.where, "set inertia: F (or M with stiffening: stress), or second_order: on");
 }
 
 [[noreturn]] void throw_without_companion(const formats::SuperelementBodySpec& spec, const SecondOrderChoice& choice,
                                           const formats::Companion* companion) {
   const std::string path = formats::companion_path(spec.file);
-  const std::string what = companion == nullptr ? "a companion file, and there is no " + path
-                                                : fmt::format("H, C, E, N and T, and {} has load cases only", path);
+  const std::string what = companion == nullptr
+                               ? "a companion file, but there is no file " + path
+                               : fmt::format("the arrays H, C, E, N and T, but {} has load cases only", path);
   throw Error(fmt::format("{} needs {}", describe(choice), what), spec.where,
-              "the program that made the superelement can write one: `second_order: yes` in the part file "
-              "(with method craig_bampton or rubin, macneal cannot); or give second_order: off");
+              "write a companion file with `second_order: yes` in the part file (only with method craig_bampton or "
+              "rubin), or set `second_order: off` at the body");
 }
 
 }  // namespace
@@ -94,10 +96,10 @@ SecondOrderChoice choose_second_order(const formats::SuperelementBodySpec& spec,
   const bool knows = available && !companion->Lambda.empty(), stiffens = choice.stiffening != StiffeningOption::off;
   choice.double_curvature = spec.double_curvature.value_or(knows && stiffens);
   if (choice.double_curvature && !stiffens)
-    throw Error("double_curvature: on without stiffening, of which it is a part", spec.where,
-                "give second_order: on, or remove double_curvature");
+    throw Error("double_curvature: on needs stiffening, because it is a part of it", spec.where,
+                "set second_order: on, or remove double_curvature");
   if (choice.double_curvature && !knows)
-    throw Error(fmt::format("double_curvature: on, but {} has no Lambda", formats::companion_path(spec.file)),
+    throw Error(fmt::format("double_curvature: on, but {} has no array Lambda", formats::companion_path(spec.file)),
                 spec.where, "reduce the part with `double_curvature: 20` in the part file, or remove double_curvature");
   return choice;
 }

@@ -53,7 +53,7 @@ void check_axle(const formats::TyreSpec& spec, const Tyre& tyre, const Construct
   if (nearest == nullptr || least <= parallel_axle) return;
   throw Error(fmt::format("tyre '{}': its axle is {:.3g} degrees away from the axis of joint '{}'", spec.name,
                           least * 180.0 / std::numbers::pi, nearest->name),
-              spec.where, "give axis along that of the joint on which the wheel turns");
+              spec.where, "set `axis` along the axis of the joint on which the wheel turns");
 }
 
 void check_tyre_start(const formats::TyreSpec& spec, const Tyre& tyre, Construction& c) {
@@ -62,22 +62,23 @@ void check_tyre_start(const formats::TyreSpec& spec, const Tyre& tyre, Construct
   evaluate(tyre, road, c.markers.motion(tyre.wheel.node), Tread{}, terms);
   const std::string unit = after_number(unit_label(c.model.units, 1, 0, 0));
   if (terms.normal.isZero(0.0))
-    throw Error(fmt::format("tyre '{}': its axle stands across the road '{}': the wheel lies on its side", spec.name,
+    throw Error(fmt::format("tyre '{}': its axle is normal to the road '{}', so the wheel lies on its side", spec.name,
                             road.name),
-                spec.where, "give axis along the axle, or turn the road");
+                spec.where, "set `axis` along the axle, or rotate the road");
   const Vector3d contact = road.R.transpose() * (terms.contact - road.p);
   if (const std::optional<RoadLack> lack = road.lack(contact.x(), contact.y()))
     throw Error(
         lack->hole
             ? fmt::format("tyre '{}' starts in a hole of the road '{}'", spec.name, road.name)
-            : fmt::format("tyre '{}' starts at {} = {:.6g}{} of the road '{}', which is there from {:.6g} to {:.6g}",
+            : fmt::format("tyre '{}' starts at {} = {:.6g}{} of the road '{}', which extends from {:.6g} to {:.6g}",
                           spec.name, lack->axis, lack->at, unit, road.name, lack->begin, lack->end),
         spec.where,
-        road.surface ? "move the wheel, or the road by its pose" : "lengthen the curve of the road, or move the wheel");
+        road.surface ? "move the wheel, or move the road with its `pose`"
+                     : "lengthen the curve of the road, or move the wheel");
   if (terms.penetration > deepest * tyre.radius)
     throw Error(
         fmt::format("tyre '{}' starts {:.4g}{} deep in the road '{}'", spec.name, terms.penetration, unit, road.name),
-        spec.where, "raise the body, or lower the road by its pose");
+        spec.where, "raise the body, or lower the road with its `pose`");
   if (terms.penetration < -highest * tyre.radius)
     c.notes.push_back(
         fmt::format("tyre '{}' starts {:.4g}{} above the road '{}'", spec.name, -terms.penetration, unit, road.name));
@@ -93,7 +94,7 @@ void take_properties(const formats::TyreSpec& spec, Tyre& tyre, Construction& c)
     law.pressure = pressure / p.NOMPRES - 1.0;
     if ((p.PRESMIN > 0.0 && pressure < p.PRESMIN) || (p.PRESMAX > 0.0 && pressure > p.PRESMAX))
       c.notes.push_back(
-          fmt::format("tyre '{}': its pressure {:g} is outside of what its file was fitted for, {:g} to {:g}",
+          fmt::format("tyre '{}': its pressure {:g} is outside the range for which its file was fitted, {:g} to {:g}",
                       spec.name, pressure, p.PRESMIN, p.PRESMAX));
   }
   tyre.damping = p.VERTICAL_DAMPING;
@@ -102,7 +103,8 @@ void take_properties(const formats::TyreSpec& spec, Tyre& tyre, Construction& c)
   const double whole = p.VERTICAL_STIFFNESS * p.UNLOADED_RADIUS / p.FNOMIN;
   if (linear == 0.0) linear = std::sqrt(std::max(whole * whole - 4.0 * p.QFZ2, 0.0));
   if (!(linear > 0.0 && by_pressure > 0.0 && p.QFZ2 >= 0.0))
-    throw Error(fmt::format("tyre '{}': its vertical spring softens or pulls (Q_FZ1 {:.4g}, Q_FZ2 {:.4g}, factor of "
+    throw Error(fmt::format("tyre '{}': the stiffness of its vertical spring is zero or negative, or it decreases with "
+                            "deflection (Q_FZ1 {:.4g}, Q_FZ2 {:.4g}, factor of "
                             "the pressure {:.4g})",
                             spec.name, linear, p.QFZ2, by_pressure),
                 spec.where, "correct Q_FZ1, Q_FZ2, PFZ1 of the file, or the pressure");
@@ -125,12 +127,12 @@ void take_properties(const formats::TyreSpec& spec, Tyre& tyre, Construction& c)
 /// Adds coordinates for the deflections of the tread.
 void give_treads(const formats::TyreSpec& spec, Tyre& tyre, Construction& c) {
   if (c.model.nodes[tyre.wheel.node].modal >= 0)
-    throw Error(fmt::format("tyre '{}' relaxes and is on a node of a modal body", spec.name), spec.where,
-                "put it on a rigid wheel, or leave relaxation out");
+    throw Error(fmt::format("tyre '{}' has relaxation, but is on a node of a modal body", spec.name), spec.where,
+                "put it on a rigid wheel, or remove its relaxation");
   if (const double least = least_relaxation * tyre.radius; spec.relaxation_length && tyre.relaxation < least)
     throw Error(fmt::format("tyre '{}': relaxation_length {:g} is less than a twentieth of its radius, {:.4g}",
                             spec.name, tyre.relaxation, least),
-                spec.where, "leave it out: so short a tread follows at once");
+                spec.where, "remove it: so short a tread follows without delay");
   tyre.lag = std::exchange(c.model.sizes.modal, c.model.sizes.modal + 2);
 }
 
@@ -141,10 +143,11 @@ void check_bends(const formats::RoadSpec& spec, const Construction& c) {
   const HeightGrid& grid = road.surface->grid;
   const double bend = road.surface->line->sharp_bend(grid.t_begin(), grid.t_end());
   if (std::isnan(bend)) return;
-  throw Error(fmt::format("road '{}': its reference line bends so sharply at u = {:.6g}{} that the cuts across it "
-                          "cross within its width",
+  throw Error(fmt::format("road '{}': its reference line bends so sharply at u = {:.6g}{} that its cross-sections "
+                          "intersect within its width",
                           spec.name, bend, after_number(unit_label(c.model.units, 1, 0, 0))),
-              spec.where, "smooth the headings in the file, or leave the long sections out that are that far inside");
+              spec.where,
+              "smooth the headings in the file, or remove the long sections that are that far inside the bend");
 }
 
 void add_tyre(const formats::TyreSpec& spec, Construction& c) {
@@ -153,7 +156,8 @@ void add_tyre(const formats::TyreSpec& spec, Construction& c) {
   tyre.wheel = c.markers.find(spec.wheel);
   check_marker(c.model, fmt::format("tyre '{}'", spec.name), use_position_and_axes, spec.wheel, tyre.wheel);
   if (tyre.wheel.node < 0)
-    throw Error(fmt::format("tyre '{}' is on the ground", spec.name), spec.where, "name the body of the wheel");
+    throw Error(fmt::format("tyre '{}' is attached to the ground", spec.name), spec.where,
+                "name the body of the wheel");
   if (spec.axis) tyre.wheel.R = frame_with_y(c.markers.motion(tyre.wheel.node).R.transpose() * *spec.axis);
   const auto road = std::ranges::find(c.model.roads, spec.road, &Road::name);
   TISSERAND_ENSURE(road != c.model.roads.end(), "no road '{}'", spec.road);

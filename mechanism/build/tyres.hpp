@@ -6,8 +6,9 @@
 
 namespace tisserand::mechanism {
 
-/// Adds all roads, then all tyres; requires their joints. Throws Error (collected in `c`) for a node without rotations,
-/// an axle that is not that of the wheel's revolute joint, a start deep in the road or without it.
+/// Adds all roads of the scene, then all tyres. Requires that the joints of the wheels were added. Errors are collected
+/// in `c`: a node without rotations, an axle that is not that of the wheel's revolute joint, a start deep in the road
+/// or off the road.
 void add_tyres(Construction& c);
 
 }  // namespace tisserand::mechanism

@@ -97,11 +97,11 @@ class Grouping {
             carrier = node;
         }
     if (is_virtual(carrier) && !turning.empty())
-      throw Error(fmt::format("nothing determines the orientation of virtual body '{}': it is tied only to {}, without "
-                              "rotations",
+      throw Error(fmt::format("nothing determines the orientation of virtual body '{}': it is tied only to nodes "
+                              "without rotations ({})",
                               name(group.front()), listed(turning)),
                   where(group.front()),
-                  "tie it to a node with rotations, or hold three of these nodes with spherical joints");
+                  "tie it to a node with rotations, or connect it to three of these nodes with spherical joints");
     return carrier;
   }
 
@@ -167,8 +167,8 @@ class Grouping {
     const Eigen::Matrix3d R = marker_rotation(pose, carrier);
     const double gap = (start.x - x).norm(), turn = angle_between(start.R, R);
     if (!(gap <= scene_.initial_tolerance * model_.length && turn <= scene_.initial_tolerance))
-      throw Error(fmt::format("virtual body '{}' is {:.3g} and {:.3g} rad away from where joint '{}' ties it ("
-                              "initial_tolerance allows {:.3g} and {:.3g} rad)",
+      throw Error(fmt::format("virtual body '{}' is at a distance of {:.3g} and an angle of {:.3g} rad from the pose "
+                              "that joint '{}' requires (initial_tolerance allows {:.3g} and {:.3g} rad)",
                               name(body), gap, turn, joint.name, scene_.initial_tolerance * model_.length,
                               scene_.initial_tolerance),
                   where(body), "correct its pose or the markers of the joint, or raise initial_tolerance");
@@ -180,7 +180,8 @@ class Grouping {
   void require_closed(const Tie& tie, const formats::JointSpec& joint) const {
     const double gap = (tie.a.p - tie.b.p).norm(), turn = angle_between(tie.a.R, tie.b.R);
     if (gap <= loop_tolerance * model_.length && turn <= loop_tolerance) return;
-    throw Error(fmt::format("the loop of fixed joints that joint '{}' closes stays open by {:.3g} and {:.3g} rad",
+    throw Error(fmt::format("the loop of fixed joints that joint '{}' closes stays open by a distance of {:.3g} and an "
+                            "angle of {:.3g} rad",
                             joint.name, gap, turn),
                 joint.where, "remove the joint, or correct the markers of the loop");
   }

@@ -11,23 +11,27 @@
 
 namespace tisserand::mechanism {
 
-/// Result for the virtual bodies, which are the nodes from `first` on of the given table.
+/// Result of the elimination of virtual bodies. They are the nodes from index `first` on of the given table.
 struct TiedBodies {
-  std::vector<Marker> pose;  ///< pose on its carrier (node < first); a root that stays: on itself, p = 0, R = 1
-  std::vector<int> roots;    ///< virtual bodies (from 0) of groups without a carrier, one per group: they stay nodes
-  std::vector<Tie> ties;     ///< ties of the joints that vanish, markers on the carrier
-  std::set<std::string> vanished;  ///< names of these joints
-  std::vector<RigidArm> arms;      ///< rigid arms of these joints
+  /// Pose of each virtual body on its carrier (node < first). A root that stays a node is its own carrier, with p = 0
+  /// and R = 1.
+  std::vector<Marker> pose;
+  /// Indices (from 0) of virtual bodies that stay nodes, one for each group without a carrier.
+  std::vector<int> roots;
+  std::vector<Tie> ties;           ///< ties of the joints that disappear, with markers on the carrier
+  std::set<std::string> vanished;  ///< names of the joints that disappear
+  std::vector<RigidArm> arms;      ///< rigid arms of the joints that disappear
 };
 
-/// Groups virtual bodies that fixed joints tie together ([GA00] section 4). The carrier of a group is ground if it is
-/// tied to it, else the first node with rotations, else one of its own bodies. Fixed joints of the group with further
-/// nodes remain joints between these and the carrier. This is exact and needs no choice of coordinates to drop. Poses
-/// follow from the ties, and `markers.start` of the virtual bodies is set to them.
+/// Groups virtual bodies that fixed joints tie together ([GA00] section 4), and finds one carrier for each group. The
+/// carrier is ground if the group is tied to ground, else the first node with rotations that is tied to it, else one of
+/// the bodies of the group. Fixed joints of the group with further nodes remain joints between these nodes and the
+/// carrier. The elimination is exact and needs no choice of coordinates to drop. Poses follow from the ties. Sets
+/// `markers.start` of the virtual bodies to these poses.
 ///
 /// Throws Error if nothing determines the orientation of a group, because only nodes without rotations are tied to it.
-/// Throws Error also if a pose of the scene is off its tie by more than `tolerance` (relative to model.length, or
-/// radians), and if a loop of ties stays open.
+/// It also throws if a pose of the scene deviates from its tie by more than `initial_tolerance` of the scene
+/// (relative to model.length, or radians), and if a loop of ties stays open.
 TiedBodies tie_virtual_bodies(const formats::Scene& scene, const Model& model, int first, MarkerTable& markers);
 
 }  // namespace tisserand::mechanism

@@ -103,12 +103,12 @@ class AxialSpin : public Doubt {
         at = i;
       }
     if (at < 0) return {};
-    return {
-        fmt::format("'{}' spins about its own axis by {:.2g} rad per time (at t = {:.6g}) that no moment gave it, "
-                    "{:.2g} of its angular velocity, beyond {:g}: inertia {} takes it from bending; cut it into "
-                    "several with inertia B and internal modes, or use second_order with its companion file",
-                    model.superelements[at].name, seen_[at].spurious, seen_[at].time, worst, most_axial_spin,
-                    letter(body_of(model, at).inertia))};
+    return {fmt::format(
+        "'{}' spins about its own axis, although no moment causes this spin: {:.2g} rad per unit of time at t = "
+        "{:.6g}, {:.2g} of its angular velocity (limit {:g}). Inertia {} produces this spin from bending. Cut it into "
+        "several superelements with inertia B and internal modes, or use `second_order: on` with its companion file",
+        model.superelements[at].name, seen_[at].spurious, seen_[at].time, worst, most_axial_spin,
+        letter(body_of(model, at).inertia))};
   }
 
  private:

@@ -114,8 +114,9 @@ class MomentumBalance : public Doubt {
   std::vector<std::string> doubts(const Model&, const StressedBodies&) const override {
     if (!(worst_ > most_momentum)) return {};
     return {
-        fmt::format("angular momentum changes by {:.2g} of its size from t = {:.6g} to {:.6g} (beyond {:g}), though "
-                    "nothing acts on the bodies from outside: a shorter step or a smaller tolerance keeps it better",
+        fmt::format("the angular momentum changes by {:.2g} of the largest value possible at these speeds, from t = "
+                    "{:.6g} to {:.6g} (limit {:g}). No external load acts on the bodies. A shorter step or a smaller "
+                    "tolerance reduces this error",
                     worst_, from_, to_, most_momentum)};
   }
 
@@ -217,9 +218,9 @@ class TumblingBalance : public Doubt {
     const auto worst = std::ranges::max_element(seen_, {}, &Seen::worst);
     if (worst == seen_.end() || !(worst->worst > most_turns)) return {};
     return {fmt::format(
-        "the tumbling of '{}' is off by about {:.2g} of a turn at t = {:.6g} (beyond {:g}): its energy and its angular "
-        "momentum change in free flight, and its period with them; a shorter step or a smaller tolerance keeps it "
-        "better",
+        "the tumbling of '{}' has an error of about {:.2g} turns at t = {:.6g} (limit {:g}). Its energy and angular "
+        "momentum change in free flight, and this changes its period. A shorter step or a smaller tolerance reduces "
+        "this error",
         model.rigid_bodies[static_cast<std::size_t>(worst->body)].name, worst->worst, worst->time, most_turns)};
   }
 
@@ -274,16 +275,17 @@ std::vector<std::string> EnergyBalance::doubts(const std::string& cause) const {
   if (!(largest > round_off * level_) || !(largest > foreseen * moved_)) return {};
   const char* way = largest_ > 0.0 ? "gained" : "lost";
   if (largest > tolerance * moved_)
-    return {cause.empty()
-                ? fmt::format("{:.2g} of the energy that moved was {} without a cause (balance at t = {:.6g}, beyond "
-                              "{:g}): a shorter step or a smaller tolerance keeps it",
-                              largest / moved_, way, at_, tolerance)
-                : fmt::format("{:.2g} of the energy that moved was {} (balance at t = {:.6g}, beyond {:g}): {}",
-                              largest / moved_, way, at_, tolerance, cause)};
+    return {cause.empty() ? fmt::format("the error of the energy balance is {:.2g} of the largest energy or work (at t "
+                                        "= {:.6g}, limit {:g}). Energy was {} without a physical cause. A shorter step "
+                                        "or a smaller tolerance reduces this error",
+                                        largest / moved_, at_, tolerance, way)
+                          : fmt::format("the error of the energy balance is {:.2g} of the largest energy or work (at t "
+                                        "= {:.6g}, limit {:g}). Energy was {}: {}",
+                                        largest / moved_, at_, tolerance, way, cause)};
   if (!drifts()) return {};
   return {
-      fmt::format("energy is steadily {}: {:.2g} of what moved by t = {:.6g}, beyond {:g} in a run ten times as long; "
-                  "a shorter step drifts less",
+      fmt::format("energy is steadily {}: {:.2g} of the largest energy or work by t = {:.6g}. In a run ten times as "
+                  "long this error would exceed its limit of {:g}. A shorter step reduces this drift",
                   way, largest / moved_, at_, tolerance)};
 }
 

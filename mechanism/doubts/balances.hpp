@@ -12,24 +12,27 @@
 
 namespace tisserand::mechanism {
 
-/// Energy balance over the stored rows of dynamics: total − initial − work + dissipated, zero in exact arithmetic.
+/// Validity check of the energy balance over the stored rows of dynamics. The balance is total energy − initial energy
+/// − work + dissipated energy, which is zero in exact arithmetic.
 class EnergyBalance {
  public:
+  /// Checks a run from the time `start` to the time `end`.
   EnergyBalance(double start, double end) : start_(start), end_(end) {}
 
-  /// `possible` is the work of the largest force of this row over the characteristic length. At rest the balance is
-  /// round-off of it.
+  /// Takes one row. `possible`: work of the largest force of this row over the characteristic length. At rest the
+  /// balance is round-off of this work.
   void observe(const formats::ResultsRow& row, double possible);
 
-  /// Largest kinetic + |strain| + |change of potential| + |work| + |dissipated| of the rows.
+  /// Largest energy that moved up to a row: kinetic + |strain| + |change of potential| + |work| + |dissipated|.
   double moved() const { return moved_; }
 
-  /// At most one warning: the largest balance exceeds a hundredth of the energy that moved, or will do so by a drift.
-  /// `cause` is a known cause, which replaces the advice to take shorter steps; empty if unknown.
+  /// Warning, at most one: the largest balance exceeds a hundredth of the energy that moved, or will do so by a drift.
+  /// `cause`: known cause, which replaces the advice to take shorter steps; empty if unknown.
   std::vector<std::string> doubts(const std::string& cause) const;
 
  private:
   static constexpr int parts = 8;
+  /// Sum of the balances in one interval of time, and their number.
   struct Part {
     double sum = 0.0;
     int rows = 0;
@@ -38,12 +41,13 @@ class EnergyBalance {
   bool drifts() const;
 
   double start_, end_;
-  std::array<Part, parts> part_{};  ///< balances of equal intervals of the run's time
-  double largest_ = 0.0;            ///< signed
-  double at_ = 0.0;
+  std::array<Part, parts> part_{};  ///< sums of the balance in equal intervals of the run's time
+  double largest_ = 0.0;            ///< largest balance, signed
+  double at_ = 0.0;                 ///< time of the largest balance
   double moved_ = 0.0;
   std::optional<double> potential_;  ///< potential of the first row
-  double level_ = 0.0;               ///< largest |total| or possible work; its round-off is not an error of the balance
+  /// Largest |total energy| or possible work. Its round-off is not an error of the balance.
+  double level_ = 0.0;
 };
 
 }  // namespace tisserand::mechanism

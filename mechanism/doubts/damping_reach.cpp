@@ -50,33 +50,36 @@ Ratios ratios_of(const SuperelementBody& body, const std::vector<bool>& held) {
 /// Advice: damping proportional to stiffness, which acts for any boundary conditions, with the ratio at ω.
 std::string remedy(const Ratios& ratios) {
   return fmt::format(
-      "'damping: {{stiffness: {:.2g}}}' gives it {:.2g}, and other modes in proportion to their frequency",
+      "'damping: {{stiffness: {:.2g}}}' gives this mode the ratio {:.2g}, and other modes ratios in proportion to "
+      "their frequency",
       2.0 * ratios.asked / ratios.omega, ratios.asked);
 }
 
 /// Messages on bodies with a full damping matrix, or on those without.
 std::vector<std::string> of_bodies(const Model& model, bool full) {
-  std::vector<std::string> told_of;
-  std::map<std::pair<int, std::vector<bool>>, bool> told;
+  std::vector<std::string> reported_by;
+  std::map<std::pair<int, std::vector<bool>>, bool> reported;
   std::vector<std::vector<bool>> held;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const SuperelementBody& body = body_of(model, i);
     const SuperelementDamping& damping = body.damping;
     if (!damping.active || damping.is_full() != full || damping.stiffness > 0.0 || body.modes == 0) continue;
     if (held.empty()) held = held_coordinates(model);
-    if (!told.try_emplace({model.superelements[i].body, held[i]}, true).second) continue;
+    if (!reported.try_emplace({model.superelements[i].body, held[i]}, true).second) continue;
     const Ratios ratios = ratios_of(body, held[i]);
     if (!(ratios.lowest < least_share * ratios.asked)) continue;
-    const std::string where =
-        fmt::format("damping of '{}' does not reach its lowest mode: ratio {:.2g} there, {:.2g} in ",
-                    model.superelements[i].name, ratios.lowest, ratios.asked);
-    told_of.push_back(
+    const std::string where = fmt::format(
+        "damping of '{}' has almost no effect on its lowest mode in this scene. The damping ratio of this mode is "
+        "{:.2g}, but {:.2g} in ",
+        model.superelements[i].name, ratios.lowest, ratios.asked);
+    reported_by.push_back(
         full
-            ? fmt::format("{}the modes of the body without joints, to which `ratio` belongs; {}", where, remedy(ratios))
-            : fmt::format("{}the internal modes, whose boundary rests; 'damping: {{ratio: {:.2g}}}' damps all", where,
-                          ratios.asked));
+            ? fmt::format("{}the modes of the body without joints, to which `ratio` applies. {}", where, remedy(ratios))
+            : fmt::format(
+                  "{}the internal modes, which have a fixed boundary. 'damping: {{ratio: {:.2g}}}' damps all modes",
+                  where, ratios.asked));
   }
-  return told_of;
+  return reported_by;
 }
 
 }  // namespace

@@ -9,12 +9,13 @@
 
 namespace tisserand::mechanism {
 
-/// Warnings, one per superelement, equal ones once. The lowest vibration with the boundary conditions of the scene
-/// (held_coordinates()) has less than a tenth of the damping ratio of the internal modes. The reason is that
-/// `ratio_internal` damps only shapes whose boundary rests.
+/// Warnings on superelements whose lowest vibration is hardly damped, equal ones once. The vibration has the boundary
+/// conditions of the scene (held_coordinates()), and less than a tenth of the damping ratio of the internal modes. The
+/// reason is that `ratio_internal` damps only shapes whose boundary rests.
 std::vector<std::string> damping_doubts(const Model& model);
 
-/// Notes of the same kind on `ratio`, which applies to the modes of the body without joints.
+/// Notes on superelements with `ratio` whose lowest vibration, with the boundary conditions of the scene, is hardly
+/// damped. The reason is that `ratio` applies to the modes of the body without joints.
 std::vector<std::string> damping_notes(const Model& model);
 
 }  // namespace tisserand::mechanism

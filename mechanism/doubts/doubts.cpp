@@ -15,7 +15,7 @@ namespace tisserand::mechanism {
 std::vector<std::string> worst_of(const std::vector<Excess>& excesses, const char* others) {
   if (excesses.empty()) return {};
   const Excess& worst = *std::ranges::max_element(excesses, {}, &Excess::ratio);
-  return {excesses.size() == 1 ? worst.text : fmt::format("{} (and {} {})", worst.text, excesses.size() - 1, others)};
+  return {excesses.size() == 1 ? worst.text : fmt::format("{}. {}: {}", worst.text, others, excesses.size() - 1)};
 }
 
 bool has_alpha_steps(const formats::Scene& scene) {
@@ -45,11 +45,11 @@ void Doubts::at_row(const Instant& at, const formats::ResultsRow& row) {
 }
 
 std::vector<std::string> Doubts::tell(const Model& model, const StressedBodies& stressed) const {
-  std::vector<std::string> told = energy_.doubts(explanation(Puzzle::energy, model));
+  std::vector<std::string> reported = energy_.doubts(explanation(Puzzle::energy, model));
   for (const auto& doubt : all_)
-    for (std::string& text : doubt->doubts(model, stressed)) told.push_back(std::move(text));
-  for (std::string& text : damping_doubts(model)) told.push_back(std::move(text));
-  return told;
+    for (std::string& text : doubt->doubts(model, stressed)) reported.push_back(std::move(text));
+  for (std::string& text : damping_doubts(model)) reported.push_back(std::move(text));
+  return reported;
 }
 
 std::string Doubts::explanation(Puzzle puzzle, const Model& model) const {

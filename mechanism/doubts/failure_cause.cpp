@@ -74,8 +74,8 @@ std::string unreachable(const Model& model, double size, State state, Evaluation
   if (report.closed || report.open.empty()) return {};
   const JointGap& gap = report.open.front();
   return fmt::format(
-      "; the joints cannot be closed at t = {:.6g}, where '{}' stays open by {:.2g}: the drive leaves what the "
-      "mechanism can reach; shorten its motion, or change the lengths",
+      ". The joints cannot be closed at t = {:.6g}: '{}' stays open by {:.2g}. The drive demands a position that the "
+      "mechanism cannot reach. Reduce the motion of the drive, or change the lengths",
       state.time(), gap.joint, std::max(gap.length, gap.angle));
 }
 
@@ -84,38 +84,39 @@ std::string unreachable(const Model& model, double size, State state, Evaluation
 std::string failure_cause(const Model& model, const formats::IntegratorSpec& options, const Doubts& doubts,
                           const Failure& failure, State& state, Workspace& workspace) {
   if (failure.step.outcome == StepOutcome::inaccurate) return {};
-  if (const std::string seen = doubts.explanation(Puzzle::failure, model); !seen.empty()) return "; " + seen;
+  if (const std::string seen = doubts.explanation(Puzzle::failure, model); !seen.empty())
+    return ". Probable cause: " + seen;
   if (const std::string open = unreachable(model, failure.size, state, workspace.now); !open.empty()) return open;
   evaluate(model, state, workspace.now);
   const double condition = constraint_condition(model, state, workspace.now);
   if (condition > dependent)
     return fmt::format(
-        "; constraint equations are nearly dependent there (condition {:.1e} of their scaled Jacobian): a singular "
-        "position; pass it with another step, or leave one of its joints a direction free",
+        ". The constraint equations are nearly dependent there (condition {:.1e} of their scaled Jacobian), as in a "
+        "singular position. Pass it with another step, or release one direction of a joint",
         condition);
   const FactorReport factors = factored(model, options, failure.size, state, workspace);
   if (is_singular(factors)) {
     if (!is_singular(factored(model, options, failure.size / 4.0, state, workspace)))
       return fmt::format(
-          "; the matrix is singular with the step of {:.3g} and regular with a quarter of it: a stiffness below zero "
-          "(of a spring, a load that follows, a part that buckles) balances the mass there; set a shorter 'step', or "
-          "more 'max_halvings'",
+          ". The iteration matrix is singular with the step of {:.3g}, but regular with a quarter of it. A negative "
+          "stiffness (of a spring, a follower load, a part that buckles) cancels the mass there. Set a shorter 'step', "
+          "or more 'max_halvings'",
           failure.size);
     return fmt::format(
-        "; the matrix is singular there with the step of {:.3g} as well: a direction without mass, stiffness or "
-        "constraint{}; give it one, or hold it",
+        ". The iteration matrix is singular there with the step of {:.3g} too. A direction has no mass, no stiffness "
+        "and no constraint{}. Give it a mass or a stiffness, or constrain it",
         failure.size,
         factors.singular_column >= 0 && factors.singular_column < model.sizes.boundary
-            ? fmt::format(", {}", coordinate_name(model, factors.singular_column))
+            ? fmt::format(": {}", coordinate_name(model, factors.singular_column))
             : "");
   }
   const std::string seen = doubts.explanation(Puzzle::regular_failure, model);
-  return fmt::format("; the equations are regular there (reciprocal condition {:.1e}{}), {}",
+  return fmt::format(". The equations are regular there (reciprocal condition {:.1e}{}){}",
                      factors.reciprocal_condition,
-                     condition > 0.0 ? fmt::format(", condition {:.1e} of the constraints", condition) : "",
-                     !seen.empty() ? "but " + seen
-                                   : "so that what fails comes with the step: a load, a stop or friction that sets in; "
-                                     "set a shorter 'step', or more 'max_halvings'");
+                     condition > 0.0 ? fmt::format(", condition of the constraints {:.1e}", condition) : "",
+                     !seen.empty() ? ", but " + seen
+                                   : ". The cause begins within the step: a load, a stop or friction. Set a shorter "
+                                     "'step', or more 'max_halvings'");
 }
 
 }  // namespace tisserand::mechanism

@@ -11,16 +11,17 @@
 
 namespace tisserand::mechanism {
 
-/// Failure of a run of generalised alpha or HHT, after its last step at the accepted `state`.
+/// Failure of a run of generalised alpha or HHT after the last accepted step.
 struct Failure {
   StepReport step;    ///< report of the last attempt
   double size = 0.0;  ///< size of the step that was tried first
 };
 
-/// Text "; <cause>: <remedy>" of the first cause found. Checked are oscillating multipliers, torsion too soft for the
-/// spin, drives that joints cannot follow with the step first tried, and a nearly rank-deficient constraint Jacobian.
-/// Next are an iteration matrix that is singular with the step first tried (perhaps with a quarter of it), and a motion
-/// that changes much per step. Empty: none of these. Overwrites the evaluation and the matrix.
+/// Sentences on the probable cause of a failure and its remedy, which begin with ". ". Empty if the last step was only
+/// inaccurate. The causes are checked in this order, and the first one found is named. First are the explanations of
+/// the validity checks (`doubts`) and drives that joints cannot follow with the step tried first. Next are a nearly
+/// rank-deficient constraint Jacobian, and an iteration matrix that is singular with the step tried first. Last is a
+/// motion that changes much per step. `state`: last accepted state. Overwrites the evaluation and the matrix.
 std::string failure_cause(const Model& model, const formats::IntegratorSpec& options, const Doubts& doubts,
                           const Failure& failure, State& state, Workspace& workspace);
 

@@ -66,18 +66,18 @@ class BeamRange : public Doubt {
   /// At most two warnings: the largest rotation and the largest stretch of an element.
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     const auto place = [&](const Extreme& extreme) {
-      return fmt::format("between '{}' and '{}' (at t = {:.6g})", model.nodes[spans_[extreme.span].first].name,
+      return fmt::format("between nodes '{}' and '{}' at t = {:.6g}", model.nodes[spans_[extreme.span].first].name,
                          model.nodes[spans_[extreme.span].last].name, extreme.time);
     };
     std::vector<std::string> doubts;
     if (turn_.span >= 0 && angle(turn_.value) > most_turn)
-      doubts.push_back(
-          fmt::format("a beam bends or twists by {:.2g} rad {}, beyond {:g} rad from node to node: use more elements",
-                      angle(turn_.value), place(turn_), most_turn));
+      doubts.push_back(fmt::format(
+          "a beam bends or twists by {:.2g} rad {} (limit {:g} rad between neighbouring nodes). Use more elements",
+          angle(turn_.value), place(turn_), most_turn));
     if (stretch_.span >= 0 && stretch_.value > most_stretch)
       doubts.push_back(
-          fmt::format("a beam has an axial strain of {:.2g} {}, beyond {:g}: its axial force is linear in the strain, "
-                      "and its section does not shrink",
+          fmt::format("a beam has an axial strain of {:.2g} {} (limit {:g}). Its axial force is linear in the strain, "
+                      "and its cross-section does not shrink",
                       stretch_.value, place(stretch_), most_stretch));
     return doubts;
   }
@@ -130,13 +130,12 @@ class BushingRange : public Doubt {
     if (first == seen_.end()) return {};
     const auto count = std::ranges::count_if(seen_, far);
     const std::string remedy =
-        first->axis < 0 ? fmt::format("Give 'turns: {}': it counts turns about this axis", "xyz"[first->about])
-                        : fmt::format("It counts turns about its {} axis alone", "xyz"[first->axis]);
-    return {fmt::format(
-        "bushing '{}'{} turns by {:.3g} rad (at t = {:.6g}): beyond half a turn its moment is that of the other way "
-        "round. {}",
-        model.bushings[first->bushing].name, count > 1 ? fmt::format(" (and {} more)", count - 1) : "", first->angle,
-        first->time, remedy)};
+        first->axis < 0 ? fmt::format("Set 'turns: {}' to count the turns about this axis", "xyz"[first->about])
+                        : fmt::format("It counts only turns about its {} axis", "xyz"[first->axis]);
+    return {
+        fmt::format("bushing '{}'{} turns by {:.3g} rad (at t = {:.6g}). Its moment reverses beyond half a turn. {}",
+                    model.bushings[first->bushing].name, count > 1 ? fmt::format(" (and {} more)", count - 1) : "",
+                    first->angle, first->time, remedy)};
   }
 
   /// Text "bushing 'mount' passed half a turn", which changes the energy; empty: none did.
@@ -210,21 +209,21 @@ class TableRange : public Doubt {
       const std::string others = more > 0 ? fmt::format(" (and {} more)", more) : "";
       const Watched& law = *first;
       if (kind == Kind::stiffness || kind == Kind::damping)
-        doubts.push_back(fmt::format(
-            "spring '{}'{} has {} {:.4g} (at t = {:.6g}), outside the table of its {} from {:.4g} to {:.4g}: the "
-            "law goes on straight",
-            model.springs[law.index].name, others, kind == Kind::stiffness ? "the deflection" : "the rate", law.value,
-            law.time, kind == Kind::stiffness ? "stiffness" : "damping", law.low, law.high));
+        doubts.push_back(
+            fmt::format("spring '{}'{} has {} of {:.4g} (at t = {:.6g}), outside the table of its {} from {:.4g} to "
+                        "{:.4g}. There the law continues as a straight line. Give the table a wider range",
+                        model.springs[law.index].name, others, kind == Kind::stiffness ? "a deflection" : "a rate",
+                        law.value, law.time, kind == Kind::stiffness ? "stiffness" : "damping", law.low, law.high));
       else if (kind == Kind::drive)
         doubts.push_back(fmt::format(
-            "{}{} goes on with the last rate outside its table, which covers t = {:.6g} to {:.6g}: give the "
-            "table for the whole run, or let it end at rest",
+            "{}{} continues with the last rate outside its table, which covers t = {:.6g} to {:.6g}. Give a table for "
+            "the whole run, or let it end at rest",
             std::ranges::find(model.couplings, law.index, &Coupling::motion)->name, others, law.low, law.high));
       else
-        doubts.push_back(fmt::format(
-            "coordinate '{}'{} is the angle about axes that are {:.3g} rad apart (at t = {:.6g}): near half a "
-            "turn there is no such angle",
-            model.coordinates[law.index].name, others, law.value, law.time));
+        doubts.push_back(
+            fmt::format("coordinate '{}'{} is an angle about two axes whose directions differ by {:.3g} rad (at t = "
+                        "{:.6g}). This angle is not defined if the axes have opposite directions",
+                        model.coordinates[law.index].name, others, law.value, law.time));
     }
     return doubts;
   }

@@ -50,8 +50,10 @@ constexpr double least_displacement = 1e-3;
 constexpr double least_arm = 0.1;
 /// A linear body displaces points by θ × r in a rotation θ, with the error θ²/2: 2 % here.
 constexpr double most_inner_turn = 0.2;
-constexpr const char* superelement_remedy = "cut it into several, or use second_order with its companion file";
-constexpr const char* modal_remedy = "cut it into several, or take superelements with second_order, or beams";
+constexpr const char* superelement_remedy =
+    "Cut it into several superelements, or use `second_order: on` with its companion file";
+constexpr const char* modal_remedy =
+    "Cut it into several bodies, or use superelements with `second_order: on`, or beams";
 
 /// Stiffness 12 EI/L³ about the weaker axis: the force that moves the last node across the line while the first is
 /// held, the last does not turn, and the nodes between them are free.
@@ -148,7 +150,7 @@ class LinearRange : public Doubt {
     for (std::size_t i = 0; i < modal_.size(); ++i)
       found.judge({model.modal_bodies[i].name, modal_[i].span(), modal_[i].buckling(), 1, false, modal_remedy},
                   modal_seen_[i], [&](double spin) { return modal_[i].first_frequency(model, spin); });
-    return found.told();
+    return found.reported();
   }
 
  private:
@@ -197,53 +199,58 @@ class LinearRange : public Doubt {
       const auto& [force, deflection, axial, spin, moved, loose, moment] = seen;
       if (loose.value > most_inner_turn)
         swung.push_back(
-            {loose.value, fmt::format("a mechanism inside '{}' turns by about {:.2g} rad (at t = {:.6g}), beyond {:g}: "
-                                      "displacements are linear in it; reduce two parts and join them in the scene",
-                                      body.name, loose.value, loose.time, most_inner_turn)});
+            {loose.value,
+             fmt::format("a mechanism inside '{}' turns by about {:.2g} rad (at t = {:.6g}, limit {:g} rad). "
+                         "Displacements are linear in this rotation. Reduce two parts and join them in the scene",
+                         body.name, loose.value, loose.time, most_inner_turn)});
       if (body.bare) {
         if (const double r = axial.value / body.buckling;
             body.buckling > 0.0 && body.pieces == 1 && cubic_share(r) > most_axial)
           coarse.push_back(
-              {std::abs(r), fmt::format("'{}' bears {} of {:.2g} of its buckling load between pins (at t = {:.6g}) "
-                                        "without internal modes: its stiffness errs by up to {:.2g} (beyond {:g}); "
-                                        "reduce it with 'modes: 4' or more, or cut it into several",
-                                        body.name, axial.value < 0.0 ? "compression" : "tension", std::abs(r),
-                                        axial.time, cubic_share(r), most_axial)});
+              {std::abs(r),
+               fmt::format("'{}' carries a {} of {:.2g} of its buckling load between pins (at t = {:.6g}), but has no "
+                           "internal modes. Its stiffness has an error of up to {:.2g} (limit {:g}). Reduce it with "
+                           "'modes: 4' or more, or cut it into several superelements",
+                           body.name, axial.value < 0.0 ? "compression" : "tension", std::abs(r), axial.time,
+                           cubic_share(r), most_axial)});
         return;
       }
       if (const double ratio = deflection.value / body.span; body.span > 0.0 && ratio > most_deflection)
         bent.push_back(
             {ratio,
-             fmt::format("'{}' deflects by {:.2g} of its length (at t = {:.6g}), beyond {:g}, with a linear strain: {}",
-                         body.name, ratio, deflection.time, most_deflection, body.remedy)});
+             fmt::format(
+                 "'{}' deflects by {:.2g} of its length (at t = {:.6g}, limit {:g}), but its strain is linear. {}",
+                 body.name, ratio, deflection.time, most_deflection, body.remedy)});
       if (const double ratio = std::abs(axial.value) / body.buckling;
           body.buckling > 0.0 && missing_share(axial.value / body.buckling, body.pieces) > most_axial)
         pressed.push_back(
-            {ratio, fmt::format("'{}' bears {} of {:.2g} of its buckling load between pins (at t = {:.6g}), which {} "
-                                "it, but not its linear strain (beyond {:g} of the stiffness): {}",
-                                body.name, axial.value < 0.0 ? "compression" : "tension", ratio, axial.time,
-                                axial.value < 0.0 ? "softens" : "stiffens", most_axial, body.remedy)});
+            {ratio,
+             fmt::format("'{}' carries a {} of {:.2g} of its buckling load between pins (at t = {:.6g}). This {} the "
+                         "real body by more than {:g} of its stiffness, but its linear strain ignores this effect. {}",
+                         body.name, axial.value < 0.0 ? "compression" : "tension", ratio, axial.time,
+                         axial.value < 0.0 ? "softens" : "stiffens", most_axial, body.remedy)});
       if (const double ratio = displaced_share(seen); ratio > body.most_displaced)
         displaced.push_back(
             {ratio,
-             fmt::format("the forces on '{}' have {:.2g} of its largest moment more where its nodes are than where "
-                         "they were undeformed (at t = {:.6g}, beyond {:g}{}), which its linear strain leaves out: {}",
+             fmt::format("the displaced nodes of '{}' change the moment of the forces on it by {:.2g} of its largest "
+                         "moment (at t = {:.6g}, limit {:g}{}). Its linear strain ignores this effect. {}",
                          body.name, ratio, moved.time, body.most_displaced,
-                         body.most_displaced < most_displaced ? " for a body that joints stress" : "", body.remedy)});
+                         body.most_displaced < most_displaced ? " for a body that joints can stress" : "",
+                         body.remedy)});
       if (spin.value == 0.0) return;
       const double frequency = first_frequency(spin.value);
       const double ratio = frequency > 0.0 ? spin.value / frequency : 0.0;
       if (ratio > most_spin)
         spun.push_back(
-            {ratio, fmt::format("'{}' spins at {:.2g} of its first frequency ({:.3g} of {:.3g} rad per time, at t = "
-                                "{:.6g}), beyond {:g}, with a linear strain: {}",
+            {ratio, fmt::format("'{}' spins at {:.2g} of its first frequency ({:.3g} of {:.3g} rad per unit of time, "
+                                "at t = {:.6g}, limit {:g}), but its strain is linear. {}",
                                 body.name, ratio, spin.value, frequency, spin.time, most_spin, body.remedy)});
     }
 
-    std::vector<std::string> told() const {
+    std::vector<std::string> reported() const {
       std::vector<std::string> doubts;
       for (const auto* kind : {&bent, &pressed, &displaced, &spun, &coarse, &swung})
-        for (std::string& text : worst_of(*kind, "more bodies")) doubts.push_back(std::move(text));
+        for (std::string& text : worst_of(*kind, "Other bodies beyond this limit")) doubts.push_back(std::move(text));
       return doubts;
     }
   };

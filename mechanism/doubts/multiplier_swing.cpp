@@ -36,8 +36,8 @@ class MultiplierSwing : public Doubt {
       : settings_(scene.integrator.method == formats::Method::hht ? fmt::format("alpha = {:g}", scene.integrator.alpha)
                                                                   : fmt::format("rho = {:g}", scene.integrator.rho)),
         remedy_(scene.integrator.method == formats::Method::generalised_alpha && scene.integrator.rho > 0.9
-                    ? "set 'rho: 0.9' or 'formulation: stabilised_index2'"
-                    : "set a shorter 'step' or 'formulation: stabilised_index2'") {}
+                    ? "Set 'rho: 0.9' or 'formulation: stabilised_index2'"
+                    : "Set a shorter 'step' or 'formulation: stabilised_index2'") {}
 
   void after_step(const State& before, const Instant& end) override {
     const State& state = end.state;
@@ -71,8 +71,8 @@ class MultiplierSwing : public Doubt {
   std::string text(const Swing& swing) const {
     if (!(swing.size > visible)) return {};
     return fmt::format(
-        "the multipliers swing from step to step by {:.2g} of their size (around t = {:.6g}): index 3 with {} "
-        "does not damp them; {}",
+        "the Lagrange multipliers oscillate from step to step by {:.2g} of their size (around t = {:.6g}). Index 3 "
+        "with {} does not damp them. {}",
         swing.size, swing.time, settings_, remedy_);
   }
 
@@ -112,10 +112,11 @@ class ReactionVibration : public Doubt {
   /// At most one warning.
   std::vector<std::string> doubts(const Model&, const StressedBodies&) const override {
     if (count_ < fast_stretches || !(fast_ > large * largest_)) return {};
-    return {fmt::format(
-        "reactions vibrate with '{}', which has no damping: in most steps around t = {:.6g} they change by more than a "
-        "quarter of their largest, so that peaks depend on the step. Give it 'damping', or compare with shorter steps",
-        body_, time_)};
+    return {
+        fmt::format("reactions vibrate with '{}', which has no damping. In at least half of the steps around t = "
+                    "{:.6g} they change by more than a quarter of their largest value, so peaks depend on the step. "
+                    "Give the body 'damping', or compare with a shorter 'step'",
+                    body_, time_)};
   }
 
  private:

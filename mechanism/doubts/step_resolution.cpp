@@ -84,8 +84,8 @@ class StepResolution : public Doubt {
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     if (fastest_.angle > largest_turn)
       return {
-          fmt::format("'{}' turns by {:.2g} rad per step around t = {:.6g}, beyond {:.2g}: half a revolution cannot be "
-                      "told from its opposite; take a shorter step",
+          fmt::format("'{}' turns by {:.2g} rad per step (around t = {:.6g}, limit {:.2g} rad). At half a revolution "
+                      "per step, both directions of rotation look the same. Set a shorter 'step'",
                       model.nodes[fastest_.node].name, fastest_.angle, fastest_.time, largest_turn)};
     if (coarsest_.empty()) return {};
     const int largest = coarsest_.rbegin()->first;
@@ -94,8 +94,8 @@ class StepResolution : public Doubt {
       if (energy >= largest - depth && one.rate > worst.rate) worst = one;
     if (worst.coordinate < 0) return {};
     return {
-        fmt::format("the step of {:.3g} does not resolve what moves: about {:.2g} steps per period around t = {:.6g}, "
-                    "fewer than 10 (most at {}); 'integrator: {{step: {:.1g}}}' does",
+        fmt::format("the step of {:.3g} does not resolve the motion: about {:.2g} steps per period around t = {:.6g}, "
+                    "fewer than 10 (mainly at {}). Set 'integrator: {{step: {:.1g}}}'",
                     worst.step, 2.0 * std::numbers::pi / worst.rate, worst.time,
                     coordinate_name(model, worst.coordinate), worst.step * coarse / worst.rate / 2.0)};
   }
@@ -103,7 +103,7 @@ class StepResolution : public Doubt {
   std::string explanation(Puzzle puzzle, const Model&) const override {
     if (puzzle != Puzzle::regular_failure || !(latest_ > fast)) return {};
     return fmt::format(
-        "velocities changed by {:.2g} of themselves in the step before: set a shorter 'step', or 'error_control'",
+        "velocities changed by {:.2g} of their size in the previous step. Set a shorter 'step', or use 'error_control'",
         latest_);
   }
 
@@ -188,8 +188,8 @@ class TouchResolution : public Doubt {
           worst = &stop, shortest = touch;
     if (worst == nullptr) return {};
     return {fmt::format(
-        "the stop of '{}' is touched for {} step{} (at t = {:.6g}), fewer than {}: the steps do not resolve the "
-        "impact; take shorter ones, or `error_control`",
+        "contact with the stop of '{}' lasts {} step{} (at t = {:.6g}), fewer than {}. The steps do not resolve the "
+        "impact. Set a shorter 'step', or use 'error_control'",
         model.springs[worst->spring].name, shortest.steps, shortest.steps == 1 ? "" : "s", shortest.time, least_touch)};
   }
 

@@ -95,12 +95,12 @@ class Torsion : public Doubt {
       if (const double now = ratio(model, beams_[i]); now > worst) worst = now, at = i;
     }
     if (at < 0) return {};
-    return {
-        fmt::format("'{}' is soft in torsion for its spin ({:.3g} rad per time at t = {:.6g}): with inertia {} its "
-                    "nodes feel moments of {:.2g} of its torsional stiffness that no beam has, beyond {:g} (above 1 it "
-                    "turns over): take 'inertia: A', or second_order with its companion file",
-                    model.superelements[at].name, seen_[at].spin, seen_[at].time, letter(body_of(model, at).inertia),
-                    worst, most_moment)};
+    return {fmt::format(
+        "'{}' is too soft in torsion for its spin ({:.3g} rad per unit of time at t = {:.6g}). Inertia {} causes "
+        "moments on its nodes that a real beam does not have. They are {:.2g} of its torsional stiffness (limit {:g}; "
+        "above 1 the body turns over). Use 'inertia: A', or `second_order: on` with its companion file",
+        model.superelements[at].name, seen_[at].spin, seen_[at].time, letter(body_of(model, at).inertia), worst,
+        most_moment)};
   }
 
   std::string explanation(Puzzle puzzle, const Model& model) const override {

@@ -77,12 +77,13 @@ class TyreRange : public Doubt {
         quantity = k;
       }
     if (!(worst.ratio > rounding)) return {};
-    const std::string others = count > 1 ? fmt::format(", and {} more beyond theirs", count - 1) : std::string();
-    return {fmt::format(
-        "tyre '{}' was outside of what its file was fitted for: {} {:.3g}{} at t = {:.6g}, range to {:.3g}{}{}; "
-        "its forces there are led on from the end of the range",
-        model.tyres[tyre].name, names[quantity].quantity, worst.value, names[quantity].unit, worst.time, worst.limit,
-        names[quantity].unit, others)};
+    const std::string others =
+        count > 1 ? fmt::format(". Other values outside their range: {}", count - 1) : std::string();
+    return {
+        fmt::format("tyre '{}' left the range for which its file was fitted: {} {:.3g}{} at t = {:.6g}, end of the "
+                    "range {:.3g}{}. Outside the range, its forces are continued from the end of the range{}",
+                    model.tyres[tyre].name, names[quantity].quantity, worst.value, names[quantity].unit, worst.time,
+                    worst.limit, names[quantity].unit, others)};
   }
 
  private:

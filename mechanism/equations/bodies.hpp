@@ -6,19 +6,22 @@
 
 namespace tisserand::mechanism {
 
-/// Adds G_iner + G_int + G_damp − gravity of a pool of bodies, with their force scales and the power of their dampers.
+/// Adds the residuals of a pool of bodies, G_iner + G_int + G_damp − gravity, to the evaluation. It also updates the
+/// force scales and the power of dampers.
 void add_forces(const Model& model, const State& state, const Pool<SuperelementUse>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<BeamElement2>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<BeamElement3>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<RigidBody>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<ModalBody>& pool, Evaluation& evaluation);
 
-/// Adds the elastic and inertia forces of the modes to the scales, as forces of size √m ω² |w|. In a free vibration
-/// they cancel in the residual. Called after all others, the outer forces. They scale residuals only: they grow with
-/// the number of modes and are no load.
+/// Adds the internal forces of the modes of modal bodies to the scale of forces, as √mass · max(ω² |w|, |ẅ|). In a free
+/// vibration elastic and inertia forces cancel in the residual. Requires all other forces: it first stores their scale
+/// as `outer_force`. Internal forces of modes scale residuals only, because they grow with the number of modes and are
+/// no load.
 void note_modes(const Model& model, Evaluation& evaluation);
 
-/// Adds the derivatives of these forces; internal coordinates of superelements are condensed.
+/// Adds the derivatives of the residuals of a pool of bodies to the stored values of `target`. Internal coordinates of
+/// superelements are condensed.
 template <class T>
 void add_tangents(const Model& model, const Pool<T>& pool, TangentKind kind, Evaluation& evaluation,
                   const TangentTarget& target) = delete;
@@ -33,7 +36,7 @@ void add_tangents(const Model& model, const Pool<RigidBody>& pool, TangentKind k
 void add_tangents(const Model& model, const Pool<ModalBody>& pool, TangentKind kind, Evaluation& evaluation,
                   const TangentTarget& target);
 
-/// Adds kinetic, strain and potential energy.
+/// Adds kinetic, strain and potential energy of a pool of bodies to `sum`.
 template <class T>
 void add_energy(const Model& model, const Pool<T>& pool, const Evaluation& evaluation, Energy& sum) = delete;
 void add_energy(const Model& model, const Pool<SuperelementUse>& pool, const Evaluation& evaluation, Energy& sum);

@@ -9,8 +9,9 @@
 
 namespace tisserand::mechanism {
 
-/// Visits the rows of B in the motions [ẋ Ω] of the two nodes of each joint or coupling term: visit(row, coordinate
-/// map, markers, values). Needs evaluate().
+/// Calls visit(row, coordinate map, joint or coordinate, values) for each row of the constraint Jacobian B. The item
+/// has the two markers. The values (12) belong to the motions [ẋ Ω] of the two nodes. A coupling gives one call per
+/// term. Requires evaluate().
 template <class Visit>
 void for_each_row(const Model& model, const Evaluation& evaluation, Visit visit) {
   for (std::size_t i = 0; i < model.joints.size(); ++i)
@@ -24,7 +25,8 @@ void for_each_row(const Model& model, const Evaluation& evaluation, Visit visit)
     }
 }
 
-/// Calls visit(coordinate of the model, value) for a row in the motions of two nodes; some values may be zero.
+/// Calls visit(coordinate of the model, value) for each entry of a row in the motions [ẋ Ω] of two nodes. Some values
+/// may be zero.
 template <class Visit>
 void for_each_entry(const Model& model, const ElementMap& map, const Row12& row, const Evaluation& evaluation,
                     Visit visit) {

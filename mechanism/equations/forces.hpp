@@ -6,13 +6,14 @@
 
 namespace tisserand::mechanism {
 
-/// Adds the forces of a pool (sign of r), their energy and powers. A superelement adds its own part loads.
+/// Adds the forces of a pool to the residual with the sign of r, and their energy and powers to the evaluation. Part
+/// loads on superelements are not among them: the body adds them.
 void add_forces(const Model& model, const State& state, const Pool<Bushing>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<Tyre>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<Load>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<PartLoad>& pool, Evaluation& evaluation);
 
-/// Adds the derivatives of these forces to the stored values.
+/// Adds the derivatives of the forces of a pool to the stored values of `target`.
 template <class T>
 void add_tangents(const Model& model, const Pool<T>& pool, Evaluation& evaluation,
                   const TangentTarget& target) = delete;

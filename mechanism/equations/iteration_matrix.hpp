@@ -10,35 +10,35 @@
 
 namespace tisserand::mechanism {
 
-/// Matrix [A/s Bᵀ; rows 0] of the boundary coordinates and multipliers, its factors, and solutions with them. It
-/// decides whether its factors can be used: they belong to the request for which they were made, and are invalid after
-/// a failed factorisation or forget().
+/// Matrix [A/s Bᵀ; B̂ 0] of a Newton iteration in boundary coordinates and multipliers, with its factors and solutions,
+/// THEORY (69). s is MatrixValues::scale. It knows whether the factors can be used: they belong to the request for
+/// which they were made, and are invalid after a failed factorisation, invalidate() or forget().
 class IterationMatrix {
  public:
   explicit IterationMatrix(const Model& model);
 
-  /// Evaluates the tangent at the state of the last evaluate() and factors it.
+  /// Computes the tangent of `request` at the state of the last evaluate() and factors it.
   [[nodiscard]] FactorReport factor(const Model& model, const State& state, const TangentRequest& request,
                                     Evaluation& evaluation);
-  /// Whether the factors belong to this request, at any state, and to the blocks of superelements in the evaluation.
-  /// These blocks condense and expand internal coordinates, and every tangent replaces them.
+  /// Whether the factors belong to this request (at any state), and to the blocks of superelements in the evaluation.
+  /// solve_increment() needs these blocks for internal coordinates, and every tangent replaces them.
   bool serves(const TangentRequest& request, const Evaluation& evaluation) const {
     return factored_ == request && tangent_ == evaluation.tangents;
   }
-  /// Forces a factorisation in the next iteration.
+  /// Marks the factors as unusable, so that the next iteration makes new ones.
   void invalidate() { factored_.reset(); }
-  /// Resets the matrix: the next factorisation chooses its pivots like the first one.
+  /// Discards factors and pivots. The next factorisation then chooses its pivots like the first one.
   void forget();
 
-  /// Solves A d + Bᵀ dλ = −r, B d = rows with the factors. `increment` (boundary and internal) receives d,
-  /// `multipliers` dλ.
+  /// Solves A d + Bᵀ dλ = −r, B̂ d = rows with the factors. `increment` receives d (boundary and internal coordinates),
+  /// `multipliers` receives dλ.
   void solve_increment(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& rows, Evaluation& evaluation);
-  /// Solves A d + Bᵀ μ = 0, B d = rows: the smallest change, weighted with A, that changes the constraints by `rows`.
-  /// `correction` receives d, `projection_multipliers` μ.
+  /// Solves A d + Bᵀ μ = 0, B̂ d = rows: the smallest change d, weighted with A, that changes the constraints by
+  /// `rows`. `correction` receives d (boundary and internal coordinates), `projection_multipliers` receives μ.
   void solve_projection(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& rows, Evaluation& evaluation);
 
-  /// Name of the coordinate or constraint that dominates the solution for a unit right-hand side. With nearly singular
-  /// factors it is the direction that nothing holds.
+  /// Name of the coordinate or constraint that dominates the solution for a right-hand side of ones. If the
+  /// matrix is nearly singular, this is the coordinate that nothing holds.
   std::string weakest_equation(const Model& model);
   const SolverHealth& health() const { return system_.health(); }
 

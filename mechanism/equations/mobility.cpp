@@ -178,7 +178,7 @@ void name_turns(const Model& model, const Parts& parts, const Evaluation& evalua
       if (joint.a.node >= 0) turn.segment<3>(3) = -motion_of(evaluation, joint.a.node).R.row(axis);
       if (joint.b.node >= 0) turn.segment<3>(9) = motion_of(evaluation, joint.b.node).R.row(axis);
       if (open.take(part_row(model, parts, evaluation, joint, turn)))
-        names.push_back(fmt::format("a turn in '{}'", joint.name));
+        names.push_back(fmt::format("a rotation in '{}'", joint.name));
     }
 }
 
@@ -191,7 +191,7 @@ void name_bodies(const Parts& parts, OpenMotions& open, std::vector<std::string>
     int ways = 0;
     for (int j = 0; j < 6; ++j)
       if (open.take(Eigen::RowVectorXd::Unit(6 * parts.count(), 6 * part + j))) ++ways;
-    if (ways > 0) names.push_back(fmt::format("'{}' in {} way{}", parts.name[part], ways, ways == 1 ? "" : "s"));
+    if (ways > 0) names.push_back(fmt::format("'{}' in {} direction{}", parts.name[part], ways, ways == 1 ? "" : "s"));
   }
 }
 

@@ -13,26 +13,28 @@
 namespace tisserand::mechanism {
 
 struct Mobility {
-  int coordinates = 0;  ///< boundary and internal, without those of treads
+  int coordinates = 0;  ///< boundary and internal; those of tyre treads do not count
   int constraints = 0;
   int rank = 0;                ///< rank of the constraint Jacobian
   int degrees_of_freedom = 0;  ///< coordinates − rank
-  int parts = 0;               ///< bodies, each as a rigid one
+  int parts = 0;               ///< number of parts: bodies, each as a rigid one
   int freedoms = 6;            ///< degrees of freedom of one rigid body; in planar models 3
   int rigid_mobility = 0;      ///< degrees of freedom if every body were rigid: freedoms · parts − rank
   int gruebler() const { return freedoms * parts - constraints; }
-  std::vector<int> redundant;  ///< constraint rows that depend on the others
+  std::vector<int> redundant;  ///< constraint rows that depend on the other rows
   // Results of find_freedoms(), with every body as a rigid one:
   std::vector<std::string>
-      free;  ///< independent motions with held drives: joint coordinates, rotations in joints, whole bodies
+      /// Independent motions with held drives: joint coordinates, rotations in joints, whole bodies.
+      free;
   std::vector<std::string> locked;  ///< joints of loops that cannot move although nothing drives them
 };
 
-/// Computes the rank of B by a rank-revealing QR (rotations scaled by the characteristic length; dense up to 150 rows,
-/// sparse above), and that of B on the motions of rigid parts.
+/// Counts coordinates, constraints and degrees of freedom at a state. The rank of the constraint Jacobian B comes from
+/// a rank-revealing QR, dense up to 150 rows and sparse above. Rotations are scaled by the characteristic length. The
+/// rank of B on the motions of rigid parts gives the rigid mobility.
 Mobility count_mobility(const Model& model, const State& state, Evaluation& evaluation);
 
-/// Names the free motions and the locked joints at the state, by the null space of B on the motions of rigid parts.
+/// Names the free motions and the locked joints in `mobility`, by the null space of B on the motions of rigid parts.
 /// With more than 50 parts both lists are empty.
 void find_freedoms(const Model& model, const State& state, Evaluation& evaluation, Mobility& mobility);
 

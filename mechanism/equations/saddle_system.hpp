@@ -9,17 +9,17 @@
 
 namespace tisserand::mechanism {
 
-/// Values, factors and the vector of unknowns of one such matrix; A is stored as A/s. The matrices of Newton's
-/// iteration and of the position projection are two of them.
+/// Linear system [A Bᵀ; C 0][d; μ] = [f; g]: values of the matrix, factors and vector of unknowns. A is stored as A/s,
+/// s = MatrixValues::scale. Newton's iteration has one such system, the position projection another.
 class SaddleSystem {
  public:
   explicit SaddleSystem(const Model& model);  ///< performs the symbolic factorisation
 
-  /// Factors the values. Before, evaluate_tangent() or evaluate_weight() must fill `matrix`. The factorisation scales
-  /// it in place, so it must not change afterwards.
+  /// Factors the values in `matrix`. Requires evaluate_tangent() or evaluate_weight() before. The factorisation scales
+  /// `matrix` in place, so the caller must not change it afterwards.
   [[nodiscard]] FactorReport factor(const Model& model);
-  /// Replaces the right-hand side in `unknowns` by the solution. The upper part of the right-hand side belongs to A/s,
-  /// and so do the resulting multipliers.
+  /// Replaces the right-hand side [f/s; g] in `unknowns` by the solution [d; μ/s]. The caller must divide f by s, and
+  /// multiply the multipliers by s.
   void solve(const Model& model);
   /// Discards pivots and factors, so that the next factor() repeats the first one.
   void forget() { solver_.forget(); }

@@ -10,9 +10,9 @@
 
 namespace tisserand::mechanism {
 
-/// Law y(x). Tables are linear or monotone cubic between the points. In each interval the cubic is that of Hermite with
-/// the slopes of [FB84] (2), 0 where the secants change sign, so that it has no extremum between the points. The
-/// curvature is zero at the ends. Outside the table the law continues straight with its last slope.
+/// Law y(x): proportional, or a table that is linear or monotone cubic between its points. The cubic of an interval is
+/// that of Hermite with the slopes of [FB84] (2), 0 where the secants change sign. So it has no extremum between the
+/// points. The curvature is zero at the ends. Outside the table the law continues straight with its last slope.
 class Curve {
  public:
   Curve(double factor) : factor_(factor) {}  // NOLINT(google-explicit-constructor): a number is a law
@@ -25,7 +25,7 @@ class Curve {
   };
   Value operator()(double x) const;
 
-  /// First and last x of a table, outside which the law continues straight; a proportional law has none.
+  /// First and last x of a table, outside which the law continues straight. A proportional law has no range.
   std::optional<std::pair<double, double>> range() const {
     if (pieces_.empty()) return std::nullopt;
     return std::pair(pieces_[1].start, pieces_.back().start);
@@ -41,7 +41,7 @@ class Curve {
 
   double factor_ = 0.0;
   double at_zero_ = 0.0;       ///< integral from the first point to 0
-  std::vector<Piece> pieces_;  ///< before the table, its intervals, after the table; empty: proportional
+  std::vector<Piece> pieces_;  ///< before, in and after the table; empty: proportional
 };
 
 }  // namespace tisserand::mechanism

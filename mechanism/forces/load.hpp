@@ -14,7 +14,8 @@
 
 namespace tisserand::mechanism {
 
-/// Constant part of a load; its time functions are in the workspace because they own a parser.
+/// Force or moment on a marker: the constant part. Its compiled time functions are in the Evaluation, because they own
+/// a parser.
 struct Load {
   std::string name;
   formats::LoadKind kind = formats::LoadKind::force;
@@ -28,10 +29,11 @@ struct Load {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// Generalised force on the carrier node [force world; moment material] for the components `value` in the load's axes.
+/// Generalised force of a load on the node of its marker: [force (world axes); moment (axes of the node)]. `value`:
+/// components in the axes of the load.
 Vector6d load_force(const Load& load, const NodeMotion& node, const Eigen::Vector3d& value);
 
-/// Derivative ∂(generalised force)/∂(x, Θ material).
+/// Derivative of load_force() by the position and the material rotation of the node (6 x 6).
 Matrix6d load_stiffness(const Load& load, const NodeMotion& node, const Eigen::Vector3d& value);
 
 }  // namespace tisserand::mechanism

@@ -9,14 +9,15 @@
 
 namespace tisserand::mechanism {
 
-/// Value, rate and acceleration at one instant.
+/// Value, rate and acceleration of a prescribed motion at one instant.
 struct MotionValue {
   double value = 0.0;
   double rate = 0.0;
   double acceleration = 0.0;
 };
 
-/// Curve of polynomials between the points of a table with ascending times; outside it is straight with the last rate.
+/// Curve of polynomials through the points of a table with ascending times. Outside the table it is straight with the
+/// last rate. The interpolation of the table chooses the polynomials:
 /// smooth: Hermite quintics, twice continuously differentiable, monotone between any two points. Rates and
 ///   accelerations at the points are those of the quartic through the five nearest points, reduced where a quintic
 ///   would not be monotone. Equal values stay constant, and the rate is 0 at an extremum of the data. Without a limit

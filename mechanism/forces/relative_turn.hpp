@@ -6,21 +6,26 @@
 
 namespace tisserand::mechanism {
 
-/// Angles ψ of the rotation R = R_AB and their rates ψ̇ = B ω, ω in axes of B.
-/// Rotation vector (axis −1): ψ = log R, B = T(ψ)⁻¹. It ends at half a turn.
-/// Swing and twist about marker axis k: R = exp(τ/2 e_k) exp(σ) exp(τ/2 e_k) with σ ⟂ e_k, ψ = σ + τ e_k. As quaternion
-/// [w, v]: τ = 2 atan2(v_k, w), |σ| = 2 asin |v − v_k e_k|. τ is unbounded; the swing ends at half a turn.
-/// Both laws give σ the direction of v − v_k e_k, treat A and B alike, and differ in terms of third order.
+/// Three angles ψ of the rotation R = R_AB of one marker relative to another, by one of two laws. The rates are ψ̇ = B
+/// ω with the relative angular velocity ω in axes of marker B.
+/// Rotation vector (axis −1): ψ = log R, B = T⁻¹(ψ) of THEORY (4). It ends at half a turn.
+/// Swing and twist about marker axis k: R = exp(τ/2 e_k) exp(σ) exp(τ/2 e_k) with σ ⟂ e_k, ψ = σ + τ e_k. With the
+/// quaternion [w, v] of R, τ = 2 atan2(v_k, w), |σ| = 2 asin |v − v_k e_k|. τ is unbounded; the swing σ ends at half a
+/// turn.
+/// Both laws give the swing the direction of v − v_k e_k, treat markers A and B alike, and differ in terms of third
+/// order.
 class RelativeTurn {
  public:
-  /// `near`: an angle from which τ differs by less than half a turn.
+  /// Computes the angles of R. `axis`: k, or −1 for the rotation vector. `near`: an angle from which the twist τ
+  /// differs by less than half a turn.
   RelativeTurn(const Eigen::Matrix3d& R, int axis, double near);
 
   const Eigen::Vector3d& psi() const { return psi_; }
+  /// Matrix B of ψ̇ = B ω.
   const Eigen::Matrix3d& B() const { return B_; }
-  /// Derivative ∂(B ω)/∂Θ at fixed ω, Θ material in axes of B.
+  /// Derivative ∂(B ω)/∂Θ at fixed ω, with the material rotation Θ in axes of marker B.
   Eigen::Matrix3d rate_gradient(const Eigen::Vector3d& omega) const;
-  /// Derivative ∂(Bᵀ w)/∂Θ at fixed w.
+  /// Derivative ∂(Bᵀ w)/∂Θ at fixed w, with the material rotation Θ in axes of marker B.
   Eigen::Matrix3d moment_gradient(const Eigen::Vector3d& w) const;
 
  private:

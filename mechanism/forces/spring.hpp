@@ -10,22 +10,24 @@
 
 namespace tisserand::mechanism {
 
-/// Generalised force on a coordinate q: Q = −f(q − q_free) − d(q̇) + Q_stop + F(t). A stop that is exceeded by g > 0
-/// pushes back with k_s g (1 + d ġ) and never pulls ([HC75] with exponent 1).
+/// Spring, damper and stops along one joint coordinate q. Its generalised force is
+/// Q = −f(q − q_free) − d(q̇) + Q_stop + F(t). A stop that is exceeded by g > 0 pushes back with k_s g (1 + d_s ġ) and
+/// never pulls ([HC75] with exponent 1).
 struct Spring {
   std::string name;
-  int coordinate = 0;     ///< row of Model::coordinates
-  Curve stiffness = 0.0;  ///< f: k (q − q_free) or a table
-  Curve damping = 0.0;    ///< d: c q̇ or a table
+  int coordinate = 0;     ///< index in Model::coordinates
+  Curve stiffness = 0.0;  ///< law f of the spring: k (q − q_free) or a table
+  Curve damping = 0.0;    ///< law d of the damper: c q̇ or a table
   double free = 0.0;
   bool free_at_start = false;  ///< `free` is the value at the start
   std::optional<double> lower, upper;
   double stop_stiffness = 0.0;
-  double stop_damping = 0.0;  ///< d, time/length (or time/rad)
+  double stop_damping = 0.0;  ///< d_s [time/length] or [time/rad]
   formats::TimeFunctionSpec force = 0.0;
   bool has_force = false;
 };
 
+/// Generalised force Q of a spring at one instant, with derivatives by q and q̇, energy and power.
 struct SpringForce {
   double Q = 0.0;
   double stop = 0.0;  ///< force Q_stop of a stop, included in Q
@@ -35,7 +37,7 @@ struct SpringForce {
   double dissipated = 0.0;  ///< power dissipated by damper and stops
 };
 
-/// Computes the force at q and its rate; `applied` is F(t).
+/// Computes the force of a spring at the coordinate `q` and its rate `qd`. `applied`: F(t).
 inline SpringForce spring_force(const Spring& s, double q, double qd, double applied) {
   SpringForce f;
   const Curve::Value elastic = s.stiffness(q - s.free), viscous = s.damping(qd);

@@ -12,12 +12,13 @@
 
 namespace tisserand::mechanism {
 
-/// Evaluates a formats::TimeFunctionSpec. Tables are linear between points and constant outside. Expressions may use
-/// the inputs of the scope at the same t, and its channels with their last values from set_channels().
+/// Function of time for loads: a constant, a table or an expression of a formats::TimeFunctionSpec. Tables are linear
+/// between points and constant outside. Expressions may use the inputs of the scope at the same t, and its channels
+/// with the last values from set_channels().
 class TimeFunction {
  public:
-  /// Throws Error at the place of the expression if it cannot be parsed. Its values may still not be finite; simulate()
-  /// checks them at the start and where a step fails.
+  /// Compiles the function. Throws Error at the place of the expression if it cannot be parsed. Values of the function
+  /// may still not be finite; simulate() checks them at the start and where a step fails.
   TimeFunction(const formats::TimeFunctionSpec& spec, const ExpressionScope& scope);
   explicit TimeFunction(const formats::TimeFunctionSpec& spec) : TimeFunction(spec, ExpressionScope{}) {}
   ~TimeFunction();
@@ -26,12 +27,13 @@ class TimeFunction {
 
   double operator()(double t);
 
-  /// Channels that the expression uses, by number in the scope.
+  /// Channels that the expression uses, as indices in ExpressionScope::channels.
   const std::vector<int>& channels() const { return channels_; }
-  /// Sets the used channels from the values of all channels of the scope.
+  /// Sets the channels that the expression uses. `values`: values of all channels of the scope.
   void set_channels(const Eigen::VectorXd& values);
-  /// Derivative by the channel channels()[argument], a central difference of 6e-6 of its value, at least 6e-9. The
-  /// relative error is 1e-10 and affects only the convergence of Newton's iteration.
+  /// Derivative of the function by the channel channels()[argument], a central difference with a spacing of 6e-6 of the
+  /// value of the channel, at least 6e-9. The relative error is 1e-10 and affects only the convergence of Newton's
+  /// iteration.
   double derivative(std::size_t argument, double t);
 
   /// Instants at which the function or its derivative may jump.

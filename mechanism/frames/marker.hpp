@@ -10,35 +10,36 @@
 
 namespace tisserand::mechanism {
 
-/// Pose relative to the carrier node: p in node axes, R = R_NM. node = -1: ground, then p and R are in the world frame.
+/// Pose of a marker relative to the node that carries it: origin p in axes of the node, axes R = R_NM. `node` −1 is the
+/// ground; then p and R are in the world frame.
 struct Marker {
   int node = -1;
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  int follower = -1;  ///< eliminated virtual body that the marker is on (a row of Model::ties), −1: none
+  int follower = -1;  ///< index in Model::ties of the virtual body it is on, −1: none
 };
 
-/// `inner`, a pose on a body that is placed as `outer` on its carrier, as a pose on that carrier.
+/// Pose on a carrier of the marker `inner` of a body, which is placed as `outer` on this carrier.
 inline Marker composed(const Marker& outer, const Marker& inner) {
   return {outer.node, outer.p + outer.R * inner.p, outer.R * inner.R, outer.follower};
 }
 
-/// World position of the marker's origin.
+/// World position of the origin of a marker. `carrier`: motion of its node.
 inline Eigen::Vector3d marker_position(const Marker& marker, const NodeMotion& carrier) {
   return carrier.x + carrier.R * marker.p;
 }
 
-/// World velocity of the marker's origin.
+/// World velocity of the origin of a marker. `carrier`: motion of its node.
 inline Eigen::Vector3d marker_velocity(const Marker& marker, const NodeMotion& carrier) {
   return carrier.xd + carrier.R * carrier.Omega.cross(marker.p);
 }
 
-/// x-y components of R v, of a rotation about z or of a vector with z zero.
+/// Components x and y of R v. Requires that R is a rotation about z or that v has z = 0.
 inline Eigen::Vector2d in_plane(const Eigen::Matrix3d& R, const Eigen::Vector3d& v) {
   return {R(0, 0) * v.x() + R(0, 1) * v.y(), R(1, 0) * v.x() + R(1, 1) * v.y()};
 }
 
-/// R_WM.
+/// Rotation R_WM from axes of the marker to world axes. `carrier`: motion of its node.
 inline Eigen::Matrix3d marker_rotation(const Marker& marker, const NodeMotion& carrier) { return carrier.R * marker.R; }
 
 }  // namespace tisserand::mechanism

@@ -6,7 +6,8 @@
 
 namespace tisserand::mechanism {
 
-/// Position and orientation with their rates: x, ẋ, ẍ in world axes; R = R_WN; Ω, Ω̇ material (node axes).
+/// Motion of a node at one instant: x, ẋ, ẍ in world axes, the orientation R = R_WN, and material Ω, Ω̇ (axes of the
+/// node).
 struct NodeMotion {
   Eigen::Vector3d x = Eigen::Vector3d::Zero();
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
@@ -16,7 +17,8 @@ struct NodeMotion {
   Eigen::Vector3d Omegad = Eigen::Vector3d::Zero();
 };
 
-/// The combination c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q that an analysis asks for (material rotation increments).
+/// Coefficients c_m (`mass`), c_c (`damping`) and c_k (`stiffness`) of the tangent c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q
+/// that an analysis needs, with material rotation increments.
 struct TangentCoefficients {
   double mass = 0.0;
   double damping = 0.0;
@@ -24,8 +26,8 @@ struct TangentCoefficients {
   bool operator==(const TangentCoefficients&) const = default;
 };
 
-/// step: the hand-written tangents of the time step (stiffness without the derivative of the projector);
-/// exact: with dual numbers, for statics and linearisation.
+/// Kind of tangent. `step`: hand-written for the time step, stiffness without the derivative of Υ, THEORY (20).
+/// `exact`: by dual numbers, for statics and linearisation.
 enum class TangentKind { step, exact };
 
 }  // namespace tisserand::mechanism

@@ -16,39 +16,44 @@
 
 namespace tisserand::mechanism {
 
+/// Vectors, turns and their products in the space of D dimensions, for carriers (nodes that joints and loads act on).
 template <int D>
 struct Space;
 
-/// Turns have three components: those of world axes differ from material ones (axes of the carrier).
+/// Space of three dimensions. Turns (rotations and moments) have three components. Those in world axes differ from
+/// material ones, in axes of the carrier.
 template <>
 struct Space<3> {
   static constexpr int turns = 3;
-  static constexpr int first_turn = 3;                            ///< among the six columns [x Θ] of a carrier
-  static constexpr std::array<int, 6> columns{0, 1, 2, 3, 4, 5};  ///< of the six, those that a model has
+  static constexpr int first_turn = 3;  ///< index of turns among the six columns [x Θ] of a carrier
+  static constexpr std::array<int, 6> columns{0, 1, 2, 3, 4, 5};  ///< columns that a model has, of the six
   using Vector = Eigen::Vector3d;
   using Turn = Eigen::Vector3d;
 
   static Vector part(const Eigen::Vector3d& v) { return v; }
   static Turn turn_part(const Eigen::Vector3d& v) { return v; }
-  /// R v in world axes, with all its components.
+  /// Product R v, with all three components.
   static Eigen::Vector3d rotated(const Eigen::Matrix3d& R, const Eigen::Vector3d& v) { return R * v; }
+  /// Material turn, from a turn w in world axes.
   static Turn material(const Eigen::Matrix3d& R, const Turn& w) { return R.transpose() * w; }
   static Eigen::Matrix3d material_map(const Eigen::Matrix3d& R) { return R.transpose(); }
-  /// Angular velocity in world axes.
+  /// Angular velocity of a node in world axes.
   static Turn spin(const NodeMotion& node) { return node.R * node.Omega; }
-  /// u × v, and w × v.
+  /// Product u × v of two vectors, a turn.
   static Turn cross(const Vector& u, const Vector& v) { return u.cross(v); }
+  /// Product w × v of a turn and a vector, and its matrix.
   static Vector across(const Turn& w, const Vector& v) { return w.cross(v); }
   static Eigen::Matrix3d across(const Turn& w) { return skew<double>(w); }
-  /// Moment of a force, material axes; `arm` and `force` in world axes.
+  /// Moment arm × force in material axes. `arm` and `force` are in world axes, R is the orientation of the carrier.
   static Eigen::Vector3d moment(const Eigen::Matrix3d& R, const Eigen::Vector3d& arm, const Vector& force) {
     return R.transpose() * arm.cross(force);
   }
-  /// δv = turning(R, v) δΘ of a vector (world axes) that turns with the carrier.
+  /// Matrix of the variation δv = turning(R, v) δΘ of a vector v (world axes) that turns with its carrier.
   static Eigen::Matrix3d turning(const Eigen::Matrix3d& R, const Vector& v) { return -skew<double>(v) * R; }
   static Eigen::Matrix3d turning(const Vector& v) { return -skew<double>(v); }
   static void set_exponential(const Eigen::Vector3d& theta, Eigen::Matrix3d& R) { R = exp_so3<double>(theta); }
-  /// turning(R, u)ᵀ turning(R, v), and the same for vectors of two carriers.
+  /// Product turning(R, u)ᵀ turning(R, v) for vectors of one carrier. The overload with R_A and R_B is for vectors of
+  /// two carriers.
   static Eigen::Matrix3d turning_product(const Eigen::Matrix3d& R, const Vector& u, const Vector& v) {
     return turning_product(R.transpose() * u, R.transpose() * v);
   }
@@ -62,7 +67,8 @@ struct Space<3> {
   }
 };
 
-/// Carriers turn about z alone, so that rotations add up and world axes of turns are material ones.
+/// Space of the plane x-y. Carriers turn about z alone, so rotations add up, and turns in world axes and material turns
+/// are equal.
 template <>
 struct Space<2> {
   static constexpr int turns = 1;
@@ -82,7 +88,8 @@ struct Space<2> {
   static Turn cross(const Vector& u, const Vector& v) { return Turn(u.x() * v.y() - u.y() * v.x()); }
   static Vector across(const Turn& w, const Vector& v) { return {-w.x() * v.y(), w.x() * v.x()}; }
   static Eigen::Matrix2d across(const Turn& w) { return Eigen::Matrix2d{{0.0, -w.x()}, {w.x(), 0.0}}; }
-  /// Across z it is what a carrier in the plane does not feel, but what is reported of the ground.
+  /// Moment arm × force. Components across z are zero unless `arm` leaves the plane. A carrier in the plane does not
+  /// feel them, but they are reported for the ground.
   static Eigen::Vector3d moment(const Eigen::Matrix3d& R, const Eigen::Vector3d& arm, const Vector& force) {
     if (arm.z() == 0.0) return {0.0, 0.0, cross(part(arm), force).x()};
     return Space<3>::moment(R, arm, {force.x(), force.y(), 0.0});
@@ -105,11 +112,11 @@ using VectorOf = typename Space<D>::Vector;
 template <int D>
 using TurnOf = typename Space<D>::Turn;
 
-/// [x Θ] of a carrier.
+/// Vector [x Θ] of a carrier in D dimensions: translations, then turns.
 template <int D>
 using CarrierVector = Eigen::Matrix<double, D + Space<D>::turns, 1>;
 
-/// Those of a carrier whose six columns begin at `first` of `row`.
+/// Components [x Θ] of one carrier in `row`, where its six columns begin at `first`.
 template <int D, class Row>
 CarrierVector<D> carrier_part(const Row& row, int first) {
   CarrierVector<D> part;
@@ -117,6 +124,7 @@ CarrierVector<D> carrier_part(const Row& row, int first) {
   return part;
 }
 
+/// Velocity [ẋ (world axes); Ω (material)] of a node.
 template <int D>
 CarrierVector<D> velocity_of(const NodeMotion& node) {
   CarrierVector<D> v;
@@ -124,9 +132,8 @@ CarrierVector<D> velocity_of(const NodeMotion& node) {
   return v;
 }
 
-/// The components of a vector, or the block of a 3 x 3 matrix, that exist in this space: of translations and of turns.
-/// turns_by_vectors() is the block of a matrix that maps translations to turns. For every scalar; in three dimensions
-/// each of them is the whole.
+/// Translation part of a vector of three components or of a 3 x 3 matrix: x and y (2 x 2) in the plane, all in three
+/// dimensions. For every scalar.
 template <int D, class Matrix>
 decltype(auto) vector_part(Matrix&& m) {
   if constexpr (D == 3)
@@ -136,6 +143,7 @@ decltype(auto) vector_part(Matrix&& m) {
   else
     return m.template topLeftCorner<2, 2>();
 }
+/// Turn part of a vector of three components or of a 3 x 3 matrix: z (1 x 1) in the plane, all in three dimensions.
 template <int D, class Matrix>
 decltype(auto) turn_part(Matrix&& m) {
   if constexpr (D == 3)
@@ -145,6 +153,7 @@ decltype(auto) turn_part(Matrix&& m) {
   else
     return m.template bottomRightCorner<1, 1>();
 }
+/// Block of a 3 x 3 matrix that maps translations to turns: (1 x 2) in the plane, all in three dimensions.
 template <int D, class Matrix>
 decltype(auto) turns_by_vectors(Matrix&& m) {
   if constexpr (D == 3)
@@ -153,7 +162,8 @@ decltype(auto) turns_by_vectors(Matrix&& m) {
     return m.template bottomLeftCorner<1, 2>();
 }
 
-/// a × b of such parts, for every scalar: vectors of the plane span a turn, a turn moves a vector, turns commute.
+/// Product a × b of vector_part() and turn_part() results, for every scalar. In the plane two vectors give a turn, a
+/// turn and a vector give a vector, and two turns give 0.
 template <class A, class B>
 auto wedge(const A& a, const B& b) {
   using S = typename A::Scalar;
@@ -170,7 +180,7 @@ auto wedge(const A& a, const B& b) {
     return Eigen::Matrix<S, 1, 1>(S(0.0));
 }
 
-/// Calls a template of D, `f<2>()` or `f<3>()`.
+/// Calls `f`, a template of the dimension D: f<2>() if `planar`, else f<3>().
 template <class F>
 decltype(auto) in_space(bool planar, F&& f) {
   return planar ? std::forward<F>(f).template operator()<2>() : std::forward<F>(f).template operator()<3>();

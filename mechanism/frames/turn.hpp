@@ -6,7 +6,8 @@
 
 namespace tisserand::mechanism {
 
-/// By series of the small angles of steps and of elastic rotations, to round-off.
+/// Cosine `c` and sine `s` of an angle [rad]. Angles up to 0.1, as in steps and elastic rotations, use series that are
+/// exact to round-off.
 struct Turn {
   double c, s;
   explicit Turn(double angle) {

@@ -19,9 +19,9 @@ Series usable(const Series& series) {
   for (std::size_t i = 0; i < series.x.size(); ++i) {
     if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i])) continue;
     if (!result.x.empty() && series.x[i] < result.x.back())
-      throw Error(fmt::format("'{}' of '{}' does not ascend: {:g} follows {:g}", series.x_name, series.source,
+      throw Error(fmt::format("'{}' of '{}' does not increase: {:g} follows {:g}", series.x_name, series.source,
                               series.x[i], result.x.back()),
-                  "--difference", "differences need histories over time");
+                  "--difference", "give histories over time");
     if (!result.x.empty() && series.x[i] == result.x.back()) {
       result.y.back() = series.y[i];
       continue;
@@ -37,7 +37,8 @@ void convert(const std::string& from, const std::string& to, const std::string& 
   if (from.empty() || to.empty() || from == to) return;
   const auto own = measured_unit(from), wanted = measured_unit(to);
   if (!own || !wanted || own->dimension != wanted->dimension)
-    throw Error(fmt::format("the reference has the unit {}, the run {}", from, to), where, "compare equal quantities");
+    throw Error(fmt::format("the reference has the unit {}, but the run has {}", from, to), where,
+                "compare the same quantity");
   for (double& value : values) value *= own->factor / wanted->factor;
 }
 
@@ -129,8 +130,8 @@ const Series& reference_of(const Series& run, const std::vector<Series>& all) {
     if (one.kind == SeriesKind::reference) (one.channel == run.channel ? named : others).push_back(&one);
   const std::vector<const Series*>& fitting = named.empty() ? others : named;
   if (fitting.size() != 1)
-    throw Error(fmt::format("{} references for '{}', one is needed", fitting.size(), run.channel), "--difference",
-                "name one with --reference: other.results.h5, or file.csv:t:column");
+    throw Error(fmt::format("{} references for '{}', but exactly one is needed", fitting.size(), run.channel),
+                "--difference", "name one with --reference: other.results.h5, or file.csv:t:column");
   return *fitting.front();
 }
 

@@ -9,31 +9,34 @@
 
 namespace tisserand::mechanism {
 
+/// Interval of time in which histories are compared. An absent end is unlimited.
 struct TimeWindow {
   std::optional<double> from;
   std::optional<double> to;
 };
 
-/// Value of a series at `x`, inside its range: Lagrange's cubic through the four nearest instants. Needs increasing
-/// abscissae; repeated instants (at a switch) count once.
+/// Value of a series at the abscissa `x`, by Lagrange's cubic through the four nearest instants. Requires that `x` is
+/// inside the range of the series, and that the abscissae increase.
 double value_at(const Series& series, double x);
 
-/// Series minus reference, as a curve with its norms, at the reference's instants in the window. An instant between two
-/// of the series uses value_at() (exact if they coincide). Throws Error if fewer than two are common.
+/// Series minus reference, as a curve with its norms, at the instants of the reference in the window. Between two
+/// instants of the series value_at() interpolates. Throws Error if fewer than two instants are common.
 Series difference_at_reference(const Series& series, const Series& reference, const TimeWindow& window);
-/// Norms of difference_at_reference().
+/// Norms of the curve of difference_at_reference().
 Deviation deviation(const Series& series, const Series& reference, const TimeWindow& window);
 
-/// Series minus reference at their common instants. If the instants differ, those of the coarser one between the first
-/// and the last common time are used, and the denser one is interpolated. Instants without a number are omitted; the
-/// reference is converted to the units of the series. Throws Error also for units of other quantities.
+/// Series minus reference at their common instants. If the instants differ, those of the coarser history between the
+/// first and the last common time are used, and the denser one is interpolated. Instants without a number are omitted.
+/// The reference is converted to the units of the series. Throws Error if fewer than two instants are common, and for
+/// units of other quantities.
 Series difference(const Series& series, const Series& reference, const TimeWindow& window);
 
-/// Reference with the channel's name, or the only reference if none has it. Throws Error if there is none, or more than
-/// one.
+/// Reference that belongs to `run`: the one with the same channel, or the only reference if none has this channel.
+/// Throws Error if there is none or more than one. `all`: series that contain the references.
 const Series& reference_of(const Series& run, const std::vector<Series>& all);
 
-/// Appends the differences of the runs from their references. Throws Error also if there is no run.
+/// Appends to `series` the difference of each run from its reference. Throws Error if there is no run, or if a run has
+/// not exactly one reference.
 void append_differences(std::vector<Series>& series);
 
 }  // namespace tisserand::mechanism

@@ -43,7 +43,7 @@ PictureKind kind_of(const std::string& picture) {
   if (picture.ends_with(".svg")) return PictureKind::svg;
   if (picture.ends_with(".pdf")) return PictureKind::pdf;
   if (picture.ends_with(".eps")) return PictureKind::eps;
-  throw Error("'" + picture + "' is no .png, .svg, .pdf or .eps file", "plot",
+  throw Error("'" + picture + "' is not a .png, .svg, .pdf or .eps file", "plot",
               "give -o a name that ends in .png, .svg, .pdf or .eps");
 }
 
@@ -64,7 +64,7 @@ PictureSize parse_picture_size(const std::string& text) {
   const auto width = number_at(rest.substr(0, middle));
   const auto height = middle == std::string_view::npos ? std::nullopt : number_at(rest.substr(middle + 1));
   if (!width || !height)
-    throw Error(fmt::format("'{}' is no size", printable_line(text, 60)), "--size",
+    throw Error(fmt::format("'{}' is not a size", printable_line(text, 60)), "--size",
                 "write width x height, such as 1400x800 (pixels), 160x100mm, 16x10cm or 6.3x4in");
   size.width = *width * factor;
   size.height = *height * factor;
@@ -86,7 +86,7 @@ PictureFont parse_picture_font(const std::string& text) {
     font.name = text.substr(0, comma);
   const bool has_bad_size = font.size ? !(*font.size >= 3.0 && *font.size <= 200.0) : comma != std::string::npos;
   if (has_bad_size || font.name.find(',') != std::string::npos || (font.name.empty() && !font.size))
-    throw Error(fmt::format("'{}' is no font", printable_line(text, 60)), "--font",
+    throw Error(fmt::format("'{}' is not a font", printable_line(text, 60)), "--font",
                 "write a name, a size from 3 to 200, or both: 'DejaVu Sans,9'");
   return font;
 }

@@ -20,10 +20,10 @@ namespace {
 void check_abscissae(const std::vector<Series>& series) {
   for (const Series& one : series)
     if (one.kind == SeriesKind::run && is_of_modes(one) != is_of_modes(series.front()))
-      throw Error(
-          fmt::format("'{}' is over modes, '{}' over time", is_of_modes(one) ? one.channel : series.front().channel,
-                      is_of_modes(one) ? series.front().channel : one.channel),
-          "plot", "draw them as two pictures");
+      throw Error(fmt::format("'{}' has values over modes, '{}' over time",
+                              is_of_modes(one) ? one.channel : series.front().channel,
+                              is_of_modes(one) ? series.front().channel : one.channel),
+                  "plot", "draw them in two pictures");
 }
 
 /// Throws Error if a series has no finite value, as for a node without rotations; gnuplot cannot draw axes then.
@@ -60,16 +60,16 @@ void check_something_is_seen(const std::vector<Series>& series, const PlotOption
     }
   const Series& one = series.front();
   if (!is_in_range)
-    throw Error(fmt::format("nothing between {:g} and {:g}; the run has {:g} to {:g} {}", (*range)[0], (*range)[1],
-                            first, last, one.x_unit),
+    throw Error(fmt::format("no values between {:g} and {:g}; the run goes from {:g} to {:g} {}", (*range)[0],
+                            (*range)[1], first, last, one.x_unit),
                 one.source, "choose another --range");
   if (!is_positive)
     throw Error(fmt::format("'{}' has no positive values, which a logarithmic axis needs", one.channel), one.source,
-                "leave --log-x and --log-y away, or choose another channel");
+                "omit --log-x and --log-y, or choose another channel");
 }
 
 /// Text on norms of differences and omitted legends.
-std::string told(const std::vector<Series>& series, const PlotOptions& options) {
+std::string reported(const std::vector<Series>& series, const PlotOptions& options) {
   std::string text;
   for (const Series& one : series)
     if (one.kind == SeriesKind::difference)
@@ -94,7 +94,7 @@ std::string plot(const std::vector<Series>& series, const PlotOptions& options) 
   write_text_file(
       options.output,
       formats::with_producer(gnuplot_picture(gnuplot_script(series, options), options.output), producer("mechanism")));
-  return told(series, options);
+  return reported(series, options);
 }
 
 }  // namespace tisserand::mechanism

@@ -320,7 +320,7 @@ std::vector<Panel> panels_of(const std::vector<Series>& series) {
   const auto units = static_cast<std::size_t>(std::ranges::count(panels, false, &Panel::of_differences));
   if (units > kMostPanels)
     throw Error(fmt::format("the chosen channels have {} different units", units), "plot",
-                fmt::format("choose channels of at most {} units", kMostPanels));
+                fmt::format("choose channels of at most {} different units", kMostPanels));
   return panels;
 }
 
@@ -330,9 +330,9 @@ std::string missing_legends(const std::vector<Series>& series, const PlotOptions
     if (panel.legend_columns == 0)
       text +=
           has_too_many_names(panel)
-              ? fmt::format("{} curves in one panel are too many for a legend: it is left out\n", panel.members.size())
+              ? fmt::format("{} curves in one panel are too many for a legend: it is omitted\n", panel.members.size())
               : fmt::format(
-                    "the legend of {} curves has no room and is left out; take a larger --size or a smaller --font\n",
+                    "the legend of {} curves does not fit and is omitted; use a larger --size or a smaller --font\n",
                     panel.members.size());
   return text;
 }

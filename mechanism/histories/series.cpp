@@ -65,10 +65,10 @@ std::size_t find_column(const std::vector<std::string>& header, const std::strin
   if (code == std::errc() && rest == wanted.data() + wanted.size() && number >= 1 && number <= header.size())
     return number - 1;
   if (!formats::is_row_of_numbers(next, ',', header.size()))
-    throw Error(fmt::format("no column '{}' among {}", wanted, header.size()), file + ":1",
+    throw Error(fmt::format("there is no column '{}' among the {} columns", wanted, header.size()), file + ":1",
                 "give a CSV file: names of columns, then lines of numbers");
-  throw Error(fmt::format("no column '{}' among {}", wanted, header.size()), file + ":1",
-              fmt::format("take a number from 1, or a name: the nearest are {}", listed(nearest_names(wanted, names))));
+  throw Error(fmt::format("there is no column '{}' among the {} columns", wanted, header.size()), file + ":1",
+              fmt::format("give a number from 1, or a name: the nearest are {}", listed(nearest_names(wanted, names))));
 }
 
 double number(const std::string& cell, const std::string& file, std::size_t line, std::size_t column, bool in_table) {
@@ -220,7 +220,7 @@ Series read_reference(const ReferenceColumn& column) {
     if (trimmed(line).empty()) continue;
     const std::vector<std::string> row = cells(line);
     if (row.size() != header.size())
-      throw Error(fmt::format("{} cells where the header names {}", row.size(), header.size()),
+      throw Error(fmt::format("{} cells, but the header has {}", row.size(), header.size()),
                   fmt::format("{}:{}", column.file, number_of_line), "every row needs one cell per column");
     const bool in_table = !series.x.empty();
     const double at = number(row[x], column.file, number_of_line, x, in_table);

@@ -146,9 +146,9 @@ ShownUnit parse_one(const std::string& piece) {
     for (const Quantity& one : known_quantities) names.emplace_back(one.name);
     if (quantity == known_quantities.end())
       throw Error(fmt::format("unknown quantity '{}'", printable_line(name, 60)), "--units",
-                  "choose among " + join(names, ", ") + "; the unit alone does as well");
+                  "choose among " + join(names, ", ") + "; the unit alone is also enough");
     if (quantity->dimension != unit->dimension)
-      throw Error(fmt::format("{} is no unit of {}", text, name), "--units",
+      throw Error(fmt::format("{} is not a unit of {}", text, name), "--units",
                   fmt::format("it is a unit of {}", name_of(unit->dimension, text)));
   }
   return {text, *unit};
@@ -202,7 +202,8 @@ std::vector<ShownUnit> parse_shown_units(const std::vector<std::string>& pieces)
       ShownUnit next = parse_one(text.substr(at, end - at));
       for (const ShownUnit& other : units)
         if (other.unit.dimension == next.unit.dimension)
-          throw Error(fmt::format("{} and {} measure the same", other.text, next.text), "--units", "give one of them");
+          throw Error(fmt::format("{} and {} are units of the same quantity", other.text, next.text), "--units",
+                      "give only one of them");
       units.push_back(std::move(next));
       at = end + 1;
     }
@@ -224,10 +225,9 @@ void show_in(const std::vector<ShownUnit>& units, std::vector<Series>& series) {
   }
   for (const ShownUnit& unit : units)
     if (!used.contains(unit.text))
-      throw Error(fmt::format("nothing that is drawn can be shown in {}, a unit of {}", unit.text,
+      throw Error(fmt::format("no quantity in the plot can be shown in {}, a unit of {}", unit.text,
                               name_of(unit.unit.dimension, unit.text)),
-                  "--units",
-                  first.empty() ? "leave it out; runs without named units have none to convert" : "leave it out");
+                  "--units", first.empty() ? "omit it; runs without named units cannot be converted" : "omit it");
 }
 
 }  // namespace tisserand::mechanism

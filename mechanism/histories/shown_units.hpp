@@ -10,8 +10,8 @@
 
 namespace tisserand::mechanism {
 
-/// Dimension of a unit. Energies and moments, and frequencies and rates, have the same powers; the symbols J and Hz
-/// distinguish them.
+/// Dimension of a unit: powers of length, mass, time and angle. Energies and moments have the same powers, and so have
+/// frequencies and rates. `kind` distinguishes them by the symbols J and Hz.
 struct Dimension {
   enum class Kind { plain, energy, frequency };
   int length = 0, mass = 0, time = 0, angle = 0;
@@ -19,23 +19,23 @@ struct Dimension {
   bool operator==(const Dimension&) const = default;
 };
 
-/// A unit as a factor to SI (angles: to radians) with its dimension.
+/// Unit as a factor to SI (angles: to radians) with its dimension.
 struct MeasuredUnit {
   double factor = 1.0;
   Dimension dimension;
 };
 
-/// Parses units such as "mm", "N mm", "kg m s^-2", "m/s^2", "rad s^-1", "MPa", "deg", "rpm", "%"; empty if unknown.
+/// Parses a unit such as "mm", "N mm", "kg m s^-2", "m/s^2", "rad s^-1", "MPa", "deg", "rpm", "%". Absent: unknown.
 std::optional<MeasuredUnit> measured_unit(const std::string& text);
 
-/// A requested unit.
+/// Unit that the user requests, as text and as factor with dimension.
 struct ShownUnit {
   std::string text;
   MeasuredUnit unit;
 };
 
-/// Parses "mm,MPa" or "length=mm,stress=MPa", also in several pieces. Throws Error for an unknown unit (with a list of
-/// the known ones), a unit of another quantity, and two units for one quantity.
+/// Parses the units that the user requests: "mm,MPa" or "length=mm,stress=MPa", also in several pieces. Throws Error
+/// for an unknown unit (with a list of the known ones), a unit of another quantity, and two units for one quantity.
 std::vector<ShownUnit> parse_shown_units(const std::vector<std::string>& pieces);
 
 /// Converts values, abscissae and units of all series to the requested units. A reference without unit counts as having

@@ -37,7 +37,7 @@ void export_table(const std::string& file, const std::vector<std::string>& patte
 std::vector<Series> compare(const SeriesRequest& request, const TimeWindow& window) {
   const std::size_t references = request.references.size() + request.reference_runs.size();
   if (references != 1)
-    throw Error(fmt::format("{} references, one is needed", references), "compare",
+    throw Error(fmt::format("{} references, but exactly one is needed", references), "compare",
                 "name it with --reference file.csv:t:column, or --reference other.results.h5");
   const std::vector<Series> all = read_series(request);
   std::vector<Series> differences;

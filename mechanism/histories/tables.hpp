@@ -9,14 +9,15 @@
 
 namespace tisserand::mechanism {
 
-/// Table with one line per channel, "name [unit]", with the number of instants. For an interrupted run the reason
-/// stands above. `patterns` select as in formats::select_channels(); none: all.
+/// Table of the channels of a results file, one line "name [unit]" each, with the number of instants. For an
+/// interrupted run the reason stands above. `patterns`: selection as in formats::select_channels(); empty: all.
 std::string channels_table(const std::string& file, const std::vector<std::string>& patterns);
 
-/// Writes the chosen channels (none chosen: all) as CSV with the header "time [s],name [unit],...".
+/// Writes the selected channels of a results file as CSV with the header "time [s],name [unit],...". `patterns`:
+/// selection as in formats::select_channels(); empty: all.
 void export_table(const std::string& file, const std::vector<std::string>& patterns, const std::string& output);
 
-/// Differences of every series of a request from its reference. Throws Error unless there is exactly one.
+/// Differences of every series of a request from its reference. Throws Error unless each has exactly one.
 std::vector<Series> compare(const SeriesRequest& request, const TimeWindow& window);
 
 /// Table of differences as text, one line each.

@@ -8,13 +8,14 @@
 
 namespace tisserand::mechanism {
 
-/// Term sign · a_i·b_j.
+/// Term sign · a_i·b_j, with axis i of marker A and axis j of marker B (0 x, 1 y, 2 z).
 struct NormalTerm {
   int i;
   int j;
   double sign;
 };
 
+/// Sum of the first `count` terms of products of axes.
 struct NormalSum {
   std::array<NormalTerm, 2> term;
   int count;
@@ -23,8 +24,10 @@ struct NormalSum {
 inline NormalSum normal_sum(const Relation& r) { return {{{{r.i, r.j, 1.0}, {}}}, 1}; }
 inline constexpr NormalSum twist_sum{{{{0, 1, 1.0}, {1, 0, -1.0}}}, 2};
 
-/// Angle θ = atan2(sine, cosine). About z it is that of the rotation R_AB with z_B near z_A, exact if they agree. About
-/// x it requires x_A normal to y_B; about y, y_B normal to x_A (the two pins of a universal joint, R_AB = R_x R_y).
+/// Sine and cosine of the angle of marker B from A about an axis, as sums of products of axes; the angle is atan2(sine,
+/// cosine), THEORY (55). About z it is that of the rotation R_AB with z_B near z_A, exact if both axes agree.
+/// About x it requires x_A normal to y_B, about y it requires y_B normal to x_A. These are the two pins of a universal
+/// joint, R_AB = R_x R_y.
 struct AngleTerms {
   NormalSum sine;
   NormalSum cosine;

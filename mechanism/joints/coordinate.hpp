@@ -11,16 +11,17 @@
 
 namespace tisserand::mechanism {
 
+/// Joint coordinate: a relation between two markers that is measured, driven, coupled or loaded.
 struct Coordinate {
-  std::string name;  ///< "hinge", "slide/z": the joint, and its coordinate if there are several
+  std::string name;  ///< "hinge", or "slide/z" if the joint has several coordinates
   Marker a;
   Marker b;
   Relation relation;
   int turn = -1;        ///< for angles: index of the unwrapped value in the state
-  bool active = false;  ///< used by a coupling, a motion or a spring: evaluated in every step
+  bool active = false;  ///< a coupling, drive or spring uses it; evaluated in every step
 };
 
-/// Values of one coordinate at one instant; angles unwrapped.
+/// Value, rate and gradient G (rate = G v) of one joint coordinate at one instant. Angles are unwrapped.
 struct CoordinateTerms {
   double value = 0.0;
   double rate = 0.0;
@@ -32,20 +33,20 @@ inline double unwrapped(double angle, double near) {
   return near + std::remainder(angle - near, 2.0 * std::numbers::pi);
 }
 
-/// Term of Φ = Σ factor · coordinate − constant − f(t). Gears, racks and screws have two terms, a driven coordinate has
-/// one.
+/// Term factor · coordinate of a coupling. Gears, racks and screws have two terms, a driven coordinate has one.
 struct CouplingTerm {
-  int coordinate = 0;  ///< row of Model::coordinates
+  int coordinate = 0;  ///< index in Model::coordinates
   double factor = 1.0;
 };
+/// Coupling of joint coordinates: the constraint Φ = Σ factor · coordinate − constant − f(t) = 0.
 struct Coupling {
   std::string name;
   std::vector<CouplingTerm> terms;
   double constant = 0.0;
   int motion = -1;          ///< index of f in Evaluation::motions, −1: none
   bool length = false;      ///< whether Φ is a length
-  bool thread = false;      ///< coupling of a screw: its force is part of the joint's reaction
-  bool from_start = false;  ///< the constant is the value at the start: gears constrain changes only
+  bool thread = false;      ///< coupling of a screw: part of the reaction of its joint
+  bool from_start = false;  ///< `constant` is the value at the start, as for gears
   int row = 0;              ///< index of its multiplier
 };
 

@@ -142,11 +142,11 @@ std::string joint_equation_name(const Joint& joint, int equation) {
     case RelationKind::normal:
       return fmt::format("{} axis of B normal to {} axis of A", axis_name[r.j], axis_name[r.i]);
     case RelationKind::twist:
-      return "equal turn of A and B";
+      return "equal rotation of A and B";
     case RelationKind::distance:
       return "distance";
     case RelationKind::angle:
-      return fmt::format("turn about {} of A", axis_name[r.i]);
+      return fmt::format("rotation about {} of A", axis_name[r.i]);
   }
   return {};
 }

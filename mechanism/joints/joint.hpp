@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Joints between two markers. A joint keeps relations at zero: it has constraints Φ, their Jacobian B, the bias of Φ̈ and
-// the geometric stiffness of its reactions. joint_laws.cpp lists the relations of each kind.
+// Joints between two markers. A joint keeps relations at zero: it has constraints Φ, their Jacobian B, the bias of Φ̈
+// and the geometric stiffness of its reactions. joint_laws.cpp lists the relations of each kind.
 #pragma once
 
 #include <array>
@@ -16,46 +16,49 @@
 
 namespace tisserand::mechanism {
 
-/// Equations of a joint: Φ = x_B − x_A (world axes) if it keeps the origins together, then relations minus `constant`.
+/// Joint between markers A and B with its equations Φ: x_B − x_A (world axes) if it keeps the origins together, then
+/// relations minus `constant`.
 struct Joint {
   std::string name;
   JointKind kind = JointKind::spherical;
   Marker a;
   Marker b;
   bool coincident = true;
-  bool planar = false;  ///< in planar models: origins are kept together in x and y alone
+  bool planar = false;  ///< origins are kept together in x and y alone
   std::array<Relation, 6> relations{};
   int relation_count = 0;
-  double constant = 0.0;  ///< length of a joint that keeps a distance; 0 for all others
-  int row = 0;            ///< first multiplier
-  int thread = -1;        ///< for screws: index in Model::couplings of z − lead × angle
+  double constant = 0.0;  ///< length of a joint that keeps a distance; else 0
+  int row = 0;            ///< index of its first multiplier
+  int thread = -1;        ///< for screws: index in Model::couplings; else −1
 
   int coincident_rows() const { return !coincident ? 0 : planar ? 2 : 3; }
   int size() const { return coincident_rows() + relation_count; }
 };
 
-/// Whether equation `k` of the joint is a length. Others are of order one: angles, products of unit vectors.
+/// Whether equation `equation` of the joint is a length. Others are of order one: angles and products of unit vectors.
 bool is_length(const Joint& joint, int equation);
 
-/// The axis that both markers keep parallel (−1: none), and whether they keep all three. Products of axes also allow
-/// opposite axes.
+/// Axis (0 x, 1 y, 2 z) that the joint keeps parallel on both markers, −1 if none. Products of axes also allow opposite
+/// axes.
 int aligned_axis(const Joint& joint);
+/// Whether the joint keeps all three axes of both markers parallel.
 bool keeps_orientation(const Joint& joint);
 
 /// Sets coincidence and relations of the joint from the law of its kind, or from `held` if the scene gives `hold`.
 void set_relations(JointKind kind, const std::array<bool, 6>& held, Joint& joint);
 
-/// Dependence of the equations of the joint on positions and axes, without its coordinates.
+/// Dependence of the equations of the joint on positions of the markers and on their axes. Free coordinates of the
+/// joint do not count.
 Dependence depends_on(const Joint& joint);
 
-/// Length of the part of a displacement of marker B from A (axes of A) that the joint constrains. It is the violation
-/// that a shift of one marker by the displacement causes.
+/// Length of the constrained part of `displacement` of marker B from A (axes of A). It is the violation that a shift of
+/// one marker by the displacement causes.
 double held_length(const Joint& joint, const Eigen::Vector3d& displacement);
 
 /// Whether the joint keeps a distance. Its markers are then apart, and their axes do not matter.
 bool keeps_distance(const Joint& joint);
 
-/// A coordinate that the joint leaves free, with its name from formats::JointKindRow.
+/// Coordinate that a joint leaves free, with its name from formats::JointKindRow.
 struct NamedRelation {
   std::string name;
   Relation relation;
@@ -65,7 +68,8 @@ std::vector<NamedRelation> free_coordinates(const Joint& joint);
 /// Name of one equation for messages, e.g. "translation x" or "z axis of B normal to x axis of A".
 std::string joint_equation_name(const Joint& joint, int equation);
 
-/// Values of one joint; the first size() rows count. Columns of B: [x_A Θ_A x_B Θ_B] (material rotations).
+/// Values of one joint at one instant: Φ, its Jacobian B and the bias of Φ̈. The first size() rows are in use. Columns
+/// of B are [x_A Θ_A x_B Θ_B]: world translations and material rotations of both carriers.
 struct JointTerms {
   Eigen::Matrix<double, 6, 1> phi = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::Matrix<double, 6, 12> B = Eigen::Matrix<double, 6, 12>::Zero();
@@ -74,8 +78,9 @@ struct JointTerms {
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 
-/// Product B d for increments of both carriers; ground has d = 0. Rows after the joint's are zero, so that loops have
-/// constant bounds: a joint has no more equations than a carrier has columns.
+/// Product B d for increments `a` and `b` of both carriers (nodes of the markers); a carrier that is the ground adds
+/// nothing. Rows after those of the joint are zero, so that loops have constant bounds. A joint has no more equations
+/// than a carrier has columns.
 template <int D>
 CarrierVector<D> rows_times(const Joint& joint, const JointTerms& terms, const CarrierVector<D>& a,
                             const CarrierVector<D>& b) {
@@ -89,7 +94,8 @@ CarrierVector<D> rows_times(const Joint& joint, const JointTerms& terms, const C
   if (joint.b.node >= 0) add(6, b);
   return product;
 }
-/// Product Bᵀ λ of the joint's own rows, for the carrier whose columns begin at `first`: 0 (A) or 6 (B).
+/// Product Bᵀ λ of the joint for one carrier, whose columns in B begin at `first`: 0 for A, 6 for B. The coupling of a
+/// thread is not in it.
 template <int D>
 CarrierVector<D> transposed_times(const Joint& joint, const JointTerms& terms, const double* lambda, int first) {
   constexpr int turns = Space<D>::turns, rows = D + turns;
@@ -101,26 +107,29 @@ CarrierVector<D> transposed_times(const Joint& joint, const JointTerms& terms, c
   return product;
 }
 
-/// Computes Φ and B.
+/// Computes Φ and B of the joint in `terms`. `a`, `b`: motion of the nodes of its markers.
 void joint_constraints(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms);
 
-/// Computes the bias Ḃ v.
+/// Computes the bias Ḃ v of the joint in `terms`, THEORY (59). `a`, `b`: motion of the nodes of its markers.
 void joint_bias(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms);
 
-/// Computes ∂(B v)/∂(x_A Θ_A x_B Θ_B) at fixed ẋ and Ω for THEORY (59) and (70); the first size() rows count.
+/// Computes the derivative N = ∂(B v)/∂(x_A Θ_A x_B Θ_B) at fixed ẋ and Ω, for THEORY (59) and (70). The first size()
+/// rows are in use.
 void joint_rate_gradient(const Joint& joint, const NodeMotion& a, const NodeMotion& b, Eigen::Matrix<double, 6, 12>& N);
 
-/// Computes K = ∂(Bᵀλ)/∂(x_A Θ_A x_B Θ_B), not symmetric with material increments.
+/// Computes the geometric stiffness K = ∂(Bᵀλ)/∂(x_A Θ_A x_B Θ_B) of the reactions. It is not symmetric with material
+/// increments.
 void joint_stiffness(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda, Square12& K);
 
-/// Force and moment of A's body on B's body, at B's origin, in A's axes.
+/// Force and moment that the body of A exerts on the body of B, at the origin of B, in axes of A.
 struct JointReaction {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
 };
-/// Reaction of constraint or applied forces with gradients G (rows of [x_A Θ_A x_B Θ_B]): −Gᵀ λ on B.
+/// Reaction of a constraint or an applied force with multipliers λ and gradients G (rows of [x_A Θ_A x_B Θ_B]): the
+/// wrench −Gᵀ λ on B. `pulled_back`: λᵀ G.
 JointReaction reaction_of(const Row12& pulled_back, const MarkerPair& pair);
-/// Reaction of the joint's own rows, without its thread, which is a coupling.
+/// Reaction of the joint, without that of its thread, which is a coupling.
 JointReaction joint_reaction(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda);
 
 }  // namespace tisserand::mechanism

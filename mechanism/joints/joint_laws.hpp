@@ -13,7 +13,7 @@ namespace tisserand::mechanism {
 
 using formats::JointKind;
 
-/// Up to six relations, in the order of the equations or coordinates.
+/// List of up to six relations of a joint, in the order of its equations or coordinates.
 struct Relations {
   std::array<Relation, 6> list{};
   int count = 0;
@@ -26,8 +26,8 @@ struct Relations {
   constexpr const Relation* end() const { return list.data() + count; }
 };
 
-/// Equations of a joint: the origins coincide (three equations), and relations are zero. A distance is equal to the
-/// length of the joint.
+/// Equations of a kind of joint: the origins coincide (three equations) if `coincident`, and `relations` are zero. A
+/// relation of kind distance is equal to the length of the joint instead.
 struct Held {
   bool coincident = false;
   Relations relations{};
@@ -35,33 +35,37 @@ struct Held {
   constexpr int size() const { return (coincident ? 3 : 0) + relations.count; }
 };
 
-/// Sliding velocity of the surfaces in contact (mechanism/joints/friction.hpp).
+/// Kind of sliding velocity of the surfaces in contact (mechanism/joints/friction.hpp).
 enum class SlipKind {
   none,         ///< no surface and no friction
-  coordinates,  ///< rates of the coordinates, those of angles times the radius of the contact
+  coordinates,  ///< rates of the coordinates; rates of angles times the radius of contact
   ball          ///< radius times the relative angular velocity
 };
 
-/// Components of the reaction, axes of A, that press the surfaces together: 1 for those that do, 0 for the others.
+/// Components of the reaction (axes of A) that press the surfaces together: factor 1 for them, 0 for the others.
 struct Pressing {
   std::array<double, 3> force{1.0, 1.0, 1.0};
   std::array<double, 3> moment{1.0, 1.0, 1.0};
 };
 
-/// Law of one kind of joint.
+/// Law of one kind of joint: what it holds, what it leaves free, and how it slides.
 struct JointLaw {
   JointKind kind = JointKind::fixed;
   Held holds{};
-  bool chosen = false;      ///< the scene's `hold` gives the constrained directions: see held_directions()
-  bool threaded = false;    ///< adds a coupling z = pitch × angle/2π from the start, with its own multiplier
-  Relations coordinates{};  ///< as many as formats::JointKindRow::coordinates has names; if chosen: only the free ones
+  /// Whether `hold` of the scene gives the constrained directions, see held_directions().
+  bool chosen = false;
+  bool threaded = false;  ///< adds a coupling z = pitch × angle/2π from the start
+  /// Coordinates of the joint, as many as formats::JointKindRow::coordinates has names. If `chosen`, the joint has only
+  /// those that it leaves free.
+  Relations coordinates{};
   SlipKind slip = SlipKind::none;
   Pressing pressing{};
 };
 const JointLaw& joint_law(JointKind kind);
 
-/// Equations that hold the true directions [x y z rx ry rz] in axes of A. All rotations: B keeps its orientation. Two:
-/// the third axis of B stays along that of A. One, about axis k: the other axes, one of A and one of B, stay normal.
+/// Equations that hold the directions [x y z rx ry rz] (axes of A) that are true in `directions`. With all three
+/// rotations B keeps its orientation. With two, the third axis of B stays along that of A. With one, about axis k, the
+/// two other axes, one of A and one of B, stay normal.
 Held held_directions(const std::array<bool, 6>& directions);
 
 }  // namespace tisserand::mechanism

@@ -11,28 +11,30 @@
 
 namespace tisserand::mechanism {
 
-/// Kinds of THEORY (55). d = x_B − x_A between the origins of the markers; a_i, b_j: axes of A and B (0 x, 1 y, 2 z).
+/// Kinds of relations between markers A and B, THEORY (55). d = x_B − x_A is the distance vector of the origins. a_i
+/// and b_j are axes of A and B (0 x, 1 y, 2 z).
 enum class RelationKind : std::uint8_t {
   along,     ///< a_i · d: displacement of B along axis i of A
   normal,    ///< a_i · b_j: 0 if the axes are normal to each other
   twist,     ///< x_A · y_B − y_A · x_B: 0 if B turns as much as A (constant velocity)
-  distance,  ///< |d|
+  distance,  ///< |d|: distance of the origins
   angle,     ///< rotation of B about axis i of A, right-handed, in (−π, π]; angle_terms() defines "about"
 };
 
+/// Scalar relation between two markers: its kind and the axes i of A and j of B.
 struct Relation {
   RelationKind kind = RelationKind::along;
   std::uint8_t i = 0;
   std::uint8_t j = 0;
-  bool planar = false;  ///< in planar models: its axes lie in the plane, and it has the columns of Space<2>
+  bool planar = false;  ///< its axes lie in the plane of a planar model
 };
 
-/// Whether its value is a length. Others are of order one: an angle or a product of unit vectors.
+/// Whether the value of the relation is a length. Other values are of order one: an angle or a product of unit vectors.
 inline bool is_length(const Relation& relation) {
   return relation.kind == RelationKind::along || relation.kind == RelationKind::distance;
 }
 
-/// Dependence of a relation on positions of the origins, axes of marker A, axes of marker B. A marker off its node
+/// Dependence of a relation on positions of the origins, axes of marker A, and axes of marker B. A marker off its node
 /// moves with the rotation of the node in any case.
 struct Dependence {
   bool places = false;
@@ -60,7 +62,7 @@ constexpr Dependence depends_on(const Relation& relation) {
   return {};
 }
 
-/// Both markers with the motion of their carriers.
+/// Markers A and B with the motion of the nodes that carry them.
 struct MarkerPair {
   const Marker& a;
   const Marker& b;
@@ -68,8 +70,9 @@ struct MarkerPair {
   const NodeMotion& node_b;
 };
 
-/// Columns [x_A Θ_A x_B Θ_B]: world translations and material rotations of the two carriers.
+/// Row in the columns [x_A Θ_A x_B Θ_B]: world translations and material rotations of the nodes of two markers.
 using Row12 = Eigen::Matrix<double, 1, 12>;
+/// Matrix in the rows and columns [x_A Θ_A x_B Θ_B].
 using Square12 = Eigen::Matrix<double, 12, 12>;
 
 /// Value and gradient G of a relation, THEORY (56), (57): δ value = G δq, and rate = G v.
@@ -81,13 +84,13 @@ RelationTerms evaluate(const Relation& relation, const MarkerPair& pair);
 
 /// Whether the axes that the relation uses lie in the plane z = 0 of both carriers.
 bool has_planar_axes(const Relation& relation, const Marker& a, const Marker& b);
-/// Bias Ġ v of THEORY (59): the second derivative of the value is G v̇ + Ġ v.
+/// Bias Ġ v of a relation with the gradient G, THEORY (59). The second derivative of its value is G v̇ + Ġ v.
 double bias(const Relation& relation, const MarkerPair& pair);
 
-/// Derivative ∂(G v)/∂q at fixed ẋ and Ω.
+/// Derivative ∂(G v)/∂q of the rate of a relation with the gradient G, at fixed ẋ and Ω.
 Row12 rate_gradient(const Relation& relation, const MarkerPair& pair);
 
-/// Adds weight ∂(Gᵀ)/∂q to K; not symmetric with material increments.
+/// Adds weight · ∂(Gᵀ)/∂q to K, for a relation with the gradient G. It is not symmetric with material increments.
 void add_stiffness(const Relation& relation, const MarkerPair& pair, double weight, Square12& K);
 
 }  // namespace tisserand::mechanism

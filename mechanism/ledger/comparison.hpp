@@ -10,18 +10,22 @@
 
 namespace tisserand::mechanism {
 
+/// Largest change of one kind of measure by an effect.
 struct LedgerChange {
   std::string of;     ///< name of the measure that changes most
   double part = 0.0;  ///< change, as a fraction of the size of its group
 };
 
-/// Largest difference of each kind of measure at equal instants of all windows, over the size of its group. If a group
-/// does not move, lengths are compared with the size of the scene.
+/// Comparison of two motions over the same windows. It finds the largest difference of each kind of measure at equal
+/// instants, relative to the size of the group of the measure. If a group does not move, lengths are compared with the
+/// size of the scene.
 class Comparison {
  public:
-  /// `sizes`: sizes of the measures of `own`. They must outlive this object. `length`: size of the scene.
+  /// Starts a comparison without windows. `sizes`: sizes of the measures of the reference motion, which must outlive
+  /// this object. `length`: size of the scene.
   Comparison(const MeasureSizes& sizes, double length) : sizes_(sizes), length_(length) {}
 
+  /// Adds one window of both motions: `own` of the reference, `other` of the motion to compare.
   void add(const WindowHistory& own, const WindowHistory& other);
   /// Largest change of each kind of measure, in descending order.
   std::vector<LedgerChange> changes() const;

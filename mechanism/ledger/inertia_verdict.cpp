@@ -28,11 +28,11 @@ std::string verdict_among_equals(const std::string& body, const std::vector<Iner
   for (const InertiaRun& a : runs)
     for (const InertiaRun& b : runs) largest = std::max(largest, difference(a, b, sizes, length));
   if (largest <= right_option)
-    return fmt::format("inertia of '{}': its options agree within {}, any of them is right", body,
+    return fmt::format("inertia of '{}': its options agree within {}, so any of them is right", body,
                        percent_text(largest));
   return fmt::format(
-      "inertia of '{}': its options differ by up to {}: without F (a companion file) none is known to be right; write "
-      "one, or cut the body into several",
+      "inertia of '{}': its options differ by up to {}. Without F (a companion file) it is not known which of them is "
+      "right. Write a companion file, or cut the body into several superelements",
       body, percent_text(largest));
 }
 
@@ -47,12 +47,12 @@ std::string inertia_verdict(const std::string& body, const std::vector<InertiaRu
   for (const InertiaRun& run : runs) {
     if (&run == &*best) continue;
     const double error = difference(*best, run, sizes, length);
-    parts.push_back(fmt::format("{} by {}", run.option, percent_text(error)));
+    parts.push_back(fmt::format("{} {}", run.option, percent_text(error)));
     if (run.differs != nullptr) *run.differs = error;
     if (error <= right_option && run.cost < right->cost) right = &run;
   }
-  return fmt::format("inertia of '{}': {} differ from F, which has all of the mass: take {}", body, join(parts, ", "),
-                     right->option);
+  return fmt::format("inertia of '{}': difference from F, which contains all of the mass: {}. Use {}", body,
+                     join(parts, ", "), right->option);
 }
 
 }  // namespace tisserand::mechanism

@@ -9,7 +9,7 @@
 
 namespace tisserand::mechanism {
 
-/// The windows computed with one inertia option, and their cost relative to the scene as given.
+/// Windows that were computed with one inertia option, and their cost relative to the scene as given.
 struct InertiaRun {
   std::string option;
   const std::vector<WindowHistory>* windows = nullptr;
@@ -17,8 +17,9 @@ struct InertiaRun {
   double* differs = nullptr;  ///< receives the difference between the option and F; may be null
 };
 
-/// Sentence that recommends the cheapest option that differs from F, which has all of the mass, by at most 1 %. Without
-/// a companion file there is no F. Then no option is known to be right, unless all agree within 1 %.
+/// Sentence that recommends an inertia option for a superelement: the cheapest one that differs from F by at most 1 %.
+/// F contains all of the mass. Without a companion file there is no F. Then no option is known to be right, unless all
+/// agree within 1 %. `length`: size of the scene.
 std::string inertia_verdict(const std::string& body, const std::vector<InertiaRun>& runs, const MeasureSizes& sizes,
                             double length);
 

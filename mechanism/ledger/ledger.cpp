@@ -37,7 +37,7 @@ class LedgerMaker {
 
   Ledger make() {
     const std::vector<Toggle> toggles = toggles_of(request_.scene, stage_.files, request_.settings.choice);
-    tell(0.0, "the run");
+    tell(0.0, "reference run");
     reference_ = request_.settings.results.empty()
                      ? run_reference(request_.scene, request_.begin, stage_)
                      : windows_of_results(request_.scene, request_.settings.results, stage_);
@@ -78,8 +78,8 @@ class LedgerMaker {
   }
   void require_whole(const WindowHistory& own) const {
     if (!own.failure.empty() || own.states.empty())
-      throw Error(fmt::format("the scene as it is ended early: {}", own.failure), request_.scene.file,
-                  "a scene that runs to its end can have a ledger: shorten integrator.end");
+      throw Error(fmt::format("the unchanged scene ended early: {}", own.failure), request_.scene.file,
+                  "a ledger needs a run that reaches its end: shorten integrator.end");
   }
 
   /// Sizes from the reference run; with stored results from the windows, or from the whole run if a line needs it.
@@ -129,7 +129,7 @@ class LedgerMaker {
   void replay_toggled(LedgerLine& line) {
     const formats::Scene scene = toggled(request_.scene, stage_.files, line.toggle);
     const BuiltModel other = build_model(scene, stage_.files);
-    const bool whole_run = begins_anew(line.toggle, other.model);
+    const bool whole_run = restarts(line.toggle, other.model);
     const std::vector<LedgerWindow> windows = whole_run ? std::vector{whole_window()} : reference_.windows;
     const std::vector<WindowHistory>& own_windows = whole_run ? own_run() : own_windows_;
     Comparison comparison(*sizes_, own_.model.length);
@@ -160,7 +160,7 @@ class LedgerMaker {
   }
   /// A body of another stiffness would begin a window with a deformation that does not fit it, and vibrate. So it runs
   /// from the start.
-  bool begins_anew(const Toggle& toggle, const Model& other) const {
+  bool restarts(const Toggle& toggle, const Model& other) const {
     return changes_deformation(toggle) || !share_states(own_.model, other);
   }
   LedgerWindow whole_window() const {
@@ -240,11 +240,10 @@ class LedgerMaker {
 
 Ledger make_ledger(const LedgerRequest& request, const BodyFiles& files, const RunControl& control) {
   if (request.scene.analysis != formats::AnalysisKind::dynamics)
-    throw Error("a ledger is made of the motion of a dynamics analysis", request.scene.file,
-                "name one with --analysis");
+    throw Error("a ledger needs a dynamics analysis", request.scene.file, "choose one with --analysis");
   if (request.scene.integrator.accuracy)
-    throw Error("a ledger needs steps, not `accuracy`, which changes them from run to run", request.scene.file,
-                "give integrator.step or error_control in its place");
+    throw Error("a ledger cannot be combined with `accuracy`, which changes the steps from run to run",
+                request.scene.file, "set integrator.step or error_control instead of it");
   return LedgerMaker(request, files, control).make();
 }
 

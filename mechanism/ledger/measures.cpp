@@ -97,8 +97,8 @@ void Measures::add_channel(const std::string& given, const formats::ResultsLayou
       names.push_back(block.dataset.substr(1) + (block.columns[i].empty() ? "" : "/" + block.columns[i]));
       const std::string& name = names.back();
       if (name != pattern && !matches_wildcard(name, pattern) && !name.starts_with(pattern + "/")) continue;
-      const std::string& told = name == pattern ? given : name;
-      list_.push_back({MeasureKind::channel, told, told});
+      const std::string& reported = name == pattern ? given : name;
+      list_.push_back({MeasureKind::channel, reported, reported});
       sources_.push_back({static_cast<int>(i), -1, block.values});
     }
   if (list_.size() == before && missing == Missing::is_error)

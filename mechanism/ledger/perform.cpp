@@ -25,9 +25,9 @@ std::optional<State> beginning_of_last(const std::vector<PlannedAnalysis>& plann
     RunEnd end = simulate(RunRequest{one.scene, files, std::move(begin)}, control);
     if (end.report.outcome == RunOutcome::interrupted) return std::nullopt;
     if (end.report.outcome != RunOutcome::completed)
-      throw Error(fmt::format("analysis '{}', from which '{}' begins, did not end: {}", one.name, planned.back().name,
-                              end.report.reason),
-                  one.scene.file, "correct it, or name another one with --analysis");
+      throw Error(fmt::format("analysis '{}', from which '{}' begins, did not reach its end: {}", one.name,
+                              planned.back().name, end.report.reason),
+                  one.scene.file, "correct it, or choose another one with --analysis");
     ends.insert_or_assign(one.name, std::move(end.state));
   }
   return std::nullopt;
@@ -46,7 +46,7 @@ std::vector<PlannedAnalysis> planned_for(const formats::Scene& scene, std::strin
 Ledger perform_ledger(const formats::Scene& scene, const std::string& analysis, const LedgerSettings& settings,
                       const RunControl& control, const LedgerProgress& progress) {
   if (const double share = settings.windows.share; !(share >= 0.0 && share <= 1.0))
-    throw Error(fmt::format("--share: {} is no part of a whole", share), "", "give a number from 0 to 1");
+    throw Error(fmt::format("--share: {} is not between 0 and 1", share), "", "give a number from 0 to 1");
   const std::vector<PlannedAnalysis> planned = planned_for(scene, analysis);
   const BodyFiles files = read_ledger_files(scene);
   const formats::Scene whole = with_switches(planned.back().scene, {});  // auto: on

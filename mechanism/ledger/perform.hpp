@@ -9,8 +9,8 @@
 
 namespace tisserand::mechanism {
 
-/// Ledger of the named analysis (empty: the last dynamics analysis), after the analyses from which it starts.
-/// control.clock counts processor time. Throws Error.
+/// Makes the ledger of the named analysis of the scene, after running the analyses from which it starts. `analysis`:
+/// its name; empty: the last dynamics analysis. Requires that control.clock counts processor time. Throws Error.
 Ledger perform_ledger(const formats::Scene& scene, const std::string& analysis, const LedgerSettings& settings,
                       const RunControl& control, const LedgerProgress& progress);
 

@@ -114,13 +114,13 @@ formats::Scene windowed(const formats::Scene& scene, const LedgerWindow& window,
 }
 
 [[noreturn]] void throw_unfinished(const formats::Scene& scene, const RunReport& report) {
-  throw Error(fmt::format("the run that the ledger is made of ended early: {}", report.reason), scene.file,
-              "a scene that runs to its end can have a ledger: shorten integrator.end");
+  throw Error(fmt::format("the reference run of the ledger ended early: {}", report.reason), scene.file,
+              "a ledger needs a run that reaches its end: shorten integrator.end");
 }
 
 void require_windows(const formats::Scene& scene, const ReferenceRun& run) {
   if (run.windows.empty())
-    throw Error("the run holds no instant at which a window could begin", scene.file, "give it more steps");
+    throw Error("the run has no instant at which a window can begin", scene.file, "give it more steps");
 }
 
 /// Message with the first line in which the scene of the results differs; empty: no difference, or unknown.
@@ -138,7 +138,8 @@ std::string other_scene(const formats::Scene& scene, const BodyFiles& files, con
       return more ? fmt::format("'{}'", line.substr(std::min(line.find_first_not_of(' '), line.size()))) : "nothing";
     };
     return fmt::format(
-        "{} are results of another scene or of other settings: {} there, {} here; windows begin with its states",
+        "{} contains results of another scene or of other settings: {} there, {} in this scene. The windows begin with "
+        "the states of these results",
         results.path(), text(more_there, a), text(more_here, b));
   }
 }

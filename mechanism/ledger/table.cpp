@@ -11,7 +11,7 @@ namespace tisserand::mechanism {
 namespace {
 
 std::string changes_text(const LedgerLine& line) {
-  if (line.changes.empty()) return "nothing that is measured";
+  if (line.changes.empty()) return "no measured quantity";
   return fmt::format("{} by {}", line.changes.front().of, percent_text(line.changes.front().part));
 }
 
@@ -66,13 +66,14 @@ std::string percent_text(double part) {
 
 std::string ledger_text(const Ledger& ledger, const Units& units) {
   const std::string time = unit_label(units, 0, 0, 1);
-  std::string text = fmt::format("{} window{} of {:.4g}{}{}; {:.3g} µs of processor time per step, times to {:.0f} %\n",
-                                 ledger.windows, ledger.windows == 1 ? "" : "s", ledger.window, time.empty() ? "" : " ",
-                                 time, 1e6 * ledger.seconds_per_step, std::ceil(100.0 * ledger.scatter));
+  std::string text =
+      fmt::format("{} window{} of {:.4g}{}{}; {:.3g} µs of processor time per step, scatter of times {:.0f} %\n",
+                  ledger.windows, ledger.windows == 1 ? "" : "s", ledger.window, time.empty() ? "" : " ", time,
+                  1e6 * ledger.seconds_per_step, std::ceil(100.0 * ledger.scatter));
   for (const LedgerLine& line : ledger.lines) text += fmt::format("  {}\n", line_text(line));
   for (const std::string& verdict : ledger.verdicts) text += fmt::format("  {}\n", verdict);
   if (!ledger.doubt.empty()) text += fmt::format("  in doubt: {}\n", ledger.doubt);
-  if (ledger.interrupted) text += "  interrupted: effects are missing\n";
+  if (ledger.interrupted) text += "  interrupted: some effects are missing\n";
   return text;
 }
 

@@ -8,11 +8,13 @@
 
 namespace tisserand::mechanism {
 
-/// Percentage as text: "7.1 %", "1200 %"; "less than 1e-6 %" at round-off; "more than 10000 %" if a motion diverges.
+/// Text of the fraction `part` as a percentage: "7.1 %", "1200 %". It is "less than 1e-6 %" at round-off, and "more
+/// than 10000 %" if a motion diverges.
 std::string percent_text(double part);
 
-/// One line of text per effect and body in the order of the ledger, then the sentences on inertia.
+/// Ledger as text: one line per effect and body in the order of the ledger, then the sentences on inertia.
 std::string ledger_text(const Ledger& ledger, const Units& units);
+/// Ledger as JSON.
 std::string ledger_json(const Ledger& ledger);
 
 }  // namespace tisserand::mechanism

@@ -182,9 +182,9 @@ std::vector<Toggle> toggles_of(const formats::Scene& scene, const BodyFiles& fil
     return !is_chosen(choice.effects, toggle.effect) || !is_chosen(choice.owners, toggle.owner);
   });
   if (list.empty())
-    throw Error("the scene has nothing that could be switched", scene.file,
+    throw Error("the scene has no effect that can be switched", scene.file,
                 choice.effects.empty() && choice.owners.empty() ? "optional effects are listed in formats/SCENE.md"
-                                                                : "choose others");
+                                                                : "choose other effects, bodies, joints or springs");
   return list;
 }
 

@@ -13,20 +13,22 @@ namespace tisserand::mechanism {
 
 // Hooks of a body type T. A call for a type without its own hook does not compile.
 
-/// Nodes that move with the body. Its name and mass belong to the first one.
+/// Nodes that move with a body of type T. Name and mass of the body belong to the first node.
 template <class T>
 std::vector<int> attached_nodes(const Model& model, const T& body) = delete;
+/// Mass of the body.
 template <class T>
 double mass_of(const Model& model, const T& body) = delete;
-/// Name of the body: "rod", also for the elements of a beam.
+/// Name of the body for messages. Elements of a beam have the name of the beam.
 template <class T>
 std::string name_of(const Model& model, const T& body) = delete;
 /// Whether the body deforms.
 template <class T>
 bool is_flexible(const T& body) = delete;
+/// Whether the body has damping of its own.
 template <class T>
 bool is_damped(const Model& model, const T& body) = delete;
-/// Coordinates of the rows of the body, in the order of its residual.
+/// Map of the rows of the body to coordinates of the model, in the order of its residual.
 template <class T>
 ElementMap body_map(const Model& model, const T& body) = delete;
 
@@ -77,8 +79,8 @@ ElementMap body_map(const Model& model, const BeamElement3& beam);
 ElementMap body_map(const Model& model, const RigidBody& body);
 ElementMap body_map(const Model& model, const ModalBody& body);
 
-/// Calls visit(pool) for the pool of each body type, in the order in which their forces are summed. This is the only
-/// list of types.
+/// Calls visit(pool) for the pool of each body type, in the order in which forces are summed. This is the only list of
+/// body types.
 template <class AnyModel, class Visit>
 void for_each_body_pool(AnyModel& model, Visit visit) {
   const auto checked = [&visit](auto& pool) {

@@ -10,42 +10,47 @@
 
 namespace tisserand::mechanism {
 
-/// A joint coordinate, its rate, a position or velocity of a marker along a world axis, or a quantity of a tyre. Its
-/// markers are those of the coordinate; else `a` alone (b: ground), for a tyre on the wheel.
+/// Named quantity of the mechanism that expressions may use: a joint coordinate, its rate, a position or velocity of a
+/// marker along a world axis, or a quantity of a tyre. `a` and `b` are the markers of the coordinate. For other kinds
+/// `a` is the marker (of a tyre: on the wheel), and `b` is the ground.
 struct Channel {
   std::string name;
   formats::ChannelKind kind = formats::ChannelKind::coordinate;
   Marker a;
   Marker b;
-  int coordinate = -1;                               ///< row of Model::coordinates
+  int coordinate = -1;                               ///< index in Model::coordinates
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();   ///< position, velocity: direction e in world axes
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< position: the value is e·(x − origin)
-  int tyre = -1;                                     ///< row of Model::tyres
+  int tyre = -1;                                     ///< index in Model::tyres
   formats::TyreQuantity quantity = formats::TyreQuantity::load;
 };
 
-/// Unit of the values of a channel. `is_angle`: whether its coordinate, if any, is an angle.
+/// Unit of the values of a channel, as text. `is_angle`: whether the joint coordinate of the channel is an angle.
 std::string channel_unit(const Channel& channel, bool is_angle, const Units& units);
 
-/// Use of a channel in a force: in a component of a load, the force of a spring, or the factor of a part load.
+/// Use of a channel in the expression of a force: in a component of a load, the force of a spring, or the factor of a
+/// part load.
 struct ChannelUse {
   enum class Owner { load, spring, part_load };
   Owner owner = Owner::load;
   int index = 0;      ///< index in the pool of the owner
   int component = 0;  ///< component of a load
   int argument = 0;   ///< index among the channels of the expression
-  int channel = 0;    ///< row of Model::channels
+  int channel = 0;    ///< index in Model::channels
 };
 
-/// Value at one instant. `terms`: those of its coordinate, if any. tyre_quantity() gives the values of tyres.
+/// Value of a channel at one instant. `terms`: terms of its joint coordinate, else null. Values of tyres come from
+/// tyre_quantity() instead.
 double channel_value(const Channel& channel, const MarkerPair& pair, const CoordinateTerms* terms);
 
-/// Derivatives by positions (at fixed ẋ, Ω) and by velocities, columns [x_A Θ_A x_B Θ_B].
+/// Derivatives of a channel by positions (at fixed ẋ, Ω) and by velocities, in the columns [x_A Θ_A x_B Θ_B] of its
+/// markers.
 struct ChannelGradient {
   Row12 by_position = Row12::Zero();
   Row12 by_velocity = Row12::Zero();
 };
-/// Gradient of a channel, zero for tyres (see tyre_quantity_gradient()). `relation`: that of its coordinate, if any.
+/// Gradient of a channel by positions and velocities. It is zero for tyres (see tyre_quantity_gradient()). `relation`:
+/// relation of its joint coordinate, else null.
 ChannelGradient channel_gradient(const Channel& channel, const Relation* relation, const MarkerPair& pair);
 
 }  // namespace tisserand::mechanism

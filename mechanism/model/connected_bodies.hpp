@@ -10,20 +10,23 @@
 
 namespace tisserand::mechanism {
 
+/// Parts of a model: sets of nodes that would move together if every flexible body were rigid. Lists have one entry
+/// per part unless stated.
 struct Parts {
-  std::vector<int> of_node;       ///< part of each node
-  std::vector<std::string> name;  ///< name of the body
-  std::vector<int> first_node;    ///< one node of each part; its place is the origin of the part
-  std::vector<double> mass;       ///< 0: massless
+  std::vector<int> of_node;       ///< per node of the model: index of its part
+  std::vector<std::string> name;  ///< name of the body of each part
+  std::vector<int> first_node;    ///< one node of each part, the origin of the part
+  std::vector<double> mass;       ///< mass of each part; 0: massless
   int count() const { return count_of(name); }
   bool is_massless(int node) const { return mass[of_node[node]] == 0.0; }
 };
 
-/// Parts of the model: one per superelement, rigid body, nonlinear beam (elements that share nodes) and massless node.
+/// Finds the parts of the model: one per superelement, rigid body, nonlinear beam (elements that share nodes) and
+/// massless node.
 Parts find_parts(const Model& model);
 
-/// Groups of names of parts that joints, springs and couplings connect, directly or through others. One group contains
-/// the ground.
+/// Groups of parts, by name, that joints, springs and couplings connect, directly or through other parts. One group
+/// contains the ground.
 std::vector<std::vector<std::string>> connected_groups(const Model& model, const Parts& parts);
 
 }  // namespace tisserand::mechanism

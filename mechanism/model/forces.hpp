@@ -11,8 +11,8 @@
 
 namespace tisserand::mechanism {
 
-/// Traits of a force type. kind: the word in messages. markers: the members at which it acts, none if it acts on a
-/// whole body. connects: whether it connects its nodes with each other or with the ground, unlike a load.
+/// Traits of a force type. `kind`: the word in messages. `markers`: members at which it acts, none if it acts on a
+/// whole body. `connects`: whether it connects its nodes with each other or with the ground, unlike a load.
 template <class T>
 struct ForceTraits;
 template <>
@@ -40,7 +40,8 @@ struct ForceTraits<PartLoad> {
   static constexpr bool connects = false;
 };
 
-/// Coordinates of the rows of the force, in the order of its residual: those of its nodes, then its own.
+/// Map of the rows of the force to coordinates of the model, in the order of its residual: coordinates of its nodes,
+/// then its own.
 template <class T>
 ElementMap force_map(const Model& model, const T& force) {
   std::vector<int> nodes;
@@ -50,7 +51,7 @@ ElementMap force_map(const Model& model, const T& force) {
 ElementMap force_map(const Model& model, const Tyre& tyre);
 ElementMap force_map(const Model& model, const PartLoad& load);
 
-/// Calls visit(pool) for the pool of each force type, in the order of summation. This is the only list of types.
+/// Calls visit(pool) for the pool of each force type, in the order of summation. This is the only list of force types.
 template <class AnyModel, class Visit>
 void for_each_force_pool(AnyModel& model, Visit visit) {
   visit(model.bushings);

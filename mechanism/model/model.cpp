@@ -243,7 +243,7 @@ std::string coordinate_name(const Model& model, int coordinate) {
     }
   for (const Tyre& tyre : model.tyres)
     if (tyre.relaxes() && modal >= tyre.lag && modal < tyre.lag + 2)
-      return fmt::format("{}, deflection of the tread {} it", tyre.name, modal == tyre.lag ? "along" : "across");
+      return fmt::format("{}, {} deflection of the tread", tyre.name, modal == tyre.lag ? "longitudinal" : "lateral");
   const int internal = coordinate - model.sizes.boundary;
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
     if (internal >= model.internal_offset[i] && internal < model.internal_offset[i + 1])

@@ -8,15 +8,15 @@
 
 namespace tisserand::mechanism {
 
-/// Global coordinates of the local rows and columns of an element. −1: absent (ground, or not owned by the node).
-/// slots[i + j n] is the index of entry (i, j) in the values of the iteration matrix, −1 if absent.
+/// Map of the n local rows and columns of an element to coordinates of the model: −1 if absent (ground, or not owned by
+/// the node). slots[i + j n] is the index of entry (i, j) in the stored values of the iteration matrix, −1 if absent.
 struct ElementMap {
   std::vector<int> coordinates;
   std::vector<int> slots;
-  std::vector<int> carriers;  ///< nodes, if one of them follows a modal body (equations/carriers.hpp); else empty
+  std::vector<int> carriers;  ///< nodes, if one follows a modal body (equations/carriers.hpp)
 };
 
-/// Items in the order of the scene; maps[i] belongs to item i once the model is finished.
+/// All items of one type, in the order of the scene. maps[i] is the map of item i once the model is finished.
 template <class T>
 struct Pool {
   using value_type = T;

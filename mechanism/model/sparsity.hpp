@@ -9,16 +9,17 @@
 
 namespace tisserand::mechanism {
 
-/// One flag per entry of a local matrix, column by column; empty: all entries may be nonzero.
+/// Flags of a local matrix, one per entry, column by column: whether the entry can be nonzero. Empty: all can.
 using EntryFlags = std::vector<bool>;
 
-/// Flags of the 6 x 6 matrix of a rigid body: masses on the diagonal, full inertia.
+/// Flags of the matrix of a rigid body (6 x 6): masses on the diagonal, full inertia.
 EntryFlags rigid_entries();
 
-/// Flags of the 12 x 12 geometric stiffness of a joint, [x_A Θ_A x_B Θ_B].
+/// Flags of the geometric stiffness of a joint (12 x 12), columns [x_A Θ_A x_B Θ_B].
 EntryFlags stiffness_entries(const Joint& joint);
 
-/// Flags of B (size() x 12) of a joint. They hold also for B T(dΘ) and for B plus its rate gradient.
+/// Flags of the Jacobian B of a joint (size() x 12). They also hold for B T(θ), T of THEORY (3), and for B plus the
+/// derivative of its rates.
 EntryFlags gradient_entries(const Joint& joint);
 
 }  // namespace tisserand::mechanism

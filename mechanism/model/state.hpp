@@ -13,12 +13,12 @@ namespace tisserand::mechanism {
 /// Sizes of a model. Velocity coordinates are those of nodes, then modal ones, then internal ones.
 struct Sizes {
   int nodes = 0;
-  int boundary = 0;       ///< velocity coordinates of nodes, then of modes: the global system
+  int boundary = 0;       ///< velocity coordinates of nodes and modes: size of the global system
   int modal = 0;          ///< coordinates w of modal bodies and tyres with relaxation, the last of `boundary`
-  int internal = 0;       ///< internal coordinates of superelements, eliminated inside the element
-  int constraints = 0;    ///< multipliers λ
-  int superelements = 0;  ///< floating frames
-  int hinges = 0;         ///< joint coordinates that are angles, unwrapped
+  int internal = 0;       ///< internal coordinates of superelements, eliminated in the element
+  int constraints = 0;    ///< constraint rows, each with a multiplier λ
+  int superelements = 0;  ///< number of superelements, each with a floating frame
+  int hinges = 0;         ///< number of joint coordinates that are unwrapped angles
   int velocities() const { return boundary + internal; }
   int first_modal() const { return boundary - modal; }  ///< velocity coordinate of the first ẇ
 };
@@ -30,9 +30,9 @@ struct StateField {
   int size = 0;
 };
 
-/// State of a mechanism. Positions are x (world) and a unit quaternion Q_WN [w x y z] per node, modal coordinates w and
-/// internal coordinates y. Velocities, their rates and algorithmic accelerations are [ẋ world; Ω material] per node,
-/// then ẇ, then ẏ. x and Q of nodes that follow a modal body keep their initial values.
+/// State of a mechanism in one block of numbers. Positions are x (world) and a unit quaternion Q_WN [w x y z] per node,
+/// modal coordinates w and internal coordinates y. Velocities, accelerations and algorithmic accelerations are [ẋ
+/// world; Ω material] per node, then ẇ, then ẏ. x and Q of nodes that follow a modal body keep their initial values.
 class State {
  public:
   static constexpr int version = 6;
@@ -46,10 +46,10 @@ class State {
 
   double& time() { return block_[scalars_ + 0]; }
   double time() const { return block_[scalars_ + 0]; }
-  /// Instant at which loads are evaluated. It differs from time() only on one side of a jump.
+  /// Instant at which loads are evaluated. It differs from time() only at a jump of a load, where it is on one side.
   double& load_time() { return block_[scalars_ + 1]; }
   double load_time() const { return block_[scalars_ + 1]; }
-  /// Step size for which `algorithmic` was built.
+  /// Step size for which the algorithmic accelerations were built, THEORY (66).
   double& step() { return block_[scalars_ + 2]; }
   double step() const { return block_[scalars_ + 2]; }
   double& work() { return block_[scalars_ + 3]; }
@@ -58,15 +58,17 @@ class State {
   double dissipated() const { return block_[scalars_ + 4]; }
   double& initial_energy() { return block_[scalars_ + 5]; }
   double initial_energy() const { return block_[scalars_ + 5]; }
-  /// Running maxima of forces, moments and internal forces, to which the tests of Newton's iteration are relative.
+  /// Running maximum of forces (`kind` 0), moments (1) or internal forces (2). The tests of Newton's iteration are
+  /// relative to it.
   double& force_scale(int kind) { return block_[scalars_ + 6 + kind]; }
   double force_scale(int kind) const { return block_[scalars_ + 6 + kind]; }
-  /// Powers of loads and of damping at the last accepted step, for the trapezoidal rule.
+  /// Power of loads at the last accepted step, for the trapezoidal rule of work().
   double& load_power() { return block_[scalars_ + 9]; }
   double load_power() const { return block_[scalars_ + 9]; }
+  /// Power of damping at the last accepted step, for the trapezoidal rule of dissipated().
   double& damping_power() { return block_[scalars_ + 10]; }
   double damping_power() const { return block_[scalars_ + 10]; }
-  /// Running maximum of accelerations; translations relative to the characteristic length [1/time²].
+  /// Running maximum of accelerations [1/time²]. Translations count divided by the characteristic length.
   double& acceleration_scale() { return block_[scalars_ + 11]; }
   double acceleration_scale() const { return block_[scalars_ + 11]; }
   /// Angle [rad] by which bodies in loops have turned since the constraint rows were examined (step/redundancy.hpp).
@@ -96,13 +98,13 @@ class State {
   ConstMap algorithmic() const { return {block_.data() + a_, sizes_.velocities()}; }
   Map lambda() { return {block_.data() + lambda_, sizes_.constraints}; }
   ConstMap lambda() const { return {block_.data() + lambda_, sizes_.constraints}; }
-  /// Rotation [w x y z] of each floating frame at the last accepted step: R_ref of the mean of THEORY (15).
+  /// Rotation R₀ [w x y z] of each floating frame at the last accepted step: R_ref of THEORY (15) (4 x superelements).
   Map4 frames() { return {block_.data() + frames_, 4, sizes_.superelements}; }
   ConstMap4 frames() const { return {block_.data() + frames_, 4, sizes_.superelements}; }
-  /// Flag per constraint row. 1: it is solved for; 0: it is redundant, and its multiplier is 0.
+  /// Flag per constraint row: 1 if it is solved for, 0 if it is redundant. The multiplier of a redundant row is 0.
   Map active() { return {block_.data() + active_, sizes_.constraints}; }
   ConstMap active() const { return {block_.data() + active_, sizes_.constraints}; }
-  /// Unwrapped angle of each coordinate that is an angle, at the last accepted step.
+  /// Unwrapped angle [rad] of each joint coordinate that is an angle, at the last accepted step.
   Map hinges() { return {block_.data() + hinges_, sizes_.hinges}; }
   ConstMap hinges() const { return {block_.data() + hinges_, sizes_.hinges}; }
 
@@ -116,8 +118,9 @@ class State {
       active_ = 0;
 };
 
-/// Components [w x y z] of a quaternion, and back.
+/// Components [w x y z] of a quaternion.
 inline Eigen::Vector4d wxyz(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+/// Quaternion with the components [w x y z].
 inline Eigen::Quaterniond quaternion(const Eigen::Vector4d& Q) { return {Q[0], Q[1], Q[2], Q[3]}; }
 
 }  // namespace tisserand::mechanism

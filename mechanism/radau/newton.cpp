@@ -220,10 +220,10 @@ bool Newton::iterate(const Accuracy& accuracy, Stages& stages, State& state, Wor
       if (contraction_ < 0.99) {
         confidence = contraction_ / (1.0 - contraction_);
         const int left = accuracy.most_iterations - 1 - count;
-        const double foretold = confidence * size.ratio * std::pow(contraction_, left) / accuracy.newton;
+        const double predicted = confidence * size.ratio * std::pow(contraction_, left) / accuracy.newton;
         report.force_ratio = confidence * size.ratio / accuracy.newton;
-        if (foretold >= 1.0) {
-          shorter_ = 0.8 * std::pow(std::clamp(foretold, 1e-4, 20.0), -1.0 / (4.0 + std::max(left, 0)));
+        if (predicted >= 1.0) {
+          shorter_ = 0.8 * std::pow(std::clamp(predicted, 1e-4, 20.0), -1.0 / (4.0 + std::max(left, 0)));
           return fails(StepOutcome::too_many_iterations);
         }
       } else {

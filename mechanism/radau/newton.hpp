@@ -17,39 +17,42 @@
 
 namespace tisserand::mechanism::radau {
 
-/// Units and limits of increments. The size of an increment is the ratio of measure_error().
+/// Units and limits of increments in Newton's iteration. The size of an increment is the ratio of measure_error()
+/// (step/step_control.hpp).
 struct Accuracy {
   formats::ErrorControl units;
-  double newton = 1.0;  ///< limit of the predicted ratio of all remaining increments
+  double newton = 1.0;  ///< limit of the predicted size of all remaining increments
   int most_iterations = 7;
-  double multipliers = 1.0;  ///< largest increment of multipliers relative to the forces
-  bool fresh_parts = false;  ///< the tangents were made at the start of this step
+  double multipliers = 1.0;  ///< limit of increments of multipliers, relative to forces
+  bool fresh_parts = false;  ///< the tangents belong to the start of this step
 };
 
-/// Parts (tangents), factors and vectors of the iteration. The parts belong to one state and stay while the iteration
-/// contracts; factors belong to the parts and to a step size. The iteration neglects the change of the tangents between
-/// the state of the parts and a stage. Nodes of flexible bodies use axes that turn with them, so that a stiff direction
-/// stays stiff. It also neglects the effect of the turning axes and of T(θ) − 1 on rates. It contracts by about the
-/// angle of a step.
+/// Simplified Newton iteration of the three stages: parts (tangents), factors and vectors. The parts belong to one
+/// state and stay while the iteration contracts; factors belong to the parts and to a step size. The iteration neglects
+/// the change of the tangents between the state of the parts and a stage. Nodes of flexible bodies use axes that turn
+/// with them, so that a stiff direction stays stiff. It also neglects the effect of the turning axes and of T(θ) − 1 on
+/// rates. It contracts by about the angle of a step.
 class Newton {
  public:
   explicit Newton(const Model& model);
 
-  /// Takes new parts at the state of the last evaluate().
+  /// Makes new parts (tangents) at the state of the last evaluate(). Factors are discarded.
   void renew(const State& state, Evaluation& evaluation);
   bool has_parts() const { return parts_.valid; }
-  /// Makes the factors for a step of this size if they are missing. ready_real() makes those of the real matrix alone.
-  /// Returns false with the outcome if a matrix is singular.
+  /// Makes the factors of both matrices for a step of the length `step`, if they are missing. Returns false and sets
+  /// report.outcome if a matrix is singular.
   [[nodiscard]] bool ready(double step, StepReport& report);
+  /// Makes the factors of the real matrix alone, otherwise like ready().
   [[nodiscard]] bool ready_real(double step, StepReport& report);
-  /// Iterates the predicted stages of the step from the workspace's previous state until they converge. Returns false
-  /// with an outcome otherwise. Then shorter() is the factor for the next trial step.
+  /// Iterates the predicted stages of the step from workspace.memory.previous until they converge. Otherwise it returns
+  /// false and sets report.outcome; shorter() is then the factor for the next trial step.
   [[nodiscard]] bool iterate(const Accuracy& accuracy, Stages& stages, State& state, Workspace& workspace,
                              StepReport& report);
   /// Sets `correction` to the smallest change, weighted with the real matrix, that removes `violation` from the
-  /// constraints: THEORY (75), at the state of the last evaluate().
+  /// constraints, THEORY (75). The constraints are those of the last evaluate().
   void project(const Eigen::VectorXd& violation, const Evaluation& evaluation);
-  /// Sets `correction` to the error of positions, THEORY (76), in axes of the state of the parts.
+  /// Sets `correction` to the estimated error of the positions, THEORY (76). Translations of nodes of flexible bodies
+  /// are turned back with the node to the state of the parts.
   void estimate(const Stages& stages, const State& begin);
   void forget();
 
@@ -75,19 +78,19 @@ class Newton {
   TangentParts parts_;
   StageMatrix<double> real_;
   StageMatrix<std::complex<double>> complex_;
-  double real_step_ = 0.0, complex_step_ = 0.0;  ///< steps of the factors; 0: none
-  std::vector<int> turning_, turning_rows_;      ///< nodes of flexible bodies, and their translations
+  double real_step_ = 0.0, complex_step_ = 0.0;  ///< step lengths of the factors; 0: none
+  std::vector<int> turning_, turning_rows_;      ///< nodes of flexible bodies, and their first translations
   Turns axes_;                                   ///< axes of the nodes to which the factors belong
-  Stages::Columns f_, g_;                        ///< −r and −(B v + Φ_t) of the stages, then the increments
+  Stages::Columns f_, g_;                        ///< −r and −(B v + Φ_t) of the stages, then increments d, λ
   Eigen::VectorXd real_upper_, real_rows_, first_, second_;
   Eigen::VectorXcd complex_upper_, complex_rows_;
-  std::array<Turns, 3> turns_;  ///< per stage and node: rotation from the axes of the parts to its own
+  std::array<Turns, 3> turns_;  ///< per stage and node: rotation since the parts were made
   double contraction_ = 0.0;
   double confidence_ = 1.0;  ///< θ/(1 − θ) of the previous step, with its contraction θ
   double shorter_ = 0.5;
 };
 
-/// Sets `state` to a stage: positions, rates, multipliers, times.
+/// Sets `state` to one stage of a step from `begin`: positions, velocities, accelerations, multipliers and times.
 void set_stage(const Model& model, const State& begin, int stage, const Stages& stages, State& state);
 
 }  // namespace tisserand::mechanism::radau

@@ -29,18 +29,21 @@
 
 namespace tisserand::mechanism {
 
+/// Integrator Radau IIA of three stages: takes steps, with its tangents, factors and step sizes.
 class Radau {
  public:
   Radau(const Model& model, const formats::IntegratorSpec& options);
 
-  /// Computes one step from `state` (accepted, consistent) to `end`, as advance() of step/step.hpp. With error control
-  /// `report.proposed` is the next step, or the one to try instead. Allocates memory only if rows are chosen again.
+  /// Computes one step from `state` to `end`, as advance() of step/step.hpp. Requires an accepted, consistent state.
+  /// With error control `report.proposed` is the length of the next step, or the length to try instead. Allocates
+  /// memory only if constraint rows are chosen again.
   [[nodiscard]] StepReport advance(const StepEnd& end, State& state, Workspace& workspace);
-  /// Sets `state` to an instant within the last accepted step: of order 4, projected on the constraints.
+  /// Sets `state` to an instant within the last accepted step. The result has order 4 and is projected on the
+  /// constraints.
   void interpolate(double time, State& state, Workspace& workspace);
-  /// Discards factors and history: the next step works like the first.
+  /// Discards factors and history, so that the next step works like the first one.
   void forget();
-  /// Declares a jump: the next step does not predict from the last one.
+  /// Declares a jump at the present instant. The next step then does not predict from the last one.
   void pass_jump() { last_.step = 0.0; }
 
   const SolverHealth& health() const { return newton_.health(); }

@@ -14,19 +14,20 @@
 
 namespace tisserand::mechanism::radau {
 
-/// Matrix of THEORY (77), [ω² M + ω C + K  Bᵀ; B + ∂(B v)/∂q/ω  0], scaled like the saddle systems. Internal
-/// coordinates of superelements are condensed, which is exact also for complex ω.
+/// Matrix of Newton's iteration for one real or complex ω, THEORY (77): [ω² M + ω C + K Bᵀ; B + ∂(B v)/∂q/ω 0]. It is
+/// scaled like a SaddleSystem. Internal coordinates of superelements are condensed, which is exact also for complex ω.
 template <class Scalar>
 class StageMatrix {
  public:
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
-  explicit StageMatrix(const Model& model);  ///< symbolic factorisation
+  explicit StageMatrix(const Model& model);  ///< performs the symbolic factorisation
 
+  /// Computes the matrix from M, C, K and rows of `parts` and factors it.
   [[nodiscard]] FactorReport factor(const Model& model, const TangentParts& parts, Scalar omega);
-  /// Solves A d + Bᵀ μ = upper, (B + ∂(B v)/∂q/ω) d = rows in place: `upper` (boundary and internal coordinates)
-  /// becomes d, `rows` becomes μ. Rows that are not `active` have μ = 0.
+  /// Solves A d + Bᵀ μ = upper, (B + ∂(B v)/∂q/ω) d = rows in place, A = ω² M + ω C + K. `upper` (boundary and internal
+  /// coordinates) becomes d, `rows` becomes μ. Rows that are not `active` get μ = 0.
   void solve(const Model& model, const Eigen::VectorXd& active, Vector& upper, Vector& rows);
   void forget() { solver_.forget(); }
   auto& solver() const { return solver_; }
@@ -36,7 +37,7 @@ class StageMatrix {
   struct Element {
     Matrix BI, eliminated, condensed;
     Vector inverse_II;
-    Matrix full_II, IB;  ///< only if the damping has a full matrix
+    Matrix full_II, IB;  ///< only with a full damping matrix
     Eigen::PartialPivLU<Matrix> lu;
   };
   using Solver = std::conditional_t<std::is_same_v<Scalar, double>, LinearSolver, ComplexSolver>;

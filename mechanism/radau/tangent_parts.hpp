@@ -12,29 +12,30 @@
 
 namespace tisserand::mechanism::radau {
 
-/// M, C and K of THEORY (77), ∂r/∂v̇, ∂r/∂v and ∂r/∂q at one state, on the pattern of the model without superelements.
-/// Blocks of superelements are stored separately, with their internal coordinates kept. The rows are B and ∂(B v)/∂q,
-/// the columns ∂r/∂λ.
+/// Tangents M, C and K of THEORY (77), ∂r/∂v̇, ∂r/∂v and ∂r/∂q, at one state, on the pattern of the model without
+/// superelements. Blocks of superelements are stored separately, with their internal coordinates kept. The constraint
+/// rows are B and ∂(B v)/∂q, the columns ∂r/∂λ.
 struct TangentParts {
   enum class Place : std::uint8_t { block, column, row };
   struct Element {
-    std::array<Eigen::MatrixXd, 3> BB, BI, IB;  ///< nb x nb, nb x m, m x nb
+    std::array<Eigen::MatrixXd, 3> BB, BI, IB;  ///< blocks of M, C, K: (nb x nb), (nb x m), (m x nb)
   };
 
   explicit TangentParts(const Model& of_model);
 
-  /// Takes the parts at the state of the last evaluate(); superelements contribute their step tangent.
+  /// Makes the parts at the state of the last evaluate(). Superelements contribute their step tangent.
   void take(const State& state, Evaluation& evaluation);
-  /// Adds M x_m + C x_c of all coordinates to `upper` and B x_b to `rows`.
+  /// Adds M x_m + C x_c to `upper` (all velocity coordinates), and B x_b to `rows`.
   void multiply(const Eigen::VectorXd& x_m, const Eigen::VectorXd& x_c, const Eigen::VectorXd& x_b,
                 Eigen::VectorXd& upper, Eigen::VectorXd& rows) const;
 
   const Model& model;
   bool valid = false;
-  std::array<std::vector<double>, 3> values;  ///< for unit c_m, c_c, c_k; rows: B, B, B + ∂(B v)/∂q
+  /// Stored values of M, C and K, tangents for unit c_m, c_c, c_k. Their constraint rows are B, B, and B + ∂(B v)/∂q.
+  std::array<std::vector<double>, 3> values;
   std::vector<Element> elements;
   std::vector<Place> place;                  ///< kind of each stored value
-  std::vector<Eigen::Matrix3d> orientation;  ///< axes of each node
+  std::vector<Eigen::Matrix3d> orientation;  ///< axes R of each node at the state
   MatrixValues buffer;
 };
 

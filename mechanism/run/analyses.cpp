@@ -21,7 +21,7 @@ const formats::Analysis& find(const formats::Scene& scene, const std::string& na
   for (const formats::Analysis& one : scene.analyses) names.push_back(one.name);
   const auto near = nearest(name, names);
   throw Error(fmt::format("there is no analysis '{}'", name), scene.file,
-              names.empty() ? std::string("the scene has no `analyses:`; leave --analysis out")
+              names.empty() ? std::string("the scene has no `analyses:`; omit --analysis")
               : near        ? fmt::format("did you mean '{}'?", *near)
                             : fmt::format("its analyses are {}", listed(names)));
 }

@@ -9,25 +9,27 @@
 
 namespace tisserand::mechanism {
 
+/// Analysis that a command runs: its scene, its start and the path of its results.
 struct PlannedAnalysis {
-  std::string name;      ///< empty: the only analysis of a scene without names
-  std::string from;      ///< name of an analysis planned before it; empty: none
+  std::string name;  ///< name of the analysis; empty: the only one of a scene without names
+  /// Name of the planned analysis at whose end this one starts. Empty: it starts from the poses of the scene.
+  std::string from;
   formats::Scene scene;  ///< scene with the kind and settings of this analysis
-  std::string results;
+  std::string results;   ///< path of its results file
 };
 
-/// Path of the results file.
+/// Path of a results file, and who chose it.
 struct OutputName {
   std::string path;
-  bool chosen = false;  ///< true: given by -o; false: made from the name of the scene
+  bool chosen = false;  ///< whether -o gives the path; otherwise it follows from the name of the scene
 };
 
-/// Plan with the analysis `name` of the scene, after those from which it starts. An empty `name` means all in the order
-/// of the file. A path given by -o belongs to the named or only analysis. Paths of the others contain their names.
-/// Throws Error with the nearest name if there is no such analysis.
+/// Plan of the analyses to run. It holds the analysis `name`, after those from which it starts; an empty `name` means
+/// all analyses in the order of the file. A path given by -o belongs to the analysis `name`, or to the only one. Paths
+/// of other analyses contain the name of the analysis. Throws Error with the nearest name if there is no such analysis.
 std::vector<PlannedAnalysis> plan(const formats::Scene& scene, const std::string& name, const OutputName& output);
 
-/// Path with the name of an analysis: "arm.results.h5", "shake" -> "arm.shake.results.h5".
+/// Path of a results file with the name of an analysis added: "arm.results.h5", "shake" -> "arm.shake.results.h5".
 std::string with_name(const std::string& results, const std::string& name);
 
 }  // namespace tisserand::mechanism

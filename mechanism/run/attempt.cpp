@@ -79,7 +79,7 @@ std::optional<RunEnd> Attempt::finish(AutomaticEffects* automatic) {
   }
   report.results = request_.path;
   if (automatic != nullptr) automatic->tell(run_);
-  tell_doubts(run_);
+  report_doubts(run_);
   if (run_.scene.analysis != formats::AnalysisKind::dynamics) report.solver_health = run_.workspace.matrix.health();
   report.seconds_model = began_start_ - began_;
   report.seconds_start = begin_output - began_start_;

@@ -19,30 +19,36 @@ namespace tisserand::mechanism {
 struct RunRequest {
   const formats::Scene& scene;  ///< scene with the kind and settings of this analysis (formats::scene_of)
   const BodyFiles& files;
-  std::optional<State> begin = {};   ///< end of another analysis of the same scene, instead of the poses of the bodies
+  /// End state of another analysis of the scene, from which to start; absent: the poses of the bodies.
+  std::optional<State> begin = {};
   std::string path = {};             ///< path of the results; empty: none are stored
   std::string restart = {};          ///< checkpoint or results file from which to continue; empty: none
   std::optional<double> at = {};     ///< instant in a results file; absent: the last one
-  Joining joining = Joining::apart;  ///< with `restart`: whether the rows until then are copied
+  Joining joining = Joining::apart;  ///< with `restart`: whether the rows of the previous run are copied first
   ChangedValues changed = ChangedValues::refused;  ///< with `restart`: whether changed values are accepted
   RunListener* listener = nullptr;
 };
 
+/// End of a run: its report and its last state.
 struct RunEnd {
   RunReport report;
   State state;
 };
 
+/// One attempt to run an analysis. If an automatic effect turns out to matter, its results are discarded and another
+/// attempt follows.
 class Attempt {
  public:
-  /// `scene`: that of the request, or a copy with fewer effects.
+  /// Builds the model. `scene`: scene of the request, or a copy with fewer effects.
   Attempt(const RunRequest& request, const formats::Scene& scene, const RunControl& control);
   Run& run() { return run_; }
 
-  /// Starts from `begin`, from the poses of the scene (absent), or from the restart file of the request.
+  /// Starts the run from the restart file of the request if there is one. Otherwise it starts from the state `begin`,
+  /// or from the poses of the scene if `begin` is absent.
   void start_from(const std::optional<State>& begin);
   /// Runs the analysis, writes its rows and finishes the results. `automatic` has chosen the effects and monitors them
-  /// (null: none is automatic). Absent: the run must begin again with other effects, and its results are discarded.
+  /// (null: none is automatic). Returns nothing if the run must begin again with other effects; its results are then
+  /// discarded.
   std::optional<RunEnd> finish(AutomaticEffects* automatic);
 
  private:
@@ -51,7 +57,8 @@ class Attempt {
   Run run_;
 };
 
-/// Runs with as few effects as possible, again until all that matter are on. `whole`: the run with all on.
+/// Runs the scene with as few automatic effects as possible, and repeats the run until all effects that matter are on.
+/// `whole`: attempt with all effects on.
 RunEnd run_with_fewest(const RunRequest& request, const RunControl& control, AutomaticEffects& automatic,
                        Attempt& whole);
 

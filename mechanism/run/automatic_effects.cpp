@@ -226,28 +226,28 @@ void AutomaticEffects::doubt(const std::vector<bool>& missed, Run& run) {
   for (std::size_t k = 0; k < uses_.size(); ++k)
     if (missed[k]) names.push_back(effect_name(uses_[k].effect));
   run.report.doubts.push_back(fmt::format(
-      "auto: {} matters at t = {:.6g}, and is off in the run that this one goes on from: run the scene from its start",
+      "auto: {} matters at t = {:.6g}, but is off in the run that this one continues; run the scene from its start",
       listed(names), run.built.state.time()));
 }
 
-void AutomaticEffects::tell_begin(RunReport& report) const {
+void AutomaticEffects::report_begin(RunReport& report) const {
   report.tolerance = scene_.automatic.tolerance;
-  tell_stressed(report);
+  report_stressed(report);
 }
 
-void AutomaticEffects::tell_stressed(RunReport& report) const {
+void AutomaticEffects::report_stressed(RunReport& report) const {
   std::vector<std::string> names;
   for (const Use& use : uses_)
     if (use.stressed && std::ranges::count(names, use.effect.owner) == 0) names.push_back(use.effect.owner);
   if (names.empty()) return;
   report.notes.push_back(fmt::format(
-      "auto: effects of {} are on, since loops of joints can stress {}: what these bear, and whether the loops move at "
-      "all, depends on them. Joints that leave more free (spherical, cylindrical) take that stress away",
+      "auto: effects of {} are on because loops of joints can stress {}: the loads in these loops, and whether they "
+      "move at all, depend on these effects. Joints with more freedom (spherical, cylindrical) remove this stress",
       listed(names), names.size() == 1 ? "this body" : "these bodies"));
 }
 
 /// Adds a note on elastic forces at the start: with flexibility on, an undeformed body bears no load yet.
-void AutomaticEffects::tell_start_forces(const Run& run, RunReport& report) const {
+void AutomaticEffects::report_start_forces(const Run& run, RunReport& report) const {
   const double tolerance = scene_.automatic.tolerance, largest = largest_force(run);
   std::vector<std::string> names;
   double part = 0.0;
@@ -258,20 +258,20 @@ void AutomaticEffects::tell_start_forces(const Run& run, RunReport& report) cons
   }
   if (names.empty()) return;
   report.notes.push_back(
-      fmt::format("auto: {} bear{} loads at the start and {} not yet deformed. With flexibility on that excites "
-                  "vibrations of up to {:.2g} of the largest force, which is beyond the tolerance {:g}. auto omits "
-                  "them: begin from an analysis `statics`, or give flexibility: on",
-                  listed(names), names.size() == 1 ? "s" : "", names.size() == 1 ? "is" : "are", part, tolerance));
+      fmt::format("auto: {} carr{} loads at the start but {} not yet deformed. With flexibility on, this excites "
+                  "vibrations of up to {:.2g} of the largest force, more than the tolerance {:g}. auto omits these "
+                  "vibrations; start from an analysis `statics`, or set flexibility: on",
+                  listed(names), names.size() == 1 ? "ies" : "y", names.size() == 1 ? "is" : "are", part, tolerance));
 }
 
 void AutomaticEffects::tell(Run& run) const {
   RunReport& report = run.report;
-  tell_begin(report);
-  if (watch_) tell_start_forces(run, report);
+  report_begin(report);
+  if (watch_) report_start_forces(run, report);
   if (watch_ && watch_->blind)
     report.doubts.push_back(
-        "auto: what bodies that are rigid move along with their joints could not be counted at times, so that "
-        "resonances with it are not seen; give flexibility: on to bodies that may resonate");
+        "auto: the inertia that rigid bodies move through their joints could not be computed at some instants, so "
+        "resonances with it are not detected; set flexibility: on for bodies that may resonate");
   report.repeated = repeated_;
   for (std::size_t k = 0; k < uses_.size(); ++k) {
     const Use& use = uses_[k];

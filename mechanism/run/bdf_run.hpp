@@ -6,8 +6,8 @@
 
 namespace tisserand::mechanism {
 
-/// Integrates from the started state to the end. Counts and outcome go to the report. Rows at instants of `interval`
-/// are interpolated. Throws Error in a build without CVODE.
+/// Integrates with `method: bdf` from the started state to the end. Counts and outcome go to the report. Rows at
+/// instants of `interval` are interpolated. Throws Error in a build without CVODE.
 void integrate_bdf(Run& run, RowWriter& out);
 
 }  // namespace tisserand::mechanism

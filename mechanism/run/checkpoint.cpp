@@ -28,8 +28,8 @@ namespace fs = std::filesystem;
 
 void require_before_end(const formats::Scene& scene, double time, const std::string& file) {
   if (time < scene.integrator.end) return;
-  throw Error(fmt::format("stands at t = {:.9g}, the run ends at {:.9g}", time, scene.integrator.end), file,
-              "raise integrator.end");
+  throw Error(fmt::format("is at t = {:.9g}, but the run ends at t = {:.9g}", time, scene.integrator.end), file,
+              "increase integrator.end");
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {
@@ -56,17 +56,15 @@ std::string results_of(const formats::Checkpoint& checkpoint, const std::string&
 formats::ResultsBeginning rows_until(const formats::Checkpoint& checkpoint, const std::string& file) {
   const std::string results = results_of(checkpoint, file);
   if (results.empty())
-    throw Error("does not say which results belong to it, as checkpoints do since version 1.1", file,
-                "leave --append out and give -o a name of its own");
+    throw Error("does not name its results file: its format is older than version 1.1", file,
+                "omit --append and give -o a new name");
   for (const std::string& candidate : {results, results + ".part"}) {
     if (!fs::exists(candidate)) continue;
     const formats::ResultsReader reader(candidate);
     if (reader.run() == checkpoint.run && reader.rows() >= checkpoint.rows) return {candidate, checkpoint.rows};
   }
-  throw Error(
-      fmt::format("the results of the run that wrote it are not there any more: {} is missing or of another run",
-                  results),
-      file, "leave --append out and give -o a name of its own");
+  throw Error(fmt::format("the results of its run no longer exist: {} is missing or belongs to another run", results),
+              file, "omit --append and give -o a new name");
 }
 
 /// Takes the rows of the previous run, and its report if it was written.
@@ -86,18 +84,18 @@ std::vector<formats::ValueChange> changes_since(const Run& run, const std::strin
                                          const std::string& file) {
   const std::vector<formats::ValueChange> changes = changes_since(run, checkpoint.values);
   throw Error(
-      fmt::format("is a checkpoint of scene '{}' with other bodies, joints or superelements (or companion "
-                  "files) than '{}' has{}{}",
+      fmt::format("is a checkpoint of scene '{}', whose bodies, joints, superelements or companion files differ from "
+                  "those of '{}'{}{}",
                   checkpoint.scene, run.scene.name, changes.empty() ? "" : ":", formats::changes_text(changes, "\n  ")),
-      file, "go on with the scene that wrote it; integrator, output and tolerances may differ");
+      file, "continue with the scene that wrote it; integrator, output and tolerances may differ");
 }
 
 /// Compares the scene with `values`, those of the scene of the file.
 void compare_scenes(Run& run, const std::string& file, const std::string& values, ChangedValues changed) {
   if (run.values.empty()) return;
   if (values.empty()) {
-    run.report.notes.push_back(fmt::format(
-        "{} does not hold the scene that it belongs to: what has changed in the scene since cannot be said", file));
+    run.report.notes.push_back(
+        fmt::format("{} does not contain its scene, so changes of the scene since then cannot be listed", file));
     return;
   }
   const std::vector<formats::ValueChange> changes = changes_since(run, values);
@@ -105,9 +103,9 @@ void compare_scenes(Run& run, const std::string& file, const std::string& values
   const std::string count = changes.size() == 1 ? "1 value" : fmt::format("{} values", changes.size());
   if (changed == ChangedValues::refused)
     throw Error(fmt::format("belongs to a scene that differs in {}:{}", count, formats::changes_text(changes, "\n  ")),
-                file, "set them back, or go on with the changed scene by --changed");
+                file, "set them back, or continue with the changed scene by --changed");
   run.report.notes.push_back(
-      fmt::format("goes on with {} changed since {}:{}", count, file, formats::changes_text(changes, "\n    ")));
+      fmt::format("continues with {} changed since {}:{}", count, file, formats::changes_text(changes, "\n    ")));
 }
 
 void resume_checkpoint(Run& run, const std::string& file, Joining joining, ChangedValues changed) {
@@ -126,10 +124,11 @@ void resume_checkpoint(Run& run, const std::string& file, Joining joining, Chang
   run.report.mobility = count_mobility(run.built.model, state, run.workspace.now);
   run.workspace.forget();
   run.report.notes.push_back(
-      fmt::format("goes on from {} at t = {:.9g}{}", file, checkpoint.time,
+      fmt::format("continues from {} at t = {:.9g}{}", file, checkpoint.time,
                   checkpoint.producer == producer("mechanism")
                       ? ""
-                      : fmt::format(", written by {}: equal to its tolerance, not bit for bit", checkpoint.producer)));
+                      : fmt::format(", written by {}: results are equal within the tolerance, not bit for bit",
+                                    checkpoint.producer)));
   if (joining == Joining::appended) begin_with(run, rows_until(checkpoint, file));
 }
 
@@ -152,7 +151,7 @@ void resume_results(Run& run, const std::string& file, const std::optional<doubl
   Schedule schedule(run.scene, run.built.model.breakpoints);
   schedule.skip_to(state.time());
   run.schedule_memory = schedule.memory();
-  run.report.notes.push_back(fmt::format("goes on from {} at t = {:.9g}", file, state.time()));
+  run.report.notes.push_back(fmt::format("continues from {} at t = {:.9g}", file, state.time()));
   if (joining == Joining::appended) begin_with(run, {file, sums.row + 1});
 }
 
@@ -245,21 +244,22 @@ void require_apart(const RestartFile& restart, const std::string& results) {
   const bool own_checkpoint = restart.checkpoint && is_same_file(restart.path, checkpoint_path(results));
   if (own_results || own_checkpoint)
     throw Error(
-        fmt::format("would overwrite the run that it goes on from, {}", own_results ? restart.results : restart.path),
-        results, "give -o another name, or join both with --append");
+        fmt::format("would overwrite the run that it continues, {}", own_results ? restart.results : restart.path),
+        results, "give -o another name, or store the rows of both runs in one file with --append");
 }
 
 void resume(Run& run, const std::string& named, const std::optional<double>& at, Joining joining,
             ChangedValues changed) {
   const std::string file = formats::existing_results(named);
   if (run.scene.analysis != formats::AnalysisKind::dynamics)
-    throw Error("only dynamics can go on from a file", file, "name an analysis of `type: dynamics` with --analysis");
+    throw Error("only dynamics can continue from a file", file, "name an analysis of `type: dynamics` with --analysis");
   if (run.scene.integrator.method == formats::Method::bdf)
-    throw Error("method: bdf begins with order 1 and cannot go on from a file", file, "use generalised_alpha or hht");
+    throw Error("method: bdf cannot continue from a file, because it starts with order 1", file,
+                "use generalised_alpha or hht");
   const bool checkpoint = formats::is_checkpoint(file);
   if (checkpoint && at)
-    throw Error(fmt::format("is a checkpoint and holds one instant; t = {:.9g} cannot be chosen", *at), file,
-                "leave --at out, or give a results file");
+    throw Error(fmt::format("is a checkpoint, which holds only one instant: t = {:.9g} cannot be chosen", *at), file,
+                "omit --at, or give a results file");
   if (checkpoint)
     resume_checkpoint(run, file, joining, changed);
   else

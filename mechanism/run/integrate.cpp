@@ -60,7 +60,7 @@ std::string failure_of(Run& run, const StepReport& step, const StepEnd& target, 
       fmt::format("t = {:.6g}, step {:.3g}: {}", before, target.time - before, explain(run.built.model, step));
   if (report.rejections.size() < 20) report.rejections.push_back(why);
   const std::string load = nonfinite_load(run, target.load_time);
-  if (!load.empty()) return load + "; correct the formula or end the run before";
+  if (!load.empty()) return load + "; correct the formula, or end the run earlier";
   if (loop.schedule.retry(before, step)) return {};
   return fmt::format("{} ({}){}", why, loop.schedule.limit(),
                      failure_cause(run.built.model, run.scene.integrator, run.doubts, {step, loop.first_tried},
@@ -76,9 +76,9 @@ void settle_start(Run& run, formats::ResultsRow row) {
   if (!(std::abs(row.balance) > felt * energy)) return;
   run.built.state.initial_energy() += row.balance;
   run.report.notes.push_back(
-      fmt::format("the start is out of balance: what has no mass jumps to its balance in the first step, in which "
-                  "{:.3g} of the energy is {}. Start from an analysis `statics`, or give bodies without mass the poses "
-                  "in which their forces balance",
+      fmt::format("the initial state is not in equilibrium: massless bodies jump to equilibrium in the first step, in "
+                  "which {:.3g} of the energy is {}. Start from an analysis `statics`, or give massless bodies the "
+                  "poses in which their forces balance",
                   std::abs(row.balance) / (energy + std::abs(row.balance)), row.balance < 0.0 ? "lost" : "gained"));
 }
 
@@ -113,7 +113,7 @@ void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, Ro
 }
 
 /// Reports the stability of the equilibrium that was found, from its stiffness.
-void tell_stability(const StaticsReport& statics, RunReport& report) {
+void report_stability(const StaticsReport& statics, RunReport& report) {
   const Stability& stability = statics.stability;
   if (statics.descents > 0)
     report.notes.push_back(
@@ -127,15 +127,15 @@ void tell_stability(const StaticsReport& statics, RunReport& report) {
                   stability.direction.empty() ? "" : fmt::format(", first {}", stability.direction));
   if (!stability.symmetric) {
     report.notes.push_back(fmt::format(
-        "the stiffness is not symmetric (follower forces, moments, tyres, unsymmetric bushings), so that the count of "
-        "its negative directions ({}) does not decide whether the equilibrium is stable: run `modes` from it",
+        "the stiffness is not symmetric (follower forces, moments, tyres, unsymmetric bushings), so the number of its "
+        "negative directions ({}) does not show whether the equilibrium is stable. Run `modes` from it to find out",
         stability.unstable == 0 ? "none" : count));
     return;
   }
   if (stability.unstable == 0) return;
   report.end(
       RunOutcome::unstable,
-      fmt::format("the equilibrium is unstable in {}: `statics: {{stable: yes}}` goes on to a stable one", count));
+      fmt::format("the equilibrium is unstable in {}: `statics: {{stable: yes}}` continues to a stable one", count));
 }
 
 }  // namespace
@@ -210,7 +210,7 @@ void equilibrate(Run& run, RowWriter& out) {
   if (std::string reason = why_to_end(run); !reason.empty())
     run.report.end(RunOutcome::not_converged, std::move(reason));
   run.angles.tell(run.built.model, run.report);
-  if (run.report.outcome == RunOutcome::completed && !run.scene.statics.rotation) tell_stability(statics, run.report);
+  if (run.report.outcome == RunOutcome::completed && !run.scene.statics.rotation) report_stability(statics, run.report);
   write_row(run, step, 0.0, out);
 }
 

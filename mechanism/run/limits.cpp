@@ -15,13 +15,13 @@ constexpr const char* remedy = "cut the part into several superelements";
 
 std::string lack_text(const RoadLack& lack, const Road& road, const std::string& unit) {
   if (lack.hole)
-    return fmt::format("has come to a hole of the road '{}' at {} = {:.6g}{}, {} = {:.6g}{}; give heights there",
+    return fmt::format("has reached a hole of the road '{}' at {} = {:.6g}{}, {} = {:.6g}{}; give heights there",
                        road.name, road.surface->line ? 'u' : 'x', lack.place.x(), unit, road.surface->line ? 'v' : 'y',
                        lack.place.y(), unit);
   const bool before = lack.at < lack.begin;
   return fmt::format("has left the road '{}', which {} at {} = {:.6g}{}; {}", road.name, before ? "begins" : "ends",
                      lack.axis, before ? lack.begin : lack.end, unit,
-                     road.surface ? "give it more heights, or end the run before" : "lengthen its curve");
+                     road.surface ? "give it more heights, or end the run earlier" : "lengthen its curve");
 }
 
 }  // namespace
@@ -36,8 +36,8 @@ std::string FrameAngles::observe(const Model& model, const State& state, const E
       seen_[i] = {angle, state.time(), j};
       if (angle > refused && body.second_order.stiffening && end.empty())
         end = fmt::format(
-            "t = {:.6g}: '{}/{}' has turned by {:.3g} rad against the floating frame of its body, whose stiffening "
-            "holds below {:g}; {}",
+            "t = {:.6g}: '{}/{}' has turned by {:.3g} rad relative to the floating frame of its body, whose "
+            "stiffening is valid below {:g} rad; {}",
             state.time(), model.superelements[i].name, body.node[j].name, angle, refused, remedy);
     }
   }
@@ -50,9 +50,9 @@ void FrameAngles::tell(const Model& model, RunReport& report) const {
     const bool stiffened = body.second_order.stiffening.has_value();
     if (seen_[i].angle <= (stiffened ? noted : doubted)) continue;
     const std::string text =
-        fmt::format("'{}/{}' turned by up to {:.3g} rad (at t = {:.6g}) against the floating frame of its body{}",
+        fmt::format("'{}/{}' turned by up to {:.3g} rad (at t = {:.6g}) relative to the floating frame of its body{}",
                     model.superelements[i].name, body.node[seen_[i].node].name, seen_[i].angle, seen_[i].time,
-                    stiffened ? "" : ", whose strain is linear in it");
+                    stiffened ? "" : ", whose strain is linear in this angle");
     if (seen_[i].angle > doubted)
       report.doubts.push_back(fmt::format("{}: {}", text, remedy));
     else

@@ -17,7 +17,8 @@ const char* outcome_name(RunOutcome outcome) {
   return names[static_cast<int>(outcome)];
 }
 
-/// Text on the choice of an effect: "flexibility off: crank (at most 0.2 tolerances: crank, t = 0.3); on: rod".
+/// Text on the choice of an effect: "flexibility off: crank (at most 0.2 times the tolerance: crank, t = 0.3); on:
+/// rod".
 std::string choice_text(const RunReport& report, const std::string& effect) {
   std::vector<std::string> texts;
   for (const bool on : {false, true}) {
@@ -31,7 +32,7 @@ std::string choice_text(const RunReport& report, const std::string& effect) {
     if (names.empty()) continue;
     texts.push_back(fmt::format("{}: {}", on ? "on" : "off", listed(names)));
     if (most->demand == 0.0) continue;
-    texts.back() += fmt::format(" ({}{:.2g} tolerances: {}, t = {:.6g})", on ? "" : "at most ", most->demand,
+    texts.back() += fmt::format(" ({}{:.2g} times the tolerance: {}, t = {:.6g})", on ? "" : "at most ", most->demand,
                                 most->body, most->time);
   }
   return fmt::format("{} {}", effect, join(texts, "; "));
@@ -142,12 +143,12 @@ std::string report_text(const RunReport& report, const Units& units) {
   line("model", join(report.effects, ", "));
   line("effects", report.switches);
   if (report.tolerance > 0.0)
-    line("auto",
-         fmt::format("tolerance {:.6g}{}", report.tolerance, report.automatic.empty() ? ": the run chooses" : ""));
-  std::vector<std::string> told;
+    line("auto", fmt::format("tolerance {:.6g}{}", report.tolerance,
+                             report.automatic.empty() ? ": the run chooses the effects" : ""));
+  std::vector<std::string> reported;
   for (const ChosenEffect& choice : report.automatic) {
-    if (std::ranges::count(told, choice.effect) > 0) continue;
-    told.push_back(choice.effect);
+    if (std::ranges::count(reported, choice.effect) > 0) continue;
+    reported.push_back(choice.effect);
     line("auto", choice_text(report, choice.effect));
   }
   line("mobility", fmt::format("{} degrees of freedom: {} coordinates, {} constraints of rank {}",
@@ -161,11 +162,12 @@ std::string report_text(const RunReport& report, const Units& units) {
   line("outcome", report.reason.empty() ? outcome_name(report.outcome)
                                         : fmt::format("{}: {}", outcome_name(report.outcome), report.reason));
   line("reached", fmt::format("t = {:.6g}{}", report.time, after_number(time)));
-  line("steps", fmt::format("{} ({} taken again{}), {} iterations, {} factorisations", report.steps, report.rejected,
-                            report.repeated > 0 ? fmt::format(", {} before an effect was on", report.repeated) : "",
-                            report.iterations, report.factorisations));
+  line("steps",
+       fmt::format("{} ({} rejected{}), {} iterations, {} factorisations", report.steps, report.rejected,
+                   report.repeated > 0 ? fmt::format(", {} in runs repeated with more effects", report.repeated) : "",
+                   report.iterations, report.factorisations));
   constexpr std::size_t shown = 3;
-  for (std::size_t i = 0; i < std::min(shown, report.rejections.size()); ++i) line("taken again", report.rejections[i]);
+  for (std::size_t i = 0; i < std::min(shown, report.rejections.size()); ++i) line("rejected", report.rejections[i]);
   if (report.rejected > static_cast<long>(shown) && !report.rejections.empty())
     line("", fmt::format("and {} more; the report in the results file lists the first {}",
                          report.rejected - static_cast<long>(shown), report.rejections.size()));
@@ -183,15 +185,15 @@ std::string report_text(const RunReport& report, const Units& units) {
   for (const std::string& row : report.table) text += fmt::format("    {}\n", row);
   line("seconds", fmt::format("{:.3f} model, {:.3f} start, {:.3f} steps, {:.3f} output", report.seconds_model,
                               report.seconds_start, report.seconds_steps, report.seconds_output));
-  for (const std::string& doubt : report.doubts) line("in doubt", doubt);
+  for (const std::string& doubt : report.doubts) line("warning", doubt);
   return text;
 }
 
-void drop_told_notes(RunReport& report, std::vector<std::string>& told) {
-  const std::vector<std::string> before = told;
+void drop_reported_notes(RunReport& report, std::vector<std::string>& reported) {
+  const std::vector<std::string> before = reported;
   for (const std::string& note : report.scene_notes)
     if (std::ranges::find(before, note) == before.end())
-      told.push_back(note);
+      reported.push_back(note);
     else
       std::erase(report.notes, note);
 }

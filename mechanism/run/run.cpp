@@ -92,9 +92,8 @@ void require_method_fits(const Run& run) {
     if (body_of(run.built.model, i).second_order.any()) names.push_back(fmt::format("'{}'", uses[i].name));
   if (names.empty()) return;
   throw Error(
-      fmt::format(
-          "integrator: method radau takes linear superelements only, and there is stiffening or inertia F in {}",
-          listed(names)),
+      fmt::format("integrator: method radau needs linear superelements, but stiffening or inertia F is on in {}",
+                  listed(names)),
       run.scene.file, "write 'second_order: off' at these bodies, or use method: generalised_alpha");
 }
 
@@ -134,14 +133,14 @@ void note_redundancy(Run& run) {
   evaluate(run.built.model, run.built.state, run.workspace.now);
   run.report.not_unique = joints_without_unique_reaction(run.built.model, run.workspace.now);
   run.report.notes.push_back(
-      fmt::format("{} of {} constraint equations repeat what the others already demand: {}. The motion is right; the "
-                  "reactions of {} are not unique, those of least norm are stored",
+      fmt::format("{} of {} constraint equations are redundant: {}. The motion is correct, but the reactions of {} are "
+                  "not unique: those of least norm are stored",
                   mobility.redundant.size(), mobility.constraints, listed(rows), listed(run.report.not_unique)));
   for (const Friction& friction : run.built.model.frictions) {
     const std::string& name = run.built.model.joints[friction.joint].name;
     if (std::ranges::count(run.report.not_unique, name) > 0)
       run.report.notes.push_back(fmt::format(
-          "the friction of joint '{}' follows from a reaction that is not unique: another choice of it moves otherwise",
+          "the friction of joint '{}' depends on a reaction that is not unique, so the motion is not unique either",
           name));
   }
 }
@@ -167,7 +166,8 @@ void note_resting(Run& run) {
   for (const formats::BushingSpec& bushing : run.scene.bushings)
     if (rests(bushing)) names.push_back(fmt::format("bushing '{}'", bushing.name));
   if (!names.empty())
-    run.report.notes.push_back(fmt::format("without force, since all values are zero: {}", listed(names)));
+    run.report.notes.push_back(
+        fmt::format("elements without force, because all their values are zero: {}", listed(names)));
 }
 
 /// Notes locked loops. A suspension whose axes are not parallel does not move, without any other sign.
@@ -175,8 +175,8 @@ void note_locked(Run& run) {
   const std::vector<std::string>& locked = run.report.mobility.locked;
   if (locked.empty()) return;
   run.report.notes.push_back(
-      fmt::format("{} lock one another, every body counted as a rigid one: nothing moves in them. If they should move, "
-                  "look at their axes and places; hinges of one loop may have to be parallel",
+      fmt::format("{} lock each other if all bodies are rigid: nothing moves in them. If they should move, check their "
+                  "axes and positions; hinges of one loop may have to be parallel",
                   listed(locked)));
 }
 
@@ -209,26 +209,26 @@ void note_start(const StartReport& start, Run& run) {
   };
   const bool values = gives(&CoordinateStart::value), rates = gives(&CoordinateStart::rate);
   if (values && run.from == StartFrom::poses)
-    notes.push_back(fmt::format("initial values moved the bodies by up to {} from the poses as written",
+    notes.push_back(fmt::format("initial values moved the bodies by up to {} from the given poses",
                                 with_unit(start.moved, unit_label(units, 1, 0, 0))));
   if ((values && run.from != StartFrom::poses) || (rates && run.from == StartFrom::motion))
-    notes.push_back(fmt::format("initial {} not used: this analysis begins where another one ends",
+    notes.push_back(fmt::format("initial {} not used: this analysis starts from the end of another one",
                                 rates && run.from == StartFrom::motion ? "values and rates are" : "values are"));
   const StartVelocities& velocities = start.velocities;
   if (!velocities.derived.empty())
     notes.push_back(
-        fmt::format("velocities of {} at the start follow from joints, drives and given velocities with the least "
-                    "kinetic energy: {}",
+        fmt::format("initial velocities of {} were computed from joints, drives and given velocities with the smallest "
+                    "kinetic energy, {}",
                     quoted(velocities.derived), with_unit(velocities.kinetic_energy, energy_label(units))));
   if (!velocities.deforming.empty())
     notes.push_back(
-        fmt::format("no rigid motion of {} agrees with the start: they begin to deform, with the smallest strain rate "
-                    "that does ({:.3g} of the kinetic energy)",
+        fmt::format("no rigid motion of {} agrees with the initial velocities: they start to deform at the smallest "
+                    "possible strain rate ({:.3g} of the kinetic energy)",
                     quoted(velocities.deforming), velocities.deformation / velocities.kinetic_energy));
   if (start.projection.velocity > 1e-6)
-    notes.push_back(
-        fmt::format("given velocities were corrected by up to {:.3g} of the largest, which initial_tolerance allows",
-                    start.projection.velocity));
+    notes.push_back(fmt::format(
+        "given velocities were corrected by up to {:.3g} of the largest velocity, which initial_tolerance allows",
+        start.projection.velocity));
 }
 
 /// Prepares what an analysis needs besides a state that satisfies the constraints.
@@ -241,19 +241,20 @@ void prepare(Run& run) {
       if (const auto& rotation = run.scene.statics.rotation) {
         const std::string fixed = what_does_not_turn(run.built.model, *rotation, run.built.state, run.workspace.now);
         if (!fixed.empty())
-          throw Error(fmt::format("statics: there is no steady turn. {}", fixed), run.scene.file,
-                      "let it act along the axis or turn with the scene, or use `analysis: dynamics`");
+          throw Error(fmt::format("statics: steady rotation is not possible. {}", fixed), run.scene.file,
+                      "let it act along the axis or rotate with the scene, or use `analysis: dynamics`");
       }
       const Settled settled = settle_under_load(run.built.model, run.scene.statics, run.control.interrupted,
                                                 run.built.state, run.workspace);
       if (settled.descents > 0)
-        run.report.notes.push_back(fmt::format(
-            "nothing held the scene where it began; the equilibrium was found in {} steps downhill in potential energy",
-            settled.descents));
+        run.report.notes.push_back(
+            fmt::format("nothing holds the scene in its initial position; the equilibrium was found in {} steps "
+                        "downhill in potential energy",
+                        settled.descents));
       if (!settled.free.empty())
         throw Error(fmt::format("statics: the scene can move freely: nothing holds {}", settled.free), run.scene.file,
                     run.scene.statics.rotation
-                        ? "drive it under `motions:` if it turns with the scene, or hold it with a joint"
+                        ? "drive it under `motions:` if it rotates with the scene, or hold it with a joint"
                         : "hold it with a joint, or use `analysis: dynamics`");
       break;
     }
@@ -268,7 +269,7 @@ void prepare(Run& run) {
 }
 
 /// Predicts the size of the results after the row of `time`: announces it once enough rows are stored.
-void foretell_size(double time, Run& run) {
+void predict_size(double time, Run& run) {
   constexpr double enough = 1e7;  // bytes: a hundredth of the size that is announced
   OutputForecast& forecast = run.forecast;
   if (forecast.bytes == 0) return;
@@ -356,7 +357,7 @@ void start(Run& run) {
   run.massless = report.massless;
   if (report.massless)
     run.report.notes.push_back(
-        "the mass matrix is singular: accelerations of its massless directions come from statics");
+        "the mass matrix is singular: accelerations in massless directions follow from static equilibrium");
   prepare(run);
 }
 
@@ -386,7 +387,7 @@ bool is_interrupted(Run& run) {
   return interrupted;
 }
 
-void tell_doubts(Run& run) {
+void report_doubts(Run& run) {
   std::vector<std::string>& doubts = run.report.doubts;
   const auto stressed = [&run]() -> std::vector<bool> {
     if (run.built.model.planar) return {};  // such stress needs coordinates out of the plane, which do not exist
@@ -418,7 +419,7 @@ void write_row(Run& run, const StepReport& step, double size, RowWriter& out, co
   RunReport& report = run.report;
   if (report.analysis == formats::AnalysisKind::dynamics) run.doubts.at_row(run.instant(), row);
   ++report.rows;
-  foretell_size(row.time, run);
+  predict_size(row.time, run);
   report.balance = row.balance;
   report.largest_balance = std::max(report.largest_balance, std::abs(row.balance));
   report.energy_reference = run.doubts.energy_moved();

@@ -61,8 +61,8 @@ void stop_at_dead_point(Run& run, double time, const StepReport& step) {
       RunOutcome::not_converged,
       fmt::format("t = {:.6g}: {} (after {} halvings of the step)", time,
                   step.outcome == StepOutcome::singular
-                      ? "the drives do not determine the motion: a dead point, where it could go on in several ways"
-                      : "the joints cannot be closed any further: the drive leaves what the mechanism can reach",
+                      ? "the drives do not determine the motion: at this dead point, several motions are possible"
+                      : "the joints cannot be closed: the drive exceeds the range of the mechanism",
                   run.scene.integrator.max_halvings));
 }
 
@@ -99,16 +99,16 @@ constexpr double steady_change = 1e-3;
 
 std::string changing_coefficients(const ModesReport& modes) {
   const std::string what = fmt::format(
-      "the coefficients of the linearisation are not constant in its axes: they change by {:.2g} of their size in a "
-      "turn of {} rad",
+      "the coefficients of the linearised equations are not constant in the axes used: they change by {:.2g} of their "
+      "size in a rotation of {} rad",
       modes.change, turned_by);
   if (modes.axes.norm() > 0.0)
     return what +
-           ". What does not turn with the axes is not the same on all sides: take axes at rest, `modes: {rotation: [0, "
-           "0, 0]}`, if what turns is";
+           ". The parts that do not rotate with the axes are not symmetric about the axis of rotation. If the rotating "
+           "parts are symmetric, use axes at rest: `modes: {rotation: [0, 0, 0]}`";
   return fmt::format(
-      "{} of '{}', which is not the same on all sides: take axes that turn with it, `modes: {{rotation: [{:.6g}, "
-      "{:.6g}, {:.6g}]}}`, if what stands still is",
+      "{} of '{}'. It is not symmetric about its axis of rotation. If the parts at rest are symmetric about this axis, "
+      "use axes that rotate with it: `modes: {{rotation: [{:.6g}, {:.6g}, {:.6g}]}}`",
       what, modes.spins, modes.spin.x(), modes.spin.y(), modes.spin.z());
 }
 
@@ -167,7 +167,7 @@ void assemble(Run& run, RowWriter& out) {
   report.steps = 1;
   report.largest_constraint = assembly.gap * model.length;
   report.table = body_poses(run.scene, model, run.at_start, state);
-  report.table_title = "poses, as `bodies` takes them";
+  report.table_title = "poses in the format of `bodies`";
   report.mobility = count_mobility(model, state, run.workspace.now);
   StepReport step;
   step.iterations = assembly.iterations;
@@ -177,12 +177,13 @@ void assemble(Run& run, RowWriter& out) {
     report.end(RunOutcome::interrupted, "interrupted");
   } else if (!assembly.closed) {
     report.end(RunOutcome::not_converged,
-               fmt::format("joints stay open: {}; give better guesses, or correct what cannot meet",
+               fmt::format("joints remain open: {}; give better initial poses, or correct the markers that cannot meet",
                            gaps_text(assembly.open, "")));
   } else if (!(assembly.velocity_gap <= 1e-9)) {
-    report.end(RunOutcome::not_converged,
-               fmt::format("no velocities agree with joints and drives: {:.3g} of the largest is left",
-                           assembly.velocity_gap));
+    report.end(
+        RunOutcome::not_converged,
+        fmt::format("no velocities agree with joints and drives: an error of {:.3g} of the largest velocity remains",
+                    assembly.velocity_gap));
   }
 }
 
@@ -195,22 +196,22 @@ void find_modes(Run& run, RowWriter& out) {
   report.steps = 1;
   report.table = modes_lines(model, modes);
   report.table_title = fmt::format("modes of {} degrees of freedom{}", modes.degrees_of_freedom,
-                                   model.planar ? " in the plane; those out of it are not in the model" : "");
+                                   model.planar ? " in the plane; motion out of the plane is not modelled" : "");
   double lowest = 0.0;
   for (const Mode& mode : modes.modes)
     if (lowest == 0.0) lowest = std::abs(mode.eigenvalue);
   if (modes.largest_acceleration > 1e-6 * lowest * lowest)
     report.notes.push_back(fmt::format(
-        "the state is not steady in the axes of the linearisation (in the time in which the lowest mode turns by a "
-        "radian it moves by {:.2g} of its length, or radians): modes of frozen coefficients. Of a scene that turns "
-        "steadily, begin with `statics: {{rotation: ..}}`, or give `modes: {{rotation: [x, y, z]}}`",
+        "the state is not steady in the axes of the linearisation: it moves by {:.2g} (of the characteristic length, "
+        "or rad) while the phase of the lowest mode advances by 1 rad. The modes are those of frozen coefficients. If "
+        "the scene rotates steadily, start from `statics: {{rotation: ..}}` or give `modes: {{rotation: [x, y, z]}}`",
         0.5 * modes.largest_acceleration / (lowest * lowest)));
   else if (modes.change > steady_change)
     report.doubts.push_back(changing_coefficients(modes));
   if (!modes.undecided.empty())
     report.doubts.push_back(
-        fmt::format("the frequencies of '{}' are those in axes that turn with it: its modes move no node of the scene "
-                    "on its axis, so they cannot be taken in other axes. Take axes that turn with it, `modes: "
+        fmt::format("the frequencies of '{}' are those in axes that rotate with it: its modes move no node on its "
+                    "axis, so they cannot be converted to other axes. Use axes that rotate with it: `modes: "
                     "{{rotation: [{:.6g}, {:.6g}, {:.6g}]}}`",
                     modes.undecided, modes.axes.x() + modes.spin.x(), modes.axes.y() + modes.spin.y(),
                     modes.axes.z() + modes.spin.z()));

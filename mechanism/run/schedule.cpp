@@ -174,9 +174,10 @@ std::string large_output(const formats::Scene& scene, double rows, std::size_t b
   constexpr double gigabyte = 1e9;
   if (!(size > gigabyte)) return {};
   return fmt::format(
-      "the results will take about {:.2g} GB: {:.3g} instants of {:.3g} kB; store fewer of them with `output: {{interval: "
-      "{:.3g}}}`, or what you need with `output: {{channels: [nodes/position, energy]}}`",
-      size / gigabyte, rows, 1e-3 * static_cast<double>(bytes), (scene.integrator.end - scene.integrator.start) / 2000.0);
+      "the results will take about {:.2g} GB: {:.3g} instants of {:.3g} kB; store fewer instants with `output: "
+      "{{interval: {:.3g}}}`, or fewer channels with `output: {{channels: [nodes/position, energy]}}`",
+      size / gigabyte, rows, 1e-3 * static_cast<double>(bytes),
+      (scene.integrator.end - scene.integrator.start) / 2000.0);
 }
 
 void Schedule::skip_to(double time) {

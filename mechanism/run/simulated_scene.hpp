@@ -10,15 +10,15 @@
 
 namespace tisserand::mechanism {
 
-/// formats::scene_values of a scene that was read from a file, with the identifiers of all files that it names. Empty
-/// if a program made the scene, or if the text is longer than 16 MiB.
+/// Values of a scene that was read from a file (formats::scene_values), with the identifiers of all files that it
+/// names. Empty if a program made the scene, or if the text is longer than 16 MiB.
 std::string scene_values(const formats::Scene& scene, const BodyFiles& files);
 
-/// Text of the scene that results contain: formats::text_with_contents.
+/// Text of the scene that results contain (formats::text_with_contents).
 std::string scene_text(const formats::Scene& scene, const BodyFiles& files);
 
-/// Description of a scene whose model has only the stored places (keep_chosen_places). Nodes are numbered as these.
-/// `start`: state of the built model, before any motion.
+/// Description of the scene and its model for the results file. Requires that keep_chosen_places() was called, since
+/// nodes are numbered as the stored places. `start`: state of the built model, before any motion.
 formats::SimulatedScene simulated_scene(const formats::Scene& scene, const BodyFiles& files, const BuiltModel& built,
                                         const State& start);
 

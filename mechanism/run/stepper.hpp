@@ -10,17 +10,20 @@
 
 namespace tisserand::mechanism {
 
+/// Time stepping method of a scene: generalised alpha, HHT or Radau IIA.
 class Stepper {
  public:
   Stepper(const Model& model, const formats::IntegratorSpec& options);
 
-  /// Computes one step, as advance() of step/step.hpp.
+  /// Computes one step to `end`, like advance() of step/step.hpp.
   [[nodiscard]] StepReport advance(const StepEnd& end, State& state, Workspace& workspace);
-  /// Sets `state` to an instant within the last step, which ended at `state`. For Radau only.
+  /// Sets `state`, which is at the end of the last step, to the instant `time` within this step. Requires the method
+  /// radau.
   void interpolate(double time, State& state, Workspace& workspace);
-  /// Discards factors and history of workspace and method.
+  /// Discards matrix factors and history in the workspace and in the method.
   void forget(Workspace& workspace);
-  /// Declares that a breakpoint of loads was passed.
+  /// Tells the method that loads jump at the end of the last step. Radau then does not extrapolate its stages as start
+  /// values of the next step; the other methods do nothing.
   void pass_jump();
   SolverHealth health(const Workspace& workspace) const;
 

@@ -33,8 +33,8 @@ struct StoredRow {
     } catch (const Error& error) {
       throw Error(
           error.what(), "",
-          "to go on from an instant, results need nodes, superelements and joints/coordinate among output.channels; "
-          "and the scene must be that of the file, with its effects (the same bodies flexible, planar or not)");
+          "to continue from an instant, the results need nodes, superelements and joints/coordinate in "
+          "output.channels, and the scene must have the same effects as that of the file (flexible bodies, planar)");
     }
   }
   Vector3d vector(const std::string& dataset, const std::string& item) const {
@@ -82,14 +82,14 @@ class LeftOut {
     const auto require = [&file](const Largest& one, const char* what, double size, const char* beside) {
       if (one.size <= share * size) return;  // false for not-a-number
       throw Error(fmt::format("holds a motion out of the plane of the scene: {} of '{}' is {:.3g} along the normal, "
-                              "beside {} of {:.3g}",
+                              "compared with {} of {:.3g}",
                               what, one.name, one.size, beside, size),
-                  file, "go on without planar: on");
+                  file, "continue without planar: on");
     };
     // At rest, velocities are round-off: within a step they move less than this fraction of the scene's size.
     constexpr double rest = 1e-12;
     if (!(speed_.size * model_.motion_spacing <= rest * model_.length))
-      require(speed_, "the velocity", fastest_, "a largest one");
+      require(speed_, "the velocity", fastest_, "a largest velocity");
     require(height_, "the displacement", model_.length, "a size of the scene");
   }
 
@@ -226,8 +226,8 @@ StoredSums read_stored_state(const Model& model, const std::string& file, const 
   state.lambda().setZero();
   if (!state.x().allFinite() || !state.Q().allFinite() || !state.v().allFinite() || !state.y().allFinite() ||
       !state.w().allFinite())
-    throw Error(fmt::format("the instant t = {:.9g} holds values that are no numbers", state.time()), file,
-                "go on from a dynamic or static analysis");
+    throw Error(fmt::format("the instant t = {:.9g} contains values that are not numbers", state.time()), file,
+                "continue from a dynamic or static analysis");
   workspace.forget();
   StoredSums sums;
   sums.work = stored.sum("energy/work");

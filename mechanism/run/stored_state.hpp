@@ -12,17 +12,18 @@
 
 namespace tisserand::mechanism {
 
-/// Sums over the run until then, for the energy balance; 0 if they were not stored.
+/// Sums of the energy balance over a run until a stored instant; 0 if they were not stored.
 struct StoredSums {
   double work = 0.0;
   double dissipated = 0.0;
   double initial_energy = 0.0;
-  std::size_t row = 0;  ///< row of the instant
+  std::size_t row = 0;  ///< index of the row of the instant
 };
 
-/// Reads positions, velocities, internal coordinates and their rates, floating frames and unwrapped angles at the
-/// stored instant `at` (absent: the last). Throws Error: no such instant, channels of `nodes`, `superelements` or
-/// `joints/coordinate` that were not stored, names that the scene does not have.
+/// Reads a state from the results `file` at the stored instant `at` (absent: the last one). The state gets positions,
+/// velocities, internal coordinates and their rates, floating frames and unwrapped angles. Returns the sums of the
+/// energy balance until then. Throws Error for an instant that is not stored, and for names that the scene does not
+/// have. It also throws for channels of `nodes`, `superelements` or `joints/coordinate` that were not stored.
 StoredSums read_stored_state(const Model& model, const std::string& file, const std::optional<double>& at, State& state,
                              Workspace& workspace);
 

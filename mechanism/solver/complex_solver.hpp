@@ -10,20 +10,21 @@
 
 namespace tisserand::mechanism {
 
-/// KLU, UMFPACK or LAPACK for complex values. `kind` is that of the real solver; both dense kinds are LAPACK's here.
-/// Solutions are not refined: they are increments of iterations that correct them. No allocation in numeric() and
-/// solve() after the first numeric(), except inside UMFPACK.
+/// Solver of complex systems on the pattern of the real ones: KLU, UMFPACK or LAPACK. `kind` is that of the real
+/// solver; both dense kinds are LAPACK here. Solutions are not refined, since they are increments of iterations that
+/// correct them. After the first numeric() neither numeric() nor solve() allocates memory, except inside UMFPACK.
 class ComplexSolver {
  public:
-  /// Symbolic factorisation. The pattern must outlive the solver. There is no complex sparse QR.
+  /// Performs the symbolic factorisation. The pattern must outlive the solver. There is no complex sparse QR.
   ComplexSolver(const SparsePattern& pattern, SolverKind kind);
   ~ComplexSolver();
 
-  /// Factors `values`, which must not change until the last solve(). Not regular if one is not finite.
+  /// Factors the matrix with `values`, which must not change until the last solve(). The report is not regular if a
+  /// value is not finite.
   [[nodiscard]] FactorReport numeric(std::span<const std::complex<double>> values);
-  /// Solves in place.
+  /// Replaces the right-hand side by the solution.
   void solve(std::span<std::complex<double>> right_hand_side);
-  /// Discards pivots and factors, so that the next numeric() works like the first.
+  /// Discards pivots and factors, so that the next numeric() works like the first one.
   void forget();
 
  private:

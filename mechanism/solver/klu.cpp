@@ -99,8 +99,8 @@ struct KluFactors {
 /// Factors with new pivots. The order of AMD expects pivots on the diagonal, and zeros there can increase its fill.
 /// Then COLAMD, whose bound on fill holds for all pivots, is tried, and the smaller factors stay. Returns those, null
 /// if singular. `by_columns` is analysed when it is first needed.
-KluFactors* factor_anew(const SparsePattern& pattern, double* values, KluFactors& by_diagonal, KluFactors& by_columns,
-                        klu_common& common) {
+KluFactors* factor_with_new_pivots(const SparsePattern& pattern, double* values, KluFactors& by_diagonal,
+                                   KluFactors& by_columns, klu_common& common) {
   if (!by_diagonal.factor(pattern, values, common)) return nullptr;
   if (by_diagonal.entries() <= honest_fill * (by_diagonal.symbolic->lnz + by_diagonal.symbolic->unz))
     return &by_diagonal;
@@ -136,7 +136,7 @@ class Klu : public BackEnd {
       }
       forget();
     }
-    used_ = factor_anew(pattern_, values_, by_diagonal_, by_columns_, common_);
+    used_ = factor_with_new_pivots(pattern_, values_, by_diagonal_, by_columns_, common_);
     if (used_ != nullptr) return report();
     const int column = common_.singular_col;
     return {false, 0.0, column < pattern_.size() ? column : -1, 1.0};
@@ -190,7 +190,7 @@ Effort klu_trial(const SparsePattern& pattern) {
   std::vector<double> values = made_up_values(pattern);
   KluFactors by_diagonal, by_columns;
   by_diagonal.analyse(pattern, by_amd, common);
-  const KluFactors* factors = factor_anew(pattern, values.data(), by_diagonal, by_columns, common);
+  const KluFactors* factors = factor_with_new_pivots(pattern, values.data(), by_diagonal, by_columns, common);
   Effort effort{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   if (factors != nullptr && klu_flops(factors->symbolic, factors->numeric, &common))
     effort = {common.flops, factors->entries()};

@@ -8,21 +8,24 @@
 
 namespace tisserand::mechanism {
 
-/// Fraction of the largest singular value or pivot below which others count as zero in constraint Jacobians (rows
-/// scaled with the characteristic length).
+/// Fraction of the largest singular value or pivot below which others count as zero, for constraint Jacobians scaled
+/// with the characteristic length.
 inline constexpr double rank_tolerance = 1e-10;
 
+/// Rank of a matrix, and its dependent columns.
 struct ColumnRank {
   int rank = 0;
-  std::vector<int> dependent;  ///< dependent columns, ascending; the others have full rank
+  std::vector<int> dependent;  ///< dependent columns, ascending; the other columns have full rank
 };
 
-/// Rank by SuiteSparseQR. Its cost grows with the fill, so linearly for chains and trees. A column is dependent if its
-/// remainder, after projection on those before it, is shorter than `tolerance`.
+/// Computes the rank of A and its dependent columns by SuiteSparseQR. The cost grows with the fill, so linearly for
+/// chains and trees. A column is dependent if its remainder, after projection on the columns before it, is shorter than
+/// `tolerance`.
 ColumnRank column_rank(const Eigen::SparseMatrix<double>& A, double tolerance);
 
-/// A⁺ A x: x without its component in the null space of A. Pivots below `tolerance` times the largest count as zero. Up
-/// to 400 columns by a complete orthogonal decomposition, above by conjugate gradients on the normal equations.
+/// Vector x without its component in the null space of A: A⁺ A x. Pivots below `tolerance` times the largest count as
+/// zero. Up to 400 columns it uses a complete orthogonal decomposition, above it conjugate gradients on the normal
+/// equations.
 Eigen::VectorXd without_null_space(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& x, double tolerance);
 
 }  // namespace tisserand::mechanism

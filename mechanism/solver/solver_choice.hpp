@@ -9,6 +9,7 @@
 
 namespace tisserand::mechanism {
 
+/// Chosen solver of a model, with the cost that its choice counted.
 struct SolverChoice {
   SolverKind kind = SolverKind::klu;
   bool automatic = false;
@@ -16,12 +17,13 @@ struct SolverChoice {
   double fill = 1.0;   ///< entries of the factors relative to those of the matrix
 };
 
-/// Solver chosen by counts on the pattern, not by measured times. So a scene takes the same solver in every run and on
-/// every machine. `pattern` has sparse storage.
+/// Chooses the solver for a pattern: the one that the scene names in `wanted`, else that of the least estimated time.
+/// The time is estimated from counts on the pattern, not measured. So a scene takes the same solver in every run and on
+/// every machine. `pattern` requires sparse storage.
 SolverChoice choose_solver(const SparsePattern& pattern, formats::LinearSolver wanted);
 
-/// Text "KLU (auto; counted 2.1e+05 flops per factorisation, fill 1.8)". It holds counts made before values exist.
-/// SolverHealth holds the fill of the factors.
+/// Text on a choice: "KLU (auto; counted 2.1e+05 flops per factorisation, fill 1.8)". The counts are made before values
+/// exist. SolverHealth has the fill of the factors.
 std::string describe(const SolverChoice& choice);
 
 }  // namespace tisserand::mechanism

@@ -6,16 +6,18 @@
 
 namespace tisserand::mechanism {
 
-/// Compressed columns of an n x n matrix. Dense storage: every position exists, slot(i, j) = i + j n.
+/// Positions of the stored values of an n x n matrix, in compressed columns. With dense storage every position is
+/// stored, and slot(i, j) = i + j n.
 class SparsePattern {
  public:
   enum class Storage { sparse, dense };
 
-  /// Position of an entry. Repeated positions are merged.
+  /// Row and column of an entry.
   struct Position {
     int row;
     int column;
   };
+  /// Makes the pattern of `positions`, in which repeated positions are merged.
   SparsePattern(int size, std::vector<Position> positions, Storage storage);
 
   int size() const { return size_; }
@@ -24,9 +26,9 @@ class SparsePattern {
   int values() const { return values_; }
   /// Number of structural nonzeros (also for dense storage).
   int nonzeros() const { return nonzeros_; }
-  /// Index into the values of position (row, column), which must be in the pattern.
+  /// Index in the stored values of position (row, column). Requires that the pattern has this position.
   int slot(int row, int column) const;
-  /// Calls visit(row, slot) for each position of a column, in ascending order.
+  /// Calls visit(row, slot) for each position of a column, in ascending order of rows.
   template <class Visit>
   void for_each_in(int column, Visit visit) const {
     for (int at = column_start_[column]; at < column_start_[static_cast<std::size_t>(column) + 1]; ++at)

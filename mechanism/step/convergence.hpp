@@ -15,7 +15,9 @@
 
 namespace tisserand::mechanism {
 
-/// Sizes of residuals and violations. Ratios are values divided by their limits.
+/// Sizes of residuals and constraint violations in one iteration. Ratios are values divided by their limits. `residual`
+/// is the largest force (moments / length), `constraint` the largest violation (angles · length), with the length of
+/// the model.
 struct Norms {
   double force_ratio = 0.0;
   double constraint_ratio = 0.0;
@@ -27,11 +29,14 @@ struct Norms {
   double worst() const { return std::max(force_ratio, constraint_ratio); }
 };
 
-/// Largest component of boundary coordinates. Translations are relative to the characteristic length.
+/// Largest component of an increment of boundary coordinates. Translations count divided by the characteristic length,
+/// rotations in radians.
 double size_of(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& increment);
 
-/// Largest residuals relative to the running maxima of forces, moments and internal forces, and largest violations
-/// relative to the characteristic length (rates: to length/step).
+/// Measures residuals and constraint violations relative to their limits. The limit of a residual is the tolerance
+/// times the running maximum of forces, moments or internal forces. The limit of a violation is the constraint
+/// tolerance times the characteristic length (rates: times length/step), and less in slow motions. No limit is below
+/// round-off.
 Norms measure(const Model& model, const formats::IntegratorSpec& options, double step, const State& state,
               Evaluation& evaluation);
 

@@ -13,14 +13,15 @@
 
 namespace tisserand::mechanism {
 
+/// Energy that the damping of superelements dissipates in each step, from the mean rates of the step.
 class Dissipation {
  public:
   explicit Dissipation(const Model& model);
 
   void forget() { known_ = false; }
-  /// Whether begin() must be called before the next step: after forget(), if a superelement is damped.
+  /// Whether the caller must call begin() before the next step: after forget(), if a superelement is damped.
   bool begins() const { return damped_ && !known_; }
-  /// Stores the deformation at the last evaluation, the start of a step.
+  /// Stores the deformation at the last evaluation, which must be the start of a step.
   void begin(const Model& model, const Evaluation& now);
 
   /// Dissipated energy of the step that ends at the last evaluation, minus that of the trapezoidal rule for

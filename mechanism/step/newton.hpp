@@ -8,11 +8,11 @@
 
 namespace tisserand::mechanism {
 
-/// Factors of an iteration. kept: those of earlier steps. fresh: made in this step, and again in every iteration that
-/// does not converge quickly.
+/// Factors of an iteration. `kept`: those of earlier steps. `fresh`: made in this step, and again in every iteration
+/// that does not converge quickly.
 enum class Factors { kept, fresh };
 
-/// Common data of the iterations of one step, and their progress.
+/// Data that all operations of the Newton iteration of one step use, and its progress.
 struct Iteration {
   const Model& model;
   const formats::IntegratorSpec& options;
@@ -23,28 +23,29 @@ struct Iteration {
   Factors factors;
 
   int count = 0;  ///< increments so far
-  /// Sizes of the last two increments, infinite if there was none.
+  /// Size of the last increment, infinite if there was none.
   double increment = std::numeric_limits<double>::infinity();
+  /// Size of the increment before the last one, infinite if there was none.
   double last_increment = std::numeric_limits<double>::infinity();
   double last_residual = 0.0, last_constraint_ratio = 0.0;  ///< values at the last check of the factors
 };
 
-/// Prepares the last accepted state for another step size by a new algorithmic acceleration. With index 3 it also
+/// Prepares the last accepted state for another step size: rebuilds its algorithmic acceleration. With index 3 it also
 /// scales the violation B v + Φ_t of the velocities, −C h² B v̈ in settled motion, to the new step size. An unscaled
 /// violation would disturb the multipliers by O(h) for many steps ("Index 3 and a change of step" in DECISIONS.md).
-/// Positions stay, and velocities change by M⁻¹Bᵀ μ only. Returns false if the matrix is singular.
+/// Positions stay, and velocities change by A⁻¹Bᵀ μ only, A of THEORY (69). Returns false if the matrix is singular.
 bool change_step(Iteration& it);
 
-/// Whether the norms of the last evaluation, or the last increments, are small enough. Stores the norms in the report.
-/// Sets the outcome if the iteration cannot continue.
+/// Whether the residual and the violations of the last evaluation are below their limits, or increments have reached
+/// round-off. Stores the norms in the report. Sets the outcome if the iteration cannot continue.
 bool converged(Iteration& it);
 
-/// Provides factors for the next increment: refactors at the present state if necessary. Returns false if kept factors
-/// contract too slowly (no outcome is set) or if the matrix is singular (the outcome is set).
+/// Provides factors for the next increment: factors again at the present state if necessary. Returns false if kept
+/// factors contract too slowly (no outcome is set) or if the matrix is singular (the outcome is set).
 bool ready_factors(Iteration& it);
 
-/// Solves THEORY (69), then (67), for the residual and the violations of the last evaluation. Sets increment,
-/// multipliers and correction of the matrix.
+/// Solves THEORY (69), then (67), for the residual and the violations of the last evaluation. The iteration matrix
+/// receives increment, multipliers and correction.
 void solve(Iteration& it);
 
 }  // namespace tisserand::mechanism

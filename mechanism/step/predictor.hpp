@@ -10,14 +10,14 @@
 
 namespace tisserand::mechanism {
 
-/// Change of algorithmic acceleration and multipliers over the last step. It predicts the next step if, one step
-/// earlier, such a prediction would have been better than none.
+/// Prediction of the change of algorithmic acceleration and multipliers in the next step: their change over the last
+/// step. It is used if, one step earlier, such a prediction would have been better than none.
 struct Predictor {
   explicit Predictor(const Sizes& sizes)
       : acceleration(Eigen::VectorXd::Zero(sizes.velocities())),
         multipliers(Eigen::VectorXd::Zero(sizes.constraints)) {}
   void forget() { known = smooth = false; }
-  /// Updates the prediction from the step just solved, from `last` to `state`. smooth_rate: StepTuning.
+  /// Updates the prediction from the step just solved, from `last` to `state`. `smooth_rate`: StepTuning::smooth_rate.
   void learn(const Model& model, double step, double smooth_rate, const State& last, const State& state);
 
   Eigen::VectorXd acceleration, multipliers;
@@ -25,7 +25,8 @@ struct Predictor {
   bool smooth = false;  ///< the prediction would have improved the last step
 };
 
-/// Adds the predicted change to acceleration and multipliers after predict(). `last`: state at the start of the step.
+/// Adds the predicted change to acceleration and multipliers, if the motion is smooth. Requires predict() of
+/// generalised_alpha.hpp. `last`: state at the start of the step.
 void foresee(const Predictor& predictor, const StepScheme& scheme, const State& last, State& state,
              Evaluation& evaluation);
 

@@ -10,9 +10,9 @@
 
 namespace tisserand::mechanism {
 
-/// Marks along roads: edges and quarters of bumps, feet, tops and middles of ramps, corners of tables. They bound steps
-/// with error control as breakpoints do. The error is measured at the end of a step, so a step over a whole bump, from
-/// flat to flat, would show none.
+/// Marks along roads, over which a step with error control must not pass: edges and quarters of bumps, feet, tops and
+/// middles of ramps, corners of tables. They bound steps as breakpoints do. The error is measured at the end of a step,
+/// so a step over a whole bump, from flat to flat, would show none.
 class RoadAhead {
  public:
   RoadAhead(const formats::Scene& scene, const Model& model);

@@ -23,15 +23,16 @@
 
 namespace tisserand::mechanism {
 
-/// End of a step, and the instant at which loads are evaluated there (just before a jump).
+/// End of a step: its instant, and the instant at which loads are evaluated there, just before a jump.
 struct StepEnd {
   double time = 0.0;
   double load_time = 0.0;
 };
 
-/// Computes one step from `state` (accepted, consistent) to `end`. On any outcome but `accepted` the state is
-/// unchanged. If the rank of the constraints changed (omitted rows are violated, or the step fails in an
-/// overconstrained mechanism), the rows are chosen again and the step is repeated. Only this allocates memory.
+/// Computes one step from `state` to `end`. Requires an accepted, consistent state. On any outcome but `accepted`
+/// positions, velocities and accelerations are unchanged. If the rank of the constraints changed (omitted rows are
+/// violated, or the step fails in an overconstrained mechanism), the rows are chosen again and the step is repeated.
+/// Only a new choice of rows allocates memory.
 [[nodiscard]] StepReport advance(const Model& model, const formats::IntegratorSpec& options, const StepEnd& end,
                                  State& state, Workspace& workspace);
 

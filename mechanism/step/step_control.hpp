@@ -10,36 +10,42 @@
 
 namespace tisserand::mechanism {
 
+/// Local error of a step relative to its limit, and the coordinate that has it.
 struct LocalError {
-  double ratio = 0.0;  ///< error over the error that one step may add; at most 1: accepted
+  double ratio = 0.0;  ///< error over its limit; a step with at most 1 is accepted
   int worst_coordinate = -1;
 };
 
-/// Leading term of the local error of the positions, THEORY (71): C h³ v̈ with C = 1/6 − β − (α_m − α_f)/2 [ABC15]. h
-/// v̈ ≈ a_{n+1} − a_n, the rebuilt algorithmic accelerations at both ends of the step ([NRO07] for HHT). It is exact up
-/// to order h² for any previous steps. `last`: state before the step. `error`: boundary and internal coordinates.
+/// Estimates the local error of the positions by its leading term, THEORY (71): C h³ v̈ with
+/// C = |1/6 − β − (α_m − α_f)/2| [ABC15]. h v̈ ≈ a_{n+1} − a_n are the rebuilt algorithmic accelerations at both ends
+/// of the step ([NRO07] for HHT). It is exact up to order h² for any previous steps. `last`: state before the step.
+/// `error` receives boundary and internal coordinates.
 void estimate_error(const formats::IntegratorSpec& options, double step, const State& state, const State& last,
                     Eigen::VectorXd& error);
 
-/// Ratio of an estimated error to the error that one step may add: `share` times the tolerance. A step h of generalised
-/// alpha may add the share h/(end − start), so that errors which add up reach about the tolerance at the end. Steps are
-/// proportional to tolerance^(1/2), errors to step². Positions count relative to the characteristic length, rotations
-/// in radians, internal coordinates of a superelement of mass m relative to length·sqrt(m).
+/// Ratio of an estimated error to the error that one step may add, which is `share` times the tolerance. For a step h
+/// of generalised alpha the share is h/(end − start), so that errors which add up reach about the tolerance at the end.
+/// Steps are then proportional to tolerance^(1/2), as errors are to step². Positions count relative to the
+/// characteristic length, rotations in radians. Internal coordinates of a superelement of mass m count relative to
+/// length·sqrt(m).
 LocalError measure_error(const Model& model, const formats::ErrorControl& control, double share,
                          const Eigen::Ref<const Eigen::VectorXd>& error);
 
-/// Next step after one of size `step`, THEORY (72): 0.9 ratio^(−1/2) times it, between 0.2 and 2 times. It is unchanged
-/// if it would grow by less than a fifth, so that factors are kept.
+/// Length of the next step after a step with the error ratio `ratio`, THEORY (72): `step` times 0.9 ratio^(−1/2),
+/// between 0.2 and 2 times. A step that would grow by less than a fifth stays, so that factors are kept.
 double next_step(const formats::IntegratorSpec& options, double step, double ratio);
-/// Step to try instead of one that was too inaccurate, or did not converge (ratio 0).
+/// Length to try after a failed step, shorter than `step`. `ratio`: ratio of the local error to its limit; 0 if the
+/// step did not converge.
 double shorter_step(double step, double ratio);
 
-/// Instants closer than this are equal: a small fraction of the step, but not less than two errors. These are the
-/// round-off of the time, and the difference between grids of steps and rows whose spacings have twelve digits.
+/// Distance of instants below which they count as equal. It is a small fraction of the step, but not less than two
+/// errors: the round-off of `time`, and the difference between grids of steps and rows whose spacings have twelve
+/// digits.
 double instant_tolerance(double step, double time);
 
-/// Limits of steps from `error_control`, or their defaults.
+/// Smallest step that `error_control` of the scene allows; by default a share 1e-12 of the time of the run.
 double least_step(const formats::IntegratorSpec& options);
+/// Largest step that `error_control` of the scene allows; by default a tenth of the time of the run.
 double greatest_step(const formats::IntegratorSpec& options);
 
 }  // namespace tisserand::mechanism

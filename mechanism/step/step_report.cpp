@@ -25,13 +25,13 @@ std::string explain(const Model& model, const StepReport& report) {
       return fmt::format("the iteration matrix is singular{}{}", place.empty() ? "" : " at ", place);
     case StepOutcome::diverged:
       return fmt::format(
-          "the iteration left the range of numbers, first at {}: the step is too long for the motion, or a load is not "
-          "finite",
+          "the iteration gives numbers that are not finite, first at {}: the step is too long for the motion, or a "
+          "load is not finite",
           place);
     case StepOutcome::too_many_iterations:
       return fmt::format(
           "Newton's iteration does not converge, worst at {} (residual {:.1e} times the tolerance, constraint {:.1e} "
-          "times): the step is too long, or parts turn so far that their elements are no longer small",
+          "times): the step is too long, or the elements are too large for the rotation of their parts",
           place, report.force_ratio, report.constraint_ratio);
   }
   return {};

@@ -13,13 +13,15 @@
 
 namespace tisserand::mechanism {
 
-/// Decides whether factors are kept. If they serve only a few steps, a pause follows, which doubles after each failure.
+/// Decision whether a step tries the factors of earlier steps. If factors serve only a few steps, a pause with new
+/// factors follows, which doubles after each failure.
 struct FactorReuse {
   int kept = 0;   ///< steps that the present factors have served
   int fresh = 0;  ///< steps to take with new factors after the latest failure
   int fresh_left = 0;
 
-  /// Whether the next step tries the existing factors, which belong to its matrix. Counts down the pause.
+  /// Whether the next step tries the existing factors. Counts down the pause, so it must be called once per step.
+  /// Requires that the factors belong to the matrix of the step.
   bool tries_kept() {
     if (fresh_left == 0) return true;
     --fresh_left;
@@ -54,10 +56,11 @@ struct StepMemory {
   StepTuning tuning;
 };
 
+/// Work space of a run besides model and state: evaluation, iteration matrix, and memory of previous steps.
 struct Workspace {
   explicit Workspace(const Model& model) : now(model), matrix(model), memory(model) {}
-  /// Discards factors and predictors: the next step works like the first. So a run continued from a copy of the state
-  /// in another workspace takes bit-equal steps (tests/verification/checkpoint_test.cpp).
+  /// Discards factors and predictors: the next step works like the first one. So a run that continues from a copy of
+  /// the state in another workspace takes bit-equal steps (tests/verification/checkpoint_test.cpp).
   void forget() {
     matrix.forget();
     memory.forget();

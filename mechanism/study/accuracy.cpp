@@ -94,7 +94,7 @@ class FallingTolerance {
     return std::max(least_tolerance, std::clamp(aimed, least_part * tolerance, most_part * tolerance));
   }
   /// Predicted time of a run with the tolerance `next`, if one with `tolerance` took `seconds`.
-  double foretold(double seconds, double tolerance, double next) const {
+  double predicted(double seconds, double tolerance, double next) const {
     return seconds * std::pow(tolerance / next, rates_.work);
   }
 
@@ -366,34 +366,34 @@ class Search {
     }
     previous_.steps = report.steps;
     const double next = tolerance_.next(tolerance, room_),
-                 needed = tolerance_.foretold(now() - began_, tolerance, next);
+                 needed = tolerance_.predicted(now() - began_, tolerance, next);
     too_long_ = !is_reached() && needed > std::max(longest_run, longest_of_first * first_took_);
     report.notes.push_back(fmt::format(
-        "accuracy: the error of '{}' is {} ({:g} asked for), with tolerance {:.3g}{}{}; runs before, by tolerance: {}",
-        accuracy_.of, told_of_error(tolerance_.error() + missing), accuracy_.error, tolerance, told_of_method(),
-        told_of_modes(), join(cost_, ", ")));
+        "accuracy: the error of '{}' is {} ({:g} asked for), with tolerance {:.3g}{}{}; runs by tolerance: {}",
+        accuracy_.of, reported_error(tolerance_.error() + missing), accuracy_.error, tolerance, reported_method(),
+        reported_modes(), join(cost_, ", ")));
     if (!last && !too_long_ && !is_reached()) return;
     if (modes_.left.empty() && missing > most_missing * accuracy_.error)
       report.doubts.push_back(
-          fmt::format("'{}' may miss modes that the superelement files do not hold: the upper half of those that they "
-                      "hold changes it by {:.2g}; raise 'modes' in the part",
+          fmt::format("'{}' may need modes that the superelement files do not contain: the upper half of the modes in "
+                      "the files changes it by {:.2g}; increase 'modes' in the part",
                       accuracy_.of, modes_.upper_half));
     if (is_reached()) return;
-    const char* const other = method_ == formats::Method::radau ? "" : ", or take method: radau";
+    const char* const other = method_ == formats::Method::radau ? "" : ", or use method: radau";
     const std::string cost =
-        !too_long_ ? "" : fmt::format(", and the next run would take some {:.0f} min", needed / 60.0);
+        !too_long_ ? "" : fmt::format(", and the next run would take about {:.0f} min", needed / 60.0);
     const std::string longer =
-        !too_long_ ? "" : fmt::format(", or give error_control: {{tolerance: {:.2g}}} in place of accuracy", next);
-    report.doubts.push_back(fmt::format("an error of {:g} of '{}' was not reached: it is {}{}; ask for less{}{}",
-                                        accuracy_.error, accuracy_.of, told_of_error(tolerance_.error()), cost, other,
+        !too_long_ ? "" : fmt::format(", or give error_control: {{tolerance: {:.2g}}} instead of accuracy", next);
+    report.doubts.push_back(fmt::format("the error {:g} of '{}' was not reached: it is {}{}; allow a larger error{}{}",
+                                        accuracy_.error, accuracy_.of, reported_error(tolerance_.error()), cost, other,
                                         longer));
   }
 
   bool is_reached() const { return tolerance_.error() <= room_; }
-  std::string told_of_modes() const {
+  std::string reported_modes() const {
     if (modes_.half.x.empty()) return {};
     if (modes_.mixed)
-      return fmt::format("; half of the modes and the tolerance before together change it by {:.2g}",
+      return fmt::format("; half of the modes and the previous tolerance together change it by {:.2g}",
                          tolerance_.change());
     if (modes_.left.empty())
       return fmt::format("; the upper half of the modes changes it by {:.2g}", modes_.upper_half);
@@ -402,14 +402,14 @@ class Search {
     return fmt::format("; modes: {}, the others change it by {:.1g}", listed(counts), modes_.left_out);
   }
 
-  std::string told_of_method() const {
+  std::string reported_method() const {
     if (method_ == request_.scene.integrator.method) return {};
     return method_ == formats::Method::radau ? " of radau" : " of generalised_alpha";
   }
 
-  std::string told_of_error(double error) {
+  std::string reported_error(double error) {
     return std::isfinite(error) ? fmt::format("estimated at {:.2g}", error)
-                                : "not estimated, since runs with other tolerances took the same steps";
+                                : "not estimated, because runs with other tolerances took the same steps";
   }
 
   double now() const { return control_.clock ? control_.clock() : 0.0; }
@@ -435,8 +435,8 @@ class Search {
 
 RunEnd simulate_to_accuracy(const RunRequest& request, const RunControl& control) {
   if (!request.restart.empty())
-    throw Error("a run with 'accuracy' cannot go on from a file", request.scene.file,
-                "give 'step' or 'error_control' in its place");
+    throw Error("a run with 'accuracy' cannot continue from a file", request.scene.file,
+                "give 'step' or 'error_control' instead of it");
   return Search(request, control).run();
 }
 

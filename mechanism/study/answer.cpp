@@ -29,8 +29,8 @@ namespace fs = std::filesystem;
   for (const StudyRow& row : rows)
     if (row.has_run && row.outcome == CellOutcome::failed)
       throw Error(fmt::format("no run completed; '{}': {}", row.cell->label, row.message), study.file,
-                  "correct what fails, then choose another folder with -o or remove this one");
-  throw Error("no run completed inside the budget", study.file, "raise 'run_budget'");
+                  "correct the cause, then choose another folder with -o, or remove this one");
+  throw Error("no run completed within its budget", study.file, "increase 'run_budget'");
 }
 
 /// Writes the scene of a setting into the folder of its original scene. Returns the path.
@@ -59,10 +59,10 @@ std::string answer(const Campaign& campaign, const std::vector<StudyRow>& rows, 
       if (!row.is_measured()) continue;
       if (const double worst = row.worst_error(quantities); worst < least) least = worst, best = &row;
     }
-    throw Error(fmt::format("no setting keeps the error within {:g}, there and at all finer ones; the least error is "
-                            "{:.2e}, of '{}'",
+    throw Error(fmt::format("no setting keeps its error and those of all finer settings within {:g}; the smallest "
+                            "error is {:.2e}, of '{}'",
                             tolerance, least, best == nullptr ? "" : best->cell->label),
-                study.file, "refine the axes, or ask for less");
+                study.file, "refine the axes, or allow a larger error");
   }
   const StudyRow& row = rows[chosen];
   const std::string scene = write_scene(study, *row.cell, tolerance);
@@ -96,14 +96,15 @@ std::vector<int> asked_quantities(const formats::Study& study, const std::string
     if (name.empty() || names.back() == name) indices.push_back(q);
   }
   if (indices.empty())
-    throw Error(fmt::format("there is no quantity '{}'", name), "--of", fmt::format("there are {}", listed(names)));
+    throw Error(fmt::format("there is no quantity '{}'", name), "--of",
+                fmt::format("the quantities are {}", listed(names)));
   return indices;
 }
 
 std::vector<Cell> task_of(const StudyCells& plan, int task) {
   if (task < 0 || task >= count_of(plan.cells))
     throw Error(fmt::format("there is no setting {}", task), "--task",
-                fmt::format("take a number from 0 to {}", plan.cells.size() - 1));
+                fmt::format("give a number from 0 to {}", plan.cells.size() - 1));
   return {plan.cells[task]};
 }
 
@@ -124,7 +125,7 @@ std::string conclude(const Campaign& campaign, const StudyCells& plan, const std
   write_text_file(campaign.folder + "/table.json", json_text(study, rows, agreement));
   write_page(study, rows, agreement, campaign.folder);
   if (campaign.control.interrupted && campaign.control.interrupted())
-    return summary_text(study, rows, agreement) + "interrupted: the same command goes on\n";
+    return summary_text(study, rows, agreement) + "interrupted: run the same command to continue\n";
   if (std::ranges::none_of(rows, &StudyRow::is_measured)) nothing_completed(study, rows);
   if (request.tolerance) return answer(campaign, rows, request, quantities);
   return summary_text(study, rows, agreement) + fmt::format("  {:<16} {}/index.html\n", "page", campaign.folder);

@@ -10,20 +10,22 @@
 
 namespace tisserand::mechanism {
 
-/// Key of how errors are measured: quantities, reference and version. Results measured differently do not mix.
+/// Key (SHA-256) of how errors are measured: quantities and reference. Errors with different keys are not compared.
 std::string measure_key(const formats::Study& study, const StudyCells& plan);
 
-/// Indices of the quantities with this name; empty: all. Throws Error.
+/// Indices of the quantities of the study with this name; all if `name` is empty. Throws Error if there is none.
 std::vector<int> asked_quantities(const formats::Study& study, const std::string& name);
 
-/// Setting of one job. Throws Error if there is none of that number.
+/// Cell of the job number `task`, as a list of one. Throws Error if there is no such number.
 std::vector<Cell> task_of(const StudyCells& plan, int task);
 
-/// Throws Error if the journal holds runs, but none of this study: its scene has changed, or it is another study.
+/// Throws Error if the journal holds runs, but none of this study. Then its scene has changed, or the journal belongs
+/// to another study.
 void require_own_runs(const Journal& journal, const StudyCells& plan, const std::string& folder);
 
-/// Writes tables and page. With a tolerance it also writes the scene of the cheapest setting, and its results in the
-/// format of benchmarks. Throws Error: nothing completed, or no setting reaches the tolerance (with the best one).
+/// Writes the tables and the page of a study. Returns a summary for the user. With a tolerance it also writes the scene
+/// of the cheapest setting and its results in the format of benchmarks, and returns a text about this setting. Throws
+/// Error if nothing completed, or if no setting reaches the tolerance (the message names the best one).
 std::string conclude(const Campaign& campaign, const StudyCells& plan, const std::vector<double>& agreement,
                      const StudyRequest& request, const std::vector<int>& quantities);
 

@@ -67,7 +67,7 @@ bool run_once(const Campaign& campaign, const Cell& cell, RunRecord& record) {
   if (report.ending == ChildEnding::timed_out) {
     record.outcome = CellOutcome::over_budget;
     record.limit = campaign.study.run_budget;
-    record.message = fmt::format("not done within {:g} s", record.limit);
+    record.message = fmt::format("not finished within {:g} s", record.limit);
   } else if (report.ending == ChildEnding::killed) {
     if (campaign.control.interrupted && campaign.control.interrupted()) return false;
     record.outcome = CellOutcome::failed;
@@ -123,11 +123,11 @@ void make_parts(const Campaign& campaign, const std::vector<const Cell*>& cells)
       if (!fs::exists(part.superelement) && known.insert(part.superelement).second) parts.push_back(&part);
   std::atomic<std::size_t> next{0};
   Progress progress("reducing parts", static_cast<double>(parts.size()));
-  std::mutex telling;
+  std::mutex reporting;
   on_threads(std::min(count_of(parts), core_count()) + (parts.empty() ? 1 : 0), [&](int) {
     for (std::size_t k = next++; k < parts.size() && !is_interrupted(campaign); k = next++) {
       reduce_part(*parts[k], campaign.control.interrupted);
-      const std::lock_guard lock(telling);
+      const std::lock_guard lock(reporting);
       progress.update(static_cast<double>(k + 1), parts[k]->name);
     }
   });
@@ -178,8 +178,8 @@ std::vector<Series> histories_of(const Campaign& campaign, const Cell& cell) {
   RunRecord record;
   const bool has_ended = run_once(campaign, cell, record);
   if (!has_ended || record.outcome != CellOutcome::completed)
-    throw Error(fmt::format("the run '{}' did not complete again: {}", cell.label, record.message), campaign.study.file,
-                "start the command again");
+    throw Error(fmt::format("the run '{}' did not complete when it was repeated: {}", cell.label, record.message),
+                campaign.study.file, "run the command again");
   std::vector<Series> histories = read_quantities(results_path(campaign.folder, cell), cell.channels);
   remove_results(campaign, cell);
   return histories;
@@ -242,12 +242,12 @@ ReferenceHistories make_reference(Campaign& campaign, const std::vector<Cell>& r
     const formats::StudyQuantity& quantity = study.quantities[i];
     reference.agreement.push_back(error_of(histories[1][i], histories[0][i], quantity));
     if (reference.agreement[i] <= study.reference.agree) continue;
-    throw Error(fmt::format("quantity '{}': the references disagree: {:.6g} ('{}') and {:.6g} ('{}') in their own "
-                            "norm, difference {:.2g} of the scale, more than {:g}",
+    throw Error(fmt::format("quantity '{}': the references disagree: {:.6g} ('{}') and {:.6g} ('{}') in its norm; they "
+                            "differ by {:.2g} of the scale, more than {:g}",
                             quantity.name, size_of(histories[0][i], quantity), references[0].label,
                             size_of(histories[1][i], quantity), references[1].label, reference.agreement[i],
                             study.reference.agree),
-                study.file, "refine them, or find out which one is wrong");
+                study.file, "refine the references, or find out which one is wrong");
   }
   return reference;
 }

@@ -12,9 +12,11 @@
 
 namespace tisserand::mechanism {
 
+/// Callbacks between a study and its caller.
 struct StudyControl {
-  std::function<bool()> interrupted;  ///< polled ten times a second and between runs
-  std::function<double()> clock;      ///< [s]
+  /// Returns whether the user has interrupted; called ten times a second and between runs.
+  std::function<bool()> interrupted;
+  std::function<double()> clock;  ///< returns seconds of wall clock time
 };
 
 /// Data that all runs of a campaign share.
@@ -25,35 +27,37 @@ struct Campaign {
   const StudyControl& control;
 };
 
-/// Reference histories of the errors.
+/// Histories of the quantities in the reference of a study, with which the errors of runs are measured.
 struct ReferenceHistories {
-  std::vector<Series> histories;  ///< one per quantity
+  std::vector<Series> histories;  ///< reference history of each quantity
   std::vector<double> agreement;  ///< error of the second reference run against the first; empty: there is none
 };
 
-/// Runs the references, or reads their file. Throws Error: a run failed, two disagree (with both values), a quantity is
-/// not stored.
+/// Runs the references of a study, or reads its reference file. Throws Error if a run fails, if two references disagree
+/// (with both values), or if a quantity is not stored.
 ReferenceHistories make_reference(Campaign& campaign, const std::vector<Cell>& references);
 
-/// Median of the times of a cell and its confidence interval by order statistics, with a confidence of at least 3/4. Of
-/// 3 to 5 runs it takes the least and the greatest, then the second of each end, and so on.
+/// Median of the times of a cell [s] and its confidence interval from `least` to `greatest`, by order statistics. From
+/// 3 runs on the confidence is at least 3/4. For 3 to 5 runs the interval goes from the least time to the greatest one.
+/// For more runs it goes from the second least to the second greatest one, and so on.
 struct MedianTime {
   double median = 0.0, least = 0.0, greatest = 0.0;
 };
+/// Median and confidence interval of the times `seconds`.
 MedianTime median_of(std::vector<double> seconds);
 
-/// Whether a cell is complete: it failed, or its times are known as the study demands. That needs at least three runs
-/// with the interval of the median within ± `within`, or `repeats` runs.
+/// Whether a cell needs no further run: it failed, or its times are known as the study demands. That needs at least
+/// three runs with the interval of the median within ± `within`, or `repeats` runs.
 bool is_known(const formats::Study& study, const std::vector<RunRecord>& runs);
 
-/// Makes the superelement files of the cells, each once. Throws Error.
+/// Makes the superelement files that the cells need, each once. Throws Error.
 void make_all_parts(const Campaign& campaign, const std::vector<Cell>& cells);
 
-/// Histories of the quantities of a cell, which is run once more for them. Throws Error.
+/// Histories of the quantities in a cell. Runs the cell once more to get them. Throws Error.
 std::vector<Series> histories_of(const Campaign& campaign, const Cell& cell);
 
-/// Runs what the journal lacks: one at a time if times count, else in parallel on the cores. Ends early when
-/// interrupted. Throws Error if a part cannot be made.
+/// Runs the cells that the journal lacks. It runs one at a time if times count, else several in parallel on the cores.
+/// Ends early when interrupted. Throws Error if a superelement file cannot be made.
 void run_cells(Campaign& campaign, const std::vector<Cell>& cells, const ReferenceHistories& reference);
 
 }  // namespace tisserand::mechanism

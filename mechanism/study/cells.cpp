@@ -128,8 +128,8 @@ struct Planner {
     for (const formats::StudyAxis& axis : axes) {
       count *= axis.values.size();
       if (count > most_cells)
-        throw Error(fmt::format("series '{}' means more than {} runs", study.series[number].name, most_cells),
-                    study.file, "shorten its axes");
+        throw Error(fmt::format("series '{}' has more than {} runs", study.series[number].name, most_cells), study.file,
+                    "give its axes fewer values");
     }
     std::vector<Cell> cells;
     for (std::size_t k = 0; k < count; ++k) {

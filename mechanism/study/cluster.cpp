@@ -39,7 +39,7 @@ std::string job_script(const formats::Study& study, const std::string& folder, i
 void submit(Campaign& campaign, int tasks) {
   if (!is_program("sbatch"))
     throw Error("Slurm is missing: there is no program sbatch", "--slurm",
-                "call this where jobs are submitted, or leave --slurm away");
+                "run this command on a machine that can submit jobs, or omit --slurm");
   fs::create_directories(campaign.folder + "/slurm");
   const std::string script = campaign.folder + "/study.slurm";
   write_text_file(script, job_script(campaign.study, campaign.folder, tasks));
@@ -49,8 +49,8 @@ void submit(Campaign& campaign, int tasks) {
   const ChildReport report = run_child(request);
   // With --wait the code is the greatest one of the tasks. Their results are in their journals.
   if (report.ending == ChildEnding::left && report.text.find("Submitted batch job") == std::string::npos)
-    throw Error(fmt::format("sbatch refuses: {}", printable_line(report.complaint, 500)), script,
-                "see the limits of the cluster");
+    throw Error(fmt::format("sbatch failed: {}", printable_line(report.complaint, 500)), script,
+                "check the limits of the cluster");
 }
 
 void require_all_recorded(const Campaign& campaign, const std::vector<Cell>& cells) {
@@ -58,9 +58,9 @@ void require_all_recorded(const Campaign& campaign, const std::vector<Cell>& cel
   for (std::size_t k = 0; k < cells.size(); ++k)
     if (campaign.journal.runs(cells[k].key).empty()) lost.push_back(fmt::format("{} ({})", k, cells[k].label));
   if (lost.empty()) return;
-  throw Error(fmt::format("{} of {} jobs vanished without a result: tasks {}", lost.size(), cells.size(), listed(lost)),
+  throw Error(fmt::format("{} of {} jobs ended without a result: tasks {}", lost.size(), cells.size(), listed(lost)),
               campaign.folder + "/slurm",
-              "read <task>.log there; the same command submits again, or runs what is left without --slurm");
+              "read <task>.log there; run the same command to submit them again, or without --slurm to run them here");
 }
 
 }  // namespace tisserand::mechanism

@@ -96,16 +96,15 @@ void Journal::read(const std::string& path, const std::string& measure) {
         runs_[json.at("key").get<std::string>()].push_back(record_of(json));
       } else if (json != head(measure)) {
         const std::string written_by = json.at("tisserand");
-        throw Error(
-            written_by == tisserand::version()
-                ? "the folder holds results of another scene, or measured otherwise: other quantities or reference"
-                : fmt::format("the folder holds results of version {}, this is {}", printable_line(written_by, 40),
-                              tisserand::version()),
-            where, "choose another folder with -o, or remove this one");
+        throw Error(written_by == tisserand::version()
+                        ? "the folder holds results of another scene, or of other quantities or another reference"
+                        : fmt::format("the folder holds results of version {}, but this program has version {}",
+                                      printable_line(written_by, 40), tisserand::version()),
+                    where, "choose another folder with -o, or remove this one");
       }
     } catch (const Json::exception& error) {
-      throw Error(fmt::format("is no journal of a study: {}", printable_line(error.what(), 200)), where,
-                  "remove the folder, or choose another with -o");
+      throw Error(fmt::format("is not the journal of a study: {}", printable_line(error.what(), 200)), where,
+                  "choose another folder with -o, or remove this one");
     }
     at = end + 1;
   }

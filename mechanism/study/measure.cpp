@@ -30,13 +30,14 @@ Series clipped(const Series& series, const formats::StudyQuantity& quantity) {
       part.y.push_back(series.y[i]);
     }
   if (part.x.empty())
-    throw Error(fmt::format("quantity '{}': no instant of channel '{}' counts", quantity.name, series.channel),
+    throw Error(fmt::format("quantity '{}': channel '{}' has no instant between 'from' and 'to'", quantity.name,
+                            series.channel),
                 series.source, "widen 'from' and 'to', or store more instants");
   for (const double y : part.y)
     if (!std::isfinite(y))
-      throw Error(
-          fmt::format("quantity '{}': channel '{}' holds a value that is no number", quantity.name, series.channel),
-          series.source, "choose another channel");
+      throw Error(fmt::format("quantity '{}': channel '{}' contains a value that is not a number", quantity.name,
+                              series.channel),
+                  series.source, "choose another channel");
   return part;
 }
 
@@ -67,7 +68,7 @@ std::vector<Series> read_quantities(const std::string& results, const std::vecto
     request.channels = {channel};
     std::vector<Series> found = read_series(request);
     if (found.size() != 1)
-      throw Error(fmt::format("'{}' means {} channels", channel, found.size()), results, "name one");
+      throw Error(fmt::format("'{}' matches {} channels", channel, found.size()), results, "name exactly one");
     histories.push_back(std::move(found.front()));
   }
   return histories;
@@ -109,7 +110,7 @@ double error_of(const Series& series, const Series& reference, const formats::St
                        : quantity.norm == ErrorNorm::peak_time ? 1.0
                                                                : size_of(reference, quantity);
   if (!(scale > 0.0))
-    throw Error(fmt::format("quantity '{}': the reference is zero, so that nothing relates to it", quantity.name),
+    throw Error(fmt::format("quantity '{}': the reference is zero, so a relative error is not defined", quantity.name),
                 reference.source, "give the quantity a 'scale'");
   const TimeWindow window{quantity.from, quantity.to};
   switch (quantity.norm) {

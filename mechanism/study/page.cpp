@@ -81,7 +81,7 @@ std::string plateau_text(const formats::Study& study, const std::vector<StudyRow
   for (std::size_t k = *from + 1; k < line.rows.size(); ++k) more.push_back(value(k));
   const double error = rows[line.rows.back()].errors[q];
   return fmt::format(
-      "{} {} {} nothing beyond {}: the error of {} stays at {:.2g} ({:.2g} %), which something else causes.",
+      "{} {} {} nothing compared with {}: the error of {} stays at {:.2g} ({:.2g} %), so it has another cause.",
       study.series[line.series].axes[line.axis].name, listed(more), more.size() > 1 ? "change" : "changes",
       value(*from), study.quantities[q].name, error, 100.0 * error);
 }
@@ -255,10 +255,10 @@ struct Book {
 
 std::string reference_text(const formats::Study& study, const std::vector<double>& agreement) {
   const formats::StudyReference& reference = study.reference;
-  if (!reference.file.empty()) return "Errors against a file: " + reference.source + ".";
-  std::string text = "Errors against a run of the study";
+  if (!reference.file.empty()) return "Errors are differences from a file: " + reference.source + ".";
+  std::string text = "Errors are differences from a run of the study";
   for (std::size_t q = 0; q < agreement.size(); ++q)
-    text += fmt::format("{} {} to {:.1e}", q == 0 ? ", with which an independent one agrees in" : ",",
+    text += fmt::format("{} {} to {:.1e}", q == 0 ? "; an independent run agrees with it in" : ",",
                         study.quantities[q].name, agreement[q]);
   return text + ".";
 }
@@ -270,11 +270,11 @@ void write_page(const formats::Study& study, const std::vector<StudyRow>& rows, 
   Book book{study, rows, folder, page_head + generator_tag("mechanism")};
   book.html += fmt::format(
       "<title>{0}</title></head><body>\n<h1>{0}</h1>\n<p>{1} Times are CPU seconds of the whole "
-      "process, medians{2}. Wide and grey: the least time for each error.</p>\n",
+      "process, medians{2}. The wide grey line shows the least CPU time with which each error was reached.</p>\n",
       escaped(study.name), escaped(reference_text(study, agreement)),
-      study.timing == formats::StudyTiming::together ? " of runs side by side, so rough" : "");
+      study.timing == formats::StudyTiming::together ? " of runs in parallel, therefore rough" : "");
   for (int q = 0; q < std::ssize(study.quantities); ++q) {
-    book.html += fmt::format("<h2>What accuracy costs: {}</h2>\n", escaped(study.quantities[q].name));
+    book.html += fmt::format("<h2>Error against CPU time: {}</h2>\n", escaped(study.quantities[q].name));
     book.work_precision(q);
   }
   std::set<std::string> done;
@@ -282,7 +282,7 @@ void write_page(const formats::Study& study, const std::vector<StudyRow>& rows, 
     for (const formats::StudyAxis& axis : series.axes) {
       const std::vector<StudyLine> lines = book.finest_lines(axis.name);
       if (lines.empty() || !done.insert(axis.name).second) continue;
-      book.html += fmt::format("<h2>Along {}</h2>\n", escaped(axis.name));
+      book.html += fmt::format("<h2>Error and CPU time as functions of {}</h2>\n", escaped(axis.name));
       for (const StudyLine& line : lines)
         for (int q = 0; q < std::ssize(study.quantities); ++q)
           if (const std::string text = plateau_text(study, rows, line, q); !text.empty())

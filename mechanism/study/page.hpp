@@ -9,10 +9,11 @@
 
 namespace tisserand::mechanism {
 
-/// Writes <folder>/index.html: work-precision diagrams, error and time along each axis with the others at their finest,
-/// and a table with observed orders. Diagrams show error over CPU time, a line per setting, the Pareto front wide and
-/// grey beneath, failures as crosses above. Pictures are also <folder>/<name>.svg. Without gnuplot the page says so.
-/// Throws Error.
+/// Writes the page <folder>/index.html of a study. It shows work-precision diagrams, error and time along each axis
+/// with the others at their finest, and a table with observed orders. Diagrams show error over CPU time, with one line
+/// per setting. The Pareto front lies beneath, wide and grey; failures are crosses at the top. Pictures are also
+/// written to <folder>/<name>.svg. Without gnuplot there are none, and the page says so. `agreement`: error of the
+/// second reference against the first, per quantity. Throws Error.
 void write_page(const formats::Study& study, const std::vector<StudyRow>& rows, const std::vector<double>& agreement,
                 const std::string& folder);
 

@@ -24,8 +24,8 @@ void reduce_part(const PartRequest& part, const std::function<bool()>& is_stoppe
   if (std::filesystem::exists(part.superelement)) return;
   const std::string program = reducer_program();
   if (program.empty())
-    throw Error(fmt::format("part '{}' is reduced anew by this study, but the program reducer is missing", part.name),
-                part.file, "install it, or vary only settings of finished superelement files");
+    throw Error(fmt::format("this study reduces part '{}', but the program reducer is missing", part.name), part.file,
+                "install it, or vary only settings that use existing superelement files");
   std::filesystem::create_directories(std::filesystem::path(part.superelement).parent_path());
   ChildRequest request;
   request.words = {program, "run", part.file, "-o", part.superelement};

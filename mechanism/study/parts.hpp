@@ -8,7 +8,8 @@
 
 namespace tisserand::mechanism {
 
-/// Makes the superelement file of the part unless it exists. Throws Error: the program is missing, or its message.
+/// Makes the superelement file of a part with the program `reducer`, unless the file exists. Throws Error if the
+/// program is missing, or with the message of the program.
 void reduce_part(const PartRequest& part, const std::function<bool()>& is_stopped);
 
 }  // namespace tisserand::mechanism

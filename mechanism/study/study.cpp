@@ -32,7 +32,7 @@ std::string perform_study(const StudyRequest& request, const StudyControl& contr
   Campaign campaign{study, folder, journal, control};
 
   const ReferenceHistories reference = make_reference(campaign, plan.references);
-  if (control.interrupted && control.interrupted()) return "interrupted: the same command goes on\n";
+  if (control.interrupted && control.interrupted()) return "interrupted: run the same command to continue\n";
   if (request.task) {
     run_cells(campaign, task_of(plan, *request.task), reference);
     return "";

@@ -9,19 +9,21 @@
 
 namespace tisserand::mechanism {
 
+/// Where the runs of a study are computed: on this machine, or as a job array of Slurm.
 enum class StudyPlace { here, slurm };
 
+/// Request for a study, from the command line.
 struct StudyRequest {
-  std::string file;
-  std::string folder;  ///< empty: <study>.study in the working folder
-  std::optional<double> tolerance;
-  std::string quantity;  ///< with `tolerance`; empty: all
+  std::string file;                 ///< path of the study file
+  std::string folder;               ///< folder for the files of the study; empty: <study>.study in the working folder
+  std::optional<double> tolerance;  ///< error for which the cheapest setting is sought; absent: none
+  std::string quantity;             ///< with `tolerance`: name of the quantities that count; empty: all
   StudyPlace place = StudyPlace::here;
-  std::optional<int> task;  ///< only this setting, as a job of Slurm
+  std::optional<int> task;  ///< number of the only setting to run, as a job of Slurm
 };
 
-/// Runs what has not run yet, writes table.csv, table.json and index.html into the folder, and finds the setting for
-/// `tolerance`. Returns a message for the user. Throws Error.
+/// Performs a study: runs what has not run yet, and writes table.csv, table.json and index.html into the folder. With
+/// `tolerance` it finds the cheapest setting with this error. Returns a message for the user. Throws Error.
 std::string perform_study(const StudyRequest& request, const StudyControl& control);
 
 }  // namespace tisserand::mechanism

@@ -9,19 +9,20 @@
 
 namespace tisserand::mechanism {
 
-/// Table with a line per setting: series, its axes (empty if another series has none), outcome, CPU seconds (median,
-/// confidence interval, repeats), coordinates, steps, iterations, error and order of each quantity, message.
+/// Table of a study as CSV, with a line per setting. Columns are series, its axes (empty if another series has none),
+/// outcome, CPU seconds (median, confidence interval, repeats), coordinates, steps and iterations. Error and order of
+/// each quantity and the message follow.
 std::string csv_text(const formats::Study& study, const std::vector<StudyRow>& rows);
 
-/// Table as JSON, with the agreement of two references.
+/// Table of a study as JSON. `agreement`: error of the second reference against the first, per quantity.
 std::string json_text(const formats::Study& study, const std::vector<StudyRow>& rows,
                       const std::vector<double>& agreement);
 
-/// Solution of a benchmark problem in the format of the IFToMM library: results over time in columns, after lines with
-/// one number of accuracy and one time.
+/// Solution of a benchmark problem in the format of the IFToMM library. The results over time are in columns, after
+/// lines with one number for the accuracy and one for the time.
 std::string benchmark_text(const formats::Study& study, const StudyRow& row, const std::vector<Series>& histories);
 
-/// Summary at the end of the command: counts of settings, agreement of references, Pareto fronts.
+/// Summary of a study at the end of the command: counts of settings, agreement of references, Pareto fronts.
 std::string summary_text(const formats::Study& study, const std::vector<StudyRow>& rows,
                          const std::vector<double>& agreement);
 

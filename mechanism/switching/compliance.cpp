@@ -33,9 +33,8 @@ MatrixXd strained_shapes(const MatrixXd& S, const VectorXd& units) {
 /// Returns the body. Throws Error if its internal coordinates have no stiffness.
 const SuperelementBody& stiff(const SuperelementBody& body) {
   if (body.modes > 0 && !(body.S_II.minCoeff() > 0.0))
-    throw Error(fmt::format("'{}' has a mechanism inside, which no effect that is switched while the scene runs can hold",
-                            body.name),
-                "effects", "leave out `auto`, or reduce the part as two and join them in the scene");
+    throw Error(fmt::format("'{}' has a mechanism inside, which `auto` does not support", body.name), "effects",
+                "remove `auto`, or reduce two parts and join them in the scene");
   return body;
 }
 

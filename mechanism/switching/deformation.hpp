@@ -12,36 +12,40 @@
 
 namespace tisserand::mechanism {
 
-/// Number of deforming bodies. Indices count superelements first, then modal bodies.
+/// Number of deforming bodies. The index of a deforming body counts superelements first, then modal bodies.
 inline std::size_t deforming_bodies(const Model& model) {
   return model.superelements.size() + model.modal_bodies.size();
 }
-/// Index of the modal body of a deforming body; -1: it is a superelement.
+/// Index of the modal body that is the deforming body `index`; -1: that body is a superelement.
 inline int modal_body_of(const Model& model, std::size_t index) {
   const std::size_t before = model.superelements.size();
   return index < before ? -1 : static_cast<int>(index - before);
 }
+/// Name of the deforming body `index`.
 const std::string& name_of(const Model& model, std::size_t index);
-/// Index of the deforming body of that name; deforming_bodies() if there is none.
+/// Index of the deforming body with this name; deforming_bodies() if there is none.
 std::size_t deforming_body(const Model& model, const std::string& name);
-/// Number of coordinates of a deformation.
+/// Number of coordinates of the deformation of body `index`.
 Eigen::Index deformation_size(const Model& model, std::size_t index);
 
-/// Deformation in axes of the frame. Superelement: boundary, then internal coordinates. Modal body: the motion [d; θ]
-/// of the frame that belongs to the deformation, then w.
+/// Deformation y of a body and its rate, in axes of the floating frame. For a superelement y holds boundary, then
+/// internal coordinates, THEORY (6). For a modal body it holds the motion [d; θ] of the frame that belongs to the
+/// deformation, then the modal coordinates w.
 struct Deformation {
   Eigen::VectorXd y;
-  Eigen::VectorXd rate;  ///< [1/time]
+  Eigen::VectorXd rate;  ///< rate ẏ of the deformation [y/time]
 };
 
-/// Deformation y at the evaluated state, without its rate.
+/// Deformation y of body `index` at the evaluated state, without its rate.
 Eigen::VectorXd y_of(const Model& model, std::size_t index, const Evaluation& now);
-/// Deformation of a body at the evaluated state: ẏ = Υ q̇; for modal bodies without motion of the frame.
+/// Deformation of body `index` and its rate at the evaluated state. For superelements ẏ = Υ q̇, THEORY (23). For modal
+/// bodies the motion of the frame is zero.
 Deformation deformation_of(const Model& model, std::size_t index, const Evaluation& now);
 /// Largest speed of a node that has translations.
 double largest_speed(const Model& model, const State& state);
 
-/// Number of the welded part of each deforming body: by welded_beams(), and by fixed joints with modal bodies.
+/// Number of the welded part to which each deforming body belongs. Bodies with one number are welded together, by
+/// welded_beams() or by fixed joints with modal bodies.
 std::vector<int> welded_parts(const Model& model);
 
 }  // namespace tisserand::mechanism

@@ -187,10 +187,10 @@ void Demand::note(int use, double place, double force) {
 
 /// Computes eigenvalues only where they can decide: above a bound, and larger than before.
 void Demand::sample_stress(Body& body) {
-  constexpr double allowed = 0.1, tells = 0.2, grown = 1.1;
+  constexpr double allowed = 0.1, reports_it = 0.2, grown = 1.1;
   if (body.buckling == nullptr) return;
   const double bound = body.buckling->bound(body.y) / allowed;
-  if (bound <= tells || bound <= grown * body.stressed) return;
+  if (bound <= reports_it || bound <= grown * body.stressed) return;
   body.stressed = bound;
   note(body.flexibility >= 0 ? body.flexibility : body.stiffening, body.buckling->load_share(body.y) / allowed, 0.0);
 }

@@ -33,62 +33,69 @@
 
 namespace tisserand::mechanism {
 
-/// Judges the effects that are off, from samples of a run in windows.
+/// Judge of the effects that are off. It estimates their demand D from samples of a run in windows: the change of
+/// positions and forces by the effect, relative to the tolerance.
 class Demand {
  public:
-  /// `uses`: effects of deforming bodies of the whole model (deformation.hpp). Those that are off are judged. The model
-  /// must outlive this object. `start`: start of the run [time].
+  /// Makes the judge of a run. `whole`: model with all effects on, which must outlive this object. `uses`: effects of
+  /// its deforming bodies (deformation.hpp), of which those that are off are judged. `tolerance`: allowed relative
+  /// change of positions and forces. `start`: start of the run [time].
   Demand(const Model& whole, const std::vector<EffectUse>& uses, double tolerance, double start);
 
-  /// Takes a sample at an evaluated state of the whole model. `largest_force`: of the run so far. `inertia`: set in
-  /// this window. A window has `window_samples` samples; its last one is the first of the next.
+  /// Takes a sample at an evaluated state of the whole model. `largest_force`: largest force of the run so far.
+  /// `inertia`: carried inertia, which must have been set in this window. A window has `window_samples` samples; its
+  /// last one is the first of the next window.
   void sample(const State& state, const Evaluation& now, double largest_force, CarriedInertia& inertia);
   static constexpr int window_samples = 5;
-  /// Whether the next sample is the second of a window, the first after its beginning.
+  /// Whether the next sample is the second one of a window.
   bool begins_window() const { return samples_ % window_samples == 1; }
 
-  /// Largest force in this window that deforms a modal body, also one that nothing holds.
+  /// Largest force in this window that deforms a modal body, including bodies that nothing holds.
   double modal_force() const;
-  /// Largest elastic force of a body in this window.
+  /// Largest elastic force of the deforming body `index` in this window.
   double force(std::size_t index) const { return bodies_[index].f; }
-  /// Largest D of a use so far, with F of the latest sample. During the run it counts positions alone while F grows
-  /// faster than in proportion to time, as after a start from rest. Forces that matter now may be small later.
+  /// Largest demand D of effect `use` so far, with the largest force F at the latest sample. `ended`: whether the run
+  /// has ended. Before, D counts positions alone while F grows faster than in proportion to time, as after a start from
+  /// rest. Forces that matter now may be small later.
   double of(std::size_t use, bool ended) const;
-  /// Time at which D of a use was largest.
+  /// Time at which the demand D of effect `use` was largest.
   double time_of(std::size_t use) const { return judged_[use].time; }
 
  private:
-  /// Sums over a deformation vector that changes from sample to sample of a window.
+  /// Sums over the samples of a window for one vector, y or ẏ, that changes from sample to sample.
   struct Change {
-    double kinetic = 0.0;      ///< Σ T of its rate
-    double strain = 0.0;       ///< Σ V of its means
-    double strain_rate = 0.0;  ///< Σ V of its rate
-    double time = 0.0;         ///< Σ dt
+    double kinetic = 0.0;      ///< sum of the kinetic energies T of the rate
+    double strain = 0.0;       ///< sum of the strain energies V of the means of neighbouring samples
+    double strain_rate = 0.0;  ///< sum of the strain energies V of the rate
+    double time = 0.0;         ///< sum of the intervals between samples
     int count = 0;
-    double frequency() const;  ///< Ω, corrected
-    /// Amplitude of a sine of that frequency, from second differences of its samples.
+    double frequency() const;  ///< frequency Ω [rad/time], corrected for differences
+    /// Amplitude of a sine with the frequency Ω whose second differences have the amplitude `acceleration`.
     double amplitude_of(double acceleration) const;
+    /// Ratio r² = Σ T/Σ V of kinetic energy of the rate and strain energy, corrected for differences.
     double r2() const;
   };
+  /// Sums and largest values of one deforming body in a window.
   struct Body {
-    const Compliance* compliance = nullptr;  ///< null: none of its effects is judged
-    const Buckling* buckling = nullptr;      ///< null: no stiffening
-    int flexibility = -1, stiffening = -1;   ///< indices of the judged uses
+    const Compliance* compliance = nullptr;  ///< compliance of the body; null: none of its effects is judged
+    const Buckling* buckling = nullptr;      ///< nearness to buckling; null: the body has no stiffening
+    int flexibility = -1, stiffening = -1;   ///< indices of the judged effects in `judged_`; −1: not judged
     Eigen::VectorXd y;
     double time = 0.0;
-    bool seen = false;                   ///< there was a sample
-    Eigen::VectorXd rate, acceleration;  ///< latest differences; empty: none in this window
-    double rate_time = 0.0;              ///< middle of the interval of the rate
-    Change change, tremor;               ///< sums of y, of ẏ
+    bool seen = false;                   ///< whether there was a sample
+    Eigen::VectorXd rate, acceleration;  ///< latest differences ẏ and ÿ; empty: none in this window
+    double rate_time = 0.0;              ///< time at the middle of the interval of `rate`
+    Change change, tremor;               ///< sums of y and sums of ẏ
     double u = 0.0, f = 0.0;             ///< largest displacement and force of y in the window
     double rate_u = 0.0;                 ///< largest displacement of ẏ
     double acceleration_f = 0.0;         ///< largest force of ÿ
     double stressed = 0.0;               ///< largest Buckling::bound() of the run whose eigenvalues were computed
   };
+  /// Largest demand of one effect so far.
   struct Judged {
-    double place = 0.0;  ///< largest D by positions
-    double force = 0.0;  ///< largest D by forces, times τ F
-    double time = 0.0;   ///< time of the sample that last raised one of them
+    double place = 0.0;  ///< largest demand D by positions
+    double force = 0.0;  ///< largest demand D by forces, times τ F (tolerance and largest force)
+    double time = 0.0;   ///< time of the sample that last raised `place` or `force`
   };
   void add_superelement(const SuperelementUse& use, Body& body);
   Eigen::VectorXd load_of(std::size_t index, const Evaluation& now) const;
@@ -103,14 +110,14 @@ class Demand {
 
   const Model& whole_;
   double tolerance_;
-  std::map<int, SuperelementCompliance> compliances_;  ///< keys: index of the body of the uses
-  std::map<int, Buckling> buckling_;                   ///< the same keys, for bodies with stiffening
-  std::map<int, ModalCompliance> modal_compliances_;   ///< keys: index of the modal body
-  std::vector<Body> bodies_;                           ///< the deforming bodies
-  std::vector<Judged> judged_;                         ///< one per use
-  double largest_force_ = 0.0;                         ///< F at the latest sample
-  double start_, time_ = 0.0;                          ///< start of the run; time of the latest sample
-  bool growing_ = false;                               ///< F grows faster than in proportion to the time of the run
+  std::map<int, SuperelementCompliance> compliances_;  ///< compliances by index of the superelement body
+  std::map<int, Buckling> buckling_;  ///< nearness to buckling by index of the superelement body, if it has stiffening
+  std::map<int, ModalCompliance> modal_compliances_;  ///< compliances by index of the modal body
+  std::vector<Body> bodies_;                          ///< sums of the deforming bodies, by their index
+  std::vector<Judged> judged_;                        ///< largest demand of each effect
+  double largest_force_ = 0.0;                        ///< largest force F at the latest sample
+  double start_, time_ = 0.0;                         ///< start of the run; time of the latest sample
+  bool growing_ = false;  ///< whether F grows faster than in proportion to the time of the run
   int samples_ = 0;
 };
 

@@ -109,7 +109,8 @@ StateTransfer::Source StateTransfer::source_of(int node) const {
     if (from_.superelements[i].name == name) return {-1, std::nullopt, i};
   for (const Place& place : from_.places)
     if (place.name == name) return {-1, place.marker, -1};
-  throw Error(fmt::format("node '{}' has no counterpart", name), "", "leave this effect out with --effect");
+  throw Error(fmt::format("node '{}' does not exist with this effect switched", name), "",
+              "choose other effects with --effect");
 }
 
 void StateTransfer::set_node(int index, const State& state, const Evaluation& now, State& result) const {

@@ -10,14 +10,15 @@
 
 namespace tisserand::mechanism {
 
-/// Reference speed of slips: the larger of |V_x| and |Ω R|.
+/// Reference speed V of slips: the larger of |V_x| (`ahead`) and |Ω R| (`turned`).
 template <class T>
 T slip_speed(const ComprehensiveSlip& /*law*/, const T& ahead, const T& turned) {
   return real_part(ahead) > real_part(turned) ? ahead : turned;
 }
 
-/// Force of the patch. With the combined slip S = √(S_s² + S_αγ²), S_αγ = S_α + l sin γ/(2 R), μ = μ₀ − (μ₀ − μ₁)
-/// min(S, 1) and S_n = √((C_s S_s)² + (C_α S_αγ)²)/(3 μ F_z), l_n = 1 − S_n, where S_n < 1
+/// Force of the contact patch by comprehensive slip. S_s and S_α are the slips along and across, l and R length of the
+/// patch and rolling radius, γ the camber. With the combined slip S = √(S_s² + S_αγ²), S_αγ = S_α + l sin γ/(2 R), μ =
+/// μ₀ − (μ₀ − μ₁) min(S, 1) and S_n = √((C_s S_s)² + (C_α S_αγ)²)/(3 μ F_z), l_n = 1 − S_n, where S_n < 1
 ///   F_x = −C_s S_s l_n² − μ_x F_z q,  F_y = −C_α S_α l_n² − μ_y F_z q − C_γ sin γ l_n²,  q = 1 − 3 l_n² + 2 l_n³
 ///   M_z = l l_n² (C_α S_α (2 l_n/3 − ½) + 3/2 μ_y F_z S_n²), in the direction of rolling.
 /// Else all slides: μ F_z against the slip, M_z = 0. (μ_x, μ_y) = μ (S_s, S_αγ)/S. With S_α alone it is the brush model

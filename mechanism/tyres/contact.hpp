@@ -14,18 +14,19 @@
 
 namespace tisserand::mechanism {
 
-/// Motion of a disc at one instant, in world axes: centre, axle (unit vector to its left), velocity of the centre,
-/// angular velocity with the spin.
+/// Motion of a disc at one instant, in world axes: centre, axle (unit vector to its left), velocity of the centre, and
+/// angular velocity, which contains the spin.
 template <class T>
 struct DiscMotion {
   Eigen::Matrix<T, 3, 1> center, axle, velocity, omega;
 };
 
-/// Tyre axes of ISO 8855 (ISO-W): x along the wheel in the road plane, y to its left in it, z = n out of the road.
+/// Contact of a disc with a road: its place, depth and axes. The axes are those of ISO 8855 (ISO-W): x along the wheel
+/// in the road plane, y to its left in the plane, z = n out of the road.
 template <class T>
 struct DiscContact {
   using Vector3 = Eigen::Matrix<T, 3, 1>;
-  bool exists = false;  ///< the contact is defined; the disc need not touch the road
+  bool exists = false;  ///< the contact is defined; the disc need not touch
   Vector3 x, y, n;
   Vector3 down;    ///< direction in the wheel plane across x, towards the road
   Vector3 point;   ///< contact centre: where `down` from the centre meets the road plane
@@ -34,12 +35,13 @@ struct DiscContact {
   T sine, cosine;  ///< inclination (camber) angle: sine = axle · n, right-handed about x
 };
 
-/// Distance of the four points from the lowest point, over the radius.
+/// Distance of the four points that define the road plane from the lowest point of the disc, over the radius.
 inline constexpr double base_of_plane = 0.1;
-/// Cosines of the camber: below the second the disc begins to lose the road, below the first it has lost it. A wheel
-/// that lies on its side has no contact of this kind.
+/// Cosines of the camber at which a disc loses the road: below `full_cosine` it begins to, below `lost_cosine` it has.
+/// A wheel that lies on its side has no contact of this kind.
 inline constexpr double lost_cosine = 0.2, full_cosine = 0.4;
 
+/// Finds the contact of a disc with the plane through four points of the road around its lowest point.
 template <class T>
 DiscContact<T> find_contact(const Road& road, double radius, const DiscMotion<T>& disc) {
   using Vector3 = Eigen::Matrix<T, 3, 1>;

@@ -10,17 +10,16 @@
 
 namespace tisserand::mechanism {
 
-/// Height z and its slopes along the two coordinates.
+/// Height z of a surface and its slopes by the two coordinates s and t.
 struct GridHeight {
   double value = 0.0, by_s = 0.0, by_t = 0.0;
 };
 
-/// Surface by bicubic Hermite interpolation of z, ∂z/∂s, ∂z/∂t and ∂²z/∂s∂t at the points of the grid. z and its
-/// gradient are continuous, and exact at the points. Slopes are those of polynomials through five neighbours (fewer if
-/// there are not five, one-sided at borders and holes). So polynomials of degree three in each coordinate are exact.
-///
-/// Beyond its borders the surface continues straight. A cell with a missing height at a corner is a hole. There the
-/// values are finite but have no meaning.
+/// Surface z(s, t) through heights on a grid, by bicubic Hermite interpolation of z, ∂z/∂s, ∂z/∂t and ∂²z/∂s∂t at its
+/// points. z and its gradient are continuous, and z is exact at the points. Slopes are those of polynomials through
+/// five neighbours (fewer if there are not five, one-sided at borders and holes). So polynomials of degree three in
+/// each coordinate are exact. Beyond the borders of the grid the surface continues straight. A cell with a missing
+/// height at a corner is a hole, in which the values are finite but have no meaning.
 class HeightGrid {
  public:
   explicit HeightGrid(const formats::RoadHeights& heights);
@@ -38,7 +37,7 @@ class HeightGrid {
     double z = 0.0, by_s = 0.0, by_t = 0.0, by_st = 0.0;
   };
   int width() const { return count_of(across_); }
-  /// Gives missing points the height of the next point in their row, else of the next row, and no slopes.
+  /// Gives each missing point the height of the next point in its row, else of the next row, and no slopes.
   void fill_holes();
 
   std::vector<double> along_, across_;

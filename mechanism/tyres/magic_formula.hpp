@@ -18,7 +18,8 @@ namespace tisserand::mechanism {
 
 namespace magic_formula {
 
-/// Overturning moment M_x, (4.E69). Version 5.2 has its first three terms, 6.2 its last three.
+/// Overturning moment M_x, (4.E69). Version 5.2 has the first three terms alone. The last three are those of version
+/// 6.2. `Fy`: lateral force.
 template <class T>
 T overturning(const MagicFormulaLaw& law, const MagicInput<T>& in, const T& Fy) {
   using std::atan;
@@ -36,7 +37,8 @@ T overturning(const MagicFormulaLaw& law, const MagicInput<T>& in, const T& Fy) 
   return R0 * p.LMX * in.Fz * sum;
 }
 
-/// Rolling resistance M_y without the sign of rolling, (4.E70); in 5.2 four terms, proportional to the load.
+/// Rolling resistance moment M_y without the sign of rolling, (4.E70). In version 5.2 it has four terms and is
+/// proportional to the load.
 template <class T>
 T rolling_resistance(const MagicFormulaLaw& law, const MagicInput<T>& in, const T& speed, const T& Fx) {
   using std::pow;
@@ -49,7 +51,8 @@ T rolling_resistance(const MagicFormulaLaw& law, const MagicInput<T>& in, const 
   return (p.UNLOADED_RADIUS * p.FNOMIN * p.LMY * std::pow(1.0 + in.dpi, p.QSY8)) * sum * by_load;
 }
 
-/// Equivalent slip angle of slip angle and slip, about the zero of trail or residual moment, (4.E77), (4.E78).
+/// Equivalent slip angle of a slip angle and a longitudinal slip, (4.E77), (4.E78). `alpha`: angle from the zero of
+/// trail or residual moment. `ratio`: longitudinal slip times K_xκ/K_yα.
 template <class T>
 T equivalent_angle(const T& alpha, const T& ratio) {
   using std::atan;
@@ -61,8 +64,8 @@ T equivalent_angle(const T& alpha, const T& ratio) {
   return sign(alpha) * atan(sqrt(slope * slope + ratio * ratio));
 }
 
-/// Aligning moment M_z, (4.E31) to (4.E49) and (4.E71) to (4.E78). The trail acts on F'_y: G_yκ F_y0(γ = 0) in 6.1, F_y
-/// − S_Vyκ in 5.2.
+/// Aligning moment M_z, (4.E31) to (4.E49) and (4.E71) to (4.E78). The trail acts on F'_y, which is G_yκ F_y0(γ = 0) in
+/// version 6.1 and F_y − S_Vyκ in 5.2.
 template <class T>
 T aligning(const MagicFormulaLaw& law, const MagicInput<T>& in, const Lateral<T>& y, const T& Fx, const T& Fy,
            const LateralWeight<T>& weight) {
@@ -96,7 +99,8 @@ T aligning(const MagicFormulaLaw& law, const MagicInput<T>& in, const Lateral<T>
 
 }  // namespace magic_formula
 
-/// Reference speed of slips: |V_x|, but not less than the speed that gives the largest slip of the file.
+/// Reference speed V of slips: |V_x| (`ahead`), but not less than the speed that gives the largest slip of the file.
+/// `turned`: |Ω R|.
 template <class T>
 T slip_speed(const MagicFormulaLaw& law, const T& ahead, const T& turned) {
   const double most = law.p.KPUMAX > 0.0 ? law.p.KPUMAX : 1.5;
@@ -104,6 +108,7 @@ T slip_speed(const MagicFormulaLaw& law, const T& ahead, const T& turned) {
   return real_part(ahead) < real_part(least) ? least : ahead;
 }
 
+/// Force of the contact patch by the Magic Formula. Beyond the loads of the file forces keep their ratio to the load.
 template <class T>
 PatchForce<T> patch_force(const MagicFormulaLaw& law, const PatchSlip<T>& slip) {
   using namespace magic_formula;
@@ -143,8 +148,8 @@ PatchForce<T> patch_force(const MagicFormulaLaw& law, const PatchSlip<T>& slip) 
   return force;
 }
 
-/// Relaxation lengths σ_κ and σ_α: by carcass stiffnesses (6.1, (A3.9)) if the file has them, else by PTX and PTY
-/// (5.2). 0 if the file has neither.
+/// Relaxation lengths σ_κ and σ_α of a property file, along and across the wheel. They follow from carcass stiffnesses
+/// (version 6.1, (A3.9)) if the file has them, else from PTX and PTY (5.2). They are 0 if the file has neither.
 template <class T>
 struct RelaxationLengths {
   T along, across;

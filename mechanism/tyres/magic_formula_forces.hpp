@@ -43,19 +43,21 @@ template <class T>
 T at_most_one(const T& E) {
   return real_part(E) > 1.0 ? T(1.0) : E;
 }
-/// Argument B x − E (B x − atan(B x)) of C atan(..).
+/// Argument B x − E (B x − atan(B x)) of C atan(..) in the Magic Formula.
 template <class T>
 T curved(const T& B, const T& x, const T& E) {
   using std::atan;
   const T Bx = B * x;
   return Bx - E * (Bx - atan(Bx));
 }
+/// Magic Formula without its peak factor: sin(C atan(B x − E (B x − atan(B x)))).
 template <class T>
 T sine_of(const T& B, const T& C, const T& E, const T& x) {
   using std::atan;
   using std::sin;
   return sin(C * atan(curved(B, x, E)));
 }
+/// Cosine form of the Magic Formula: cos(C atan(B x − E (B x − atan(B x)))).
 template <class T>
 T cosine_of(const T& B, const T& C, const T& E, const T& x) {
   using std::atan;
@@ -63,14 +65,16 @@ T cosine_of(const T& B, const T& C, const T& E, const T& x) {
   return cos(C * atan(curved(B, x, E)));
 }
 
-/// Inputs of all formulas at one instant.
+/// Inputs of all formulas at one instant, with the symbols of [Pac12].
 template <class T>
 struct MagicInput {
-  T kappa, alpha, gamma;  ///< within the ranges of the file
-  T Fz, dfz;              ///< within the range of the file
-  double Fz0, dpi;        ///< F'_z0, dp_i
-  T rolling, shifts;      ///< shifts: factor of what a wheel exerts only while it rolls, 0 at standstill to 1
-  double mu_x, mu_y;      ///< λ_μ: scaling factors times friction of the road
+  T kappa, alpha, gamma;  ///< κ, α, γ within the ranges of the file
+  T Fz, dfz;              ///< load F_z within the range of the file, df_z
+  double Fz0, dpi;        ///< scaled nominal load F'_z0, pressure dp_i
+  /// Direction of rolling (−1 to 1), and the factor of all shifts, which act only while the wheel rolls (0 at
+  /// standstill to 1).
+  T rolling, shifts;
+  double mu_x, mu_y;  ///< λ_μ: scaling factors times friction of the road
 };
 
 template <class T>
@@ -119,16 +123,16 @@ T pure_longitudinal(const formats::MagicFormula& p, const MagicInput<T>& in) {
   return D * sine_of(B, C, E, kappa) + shift;
 }
 
-/// Terms that the lateral force and the moments share.
+/// Pure lateral force, and its terms that moments and combined slip use too.
 template <class T>
 struct Lateral {
-  T force;       ///< F_y0
-  T K, B, C;     ///< K_yα, B_y, C_y
-  T mu;          ///< μ_y
-  T shift, S_V;  ///< S_Hy, S_Vy
+  T force;       ///< F_y0: pure lateral force
+  T K, B, C;     ///< K_yα, B_y, C_y: cornering stiffness and factors
+  T mu;          ///< μ_y: peak friction coefficient
+  T shift, S_V;  ///< S_Hy, S_Vy: horizontal and vertical shift
 };
 
-/// Pure lateral force F_y0, (4.E19) to (4.E30).
+/// Computes the pure lateral force F_y0, (4.E19) to (4.E30).
 template <class T>
 Lateral<T> pure_lateral(const MagicFormulaLaw& law, const MagicInput<T>& in) {
   using std::atan;
@@ -165,7 +169,7 @@ Lateral<T> pure_lateral(const MagicFormulaLaw& law, const MagicInput<T>& in) {
   return y;
 }
 
-/// Weight G_xα of the longitudinal force, (4.E51) to (4.E57).
+/// Weight G_xα of the longitudinal force in combined slip, (4.E51) to (4.E57).
 template <class T>
 T longitudinal_weight(const MagicFormulaLaw& law, const MagicInput<T>& in) {
   using std::atan;
@@ -177,7 +181,7 @@ T longitudinal_weight(const MagicFormulaLaw& law, const MagicInput<T>& in) {
   return cosine_of<T>(B, C, E, in.alpha + shift) / cosine_of<T>(B, C, E, shift);
 }
 
-/// Weight G_yκ and shift S_Vyκ of the lateral force, (4.E58) to (4.E67).
+/// Weight G_yκ and shift S_Vyκ of the lateral force in combined slip, (4.E58) to (4.E67).
 template <class T>
 struct LateralWeight {
   T G, S_V;

@@ -4,9 +4,10 @@
 
 namespace tisserand::mechanism {
 
-/// Slips of the patch: velocities of the contact over a speed that the law chooses, or tread deflections over
-/// relaxation lengths. `along`: along x against the rolling (positive: braking while rolling forward). `across`: along
-/// y. `rolling`: −1 to 1, direction in which the tread runs through the patch, 0 at standstill.
+/// Slips of the contact patch, and what else its force depends on. Slips are velocities of the contact over a speed
+/// that the law chooses, or tread deflections over relaxation lengths. `along`: slip along x against the rolling
+/// (positive: braking while rolling forward). `across`: slip along y. `rolling`: direction in which the tread runs
+/// through the patch, −1 to 1, 0 at standstill.
 template <class T>
 struct PatchSlip {
   T along, across;
@@ -15,11 +16,11 @@ struct PatchSlip {
   T length;  ///< length of the patch
   T radius;  ///< rolling radius
   T rolling;
-  T speed = T(0.0);       ///< |V_x|
-  double friction = 1.0;  ///< road: factor of the coefficients of friction
+  T speed = T(0.0);       ///< |V_x|, velocity along the wheel
+  double friction = 1.0;  ///< factor of the road on coefficients of friction
 };
 
-/// Force of the patch in tyre axes, about the contact centre.
+/// Force of the contact patch in tyre axes, about the contact centre.
 template <class T>
 struct PatchForce {
   T x = T(0.0), y = T(0.0), moment = T(0.0);    ///< F_x, F_y, M_z

@@ -17,24 +17,24 @@
 
 namespace tisserand::mechanism {
 
-/// Height z = h(x, y) with ∂h/∂x and ∂h/∂y.
+/// Height z = h(x, y) of a road with its slopes ∂h/∂x and ∂h/∂y, in axes of the road.
 struct RoadHeight {
   double value = 0.0;
   double by_x = 0.0;
   double by_y = 0.0;
 };
 
-/// Piece of one track: height over x, 0 outside (curves: as at their ends).
+/// Piece of one track of a road: height over x. Outside of the piece it is 0, or for curves the height of the near end.
 struct RoadPiece {
   formats::RoadPieceShape shape = formats::RoadPieceShape::cosine;
   double start = 0.0, length = 0.0, height = 0.0, ramp = 0.0;
   Curve curve = 0.0;
 
-  /// Height and its slope at x.
+  /// Height and slope of the piece at x.
   RoadHeight at(double x) const;
 };
 
-/// Heights on a grid, along a line or along x.
+/// Surface of a road by heights on a grid, along a line if it has one, else along x.
 struct RoadSurface {
   HeightGrid grid;
   std::optional<ReferenceLine> line;
@@ -43,27 +43,31 @@ struct RoadSurface {
 /// Reason why there is no road at a place: it is beyond an end, or in a hole.
 struct RoadLack {
   bool hole = false;
-  char axis = 'x';                          ///< x, y; u, v along and beside a line
-  double at = 0.0, begin = 0.0, end = 0.0;  ///< place and limits on that axis
-  Eigen::Vector2d place;                    ///< x, y or u, v
+  char axis = 'x';                          ///< x, y, or u, v along and beside a line
+  double at = 0.0, begin = 0.0, end = 0.0;  ///< place and limits on the axis
+  Eigen::Vector2d place;                    ///< the place: x, y, or u, v along a line
 };
 
+/// Road at rest: height of the ground and friction over x and y, in axes of the road.
 struct Road {
   std::string name;
-  Eigen::Vector3d p = Eigen::Vector3d::Zero();      ///< origin, relative to that of the model
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< R_WR
-  std::vector<RoadPiece> left, right;               ///< right: empty if one track is the whole road
-  double transition = 0.0;  ///< width of the strip about y = 0 where the tracks are blended; 0: one track
-  double begin, end;        ///< limits of the road in x (in u along a line)
-  std::shared_ptr<const RoadSurface> surface;   ///< instead of the tracks; null: none
-  double friction = 1.0, friction_right = 1.0;  ///< factors of the friction of tyres where y > 0 (v > 0), and y < 0
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();      ///< origin of the road, from the origin of the model
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< R_WR: axes of the road in world axes
+  std::vector<RoadPiece> left, right;               ///< tracks; right: empty if there is one track
+  double transition = 0.0;                          ///< width about y = 0 where tracks blend; 0: one track
+  double begin, end;                                ///< limits of the road in x, or in u along a line
+  std::shared_ptr<const RoadSurface> surface;       ///< replaces the tracks; null: none
+  /// Factors of the friction of tyres on the left (y > 0, along a line v > 0) and on the right.
+  double friction = 1.0, friction_right = 1.0;
 
-  /// `origin`: origin of the model.
+  /// Makes a road. `origin`: world position that is the origin of the model (Model::origin).
   Road(const formats::RoadSpec& spec, const Eigen::Vector3d& origin);
+  /// Height and slopes at a place.
   RoadHeight at(double x, double y) const;
-  /// Reason why the road is missing at a place; absent: it exists there.
+  /// Reason why there is no road at a place. It is absent if the road exists there.
   std::optional<RoadLack> lack(double x, double y) const;
-  /// Factor of the friction. `strip`: width about y = 0 in which the sides blend.
+  /// Factor of the friction of tyres at a place. `strip`: width about y = 0 (along a line v = 0) in which the factors
+  /// of both sides blend.
   double friction_at(double x, double y, double strip) const;
 };
 

@@ -6,19 +6,19 @@
 
 namespace tisserand::mechanism {
 
-/// Constants of [GN90]. Stiffnesses are forces per unit of slip; angles count as slips.
+/// Constants of the law of comprehensive slip [GN90]. Stiffnesses are forces per unit of slip; angles count as slips.
 struct ComprehensiveSlip {
-  double slip_stiffness = 0.0;       ///< C_s
-  double cornering_stiffness = 0.0;  ///< C_α
-  double camber_stiffness = 0.0;     ///< C_γ
-  double friction = 0.0;             ///< μ₀ without slip
-  double sliding_friction = 0.0;     ///< μ₁ at slip 1 and beyond
+  double slip_stiffness = 0.0;       ///< C_s: longitudinal force per slip
+  double cornering_stiffness = 0.0;  ///< C_α: lateral force per slip angle
+  double camber_stiffness = 0.0;     ///< C_γ: lateral force per sine of camber
+  double friction = 0.0;             ///< μ₀: friction without slip
+  double sliding_friction = 0.0;     ///< μ₁: friction at slip 1 and beyond
 };
 
-/// Coefficients of a property file for one wheel.
+/// Magic Formula for one wheel: the coefficients of its property file.
 struct MagicFormulaLaw {
   formats::MagicFormula p;
-  double pressure = 0.0;  ///< dp_i: inflation pressure over that of the file, less 1
+  double pressure = 0.0;  ///< dp_i: inflation pressure over that of the file, minus 1
   bool mirrored = false;  ///< the wheel is on the other side of the vehicle than in the file
 
   bool is_6_1() const { return p.version == formats::MagicFormulaVersion::mf_6_1; }

@@ -11,32 +11,39 @@
 
 namespace tisserand::mechanism {
 
+/// Drawn shape of a body in the axes of its frame, its deformation, and what the deformation depends on.
 struct BodyShape {
-  std::string source;                ///< recovery, section, scene, inertia, nodes, marker (formats/PAGE.md)
-  formats::Surface surface;          ///< undeformed; empty for a marker
-  formats::Deformation deformation;  ///< no columns: no deformation
-  Eigen::MatrixXd stress;            ///< 6 V x m: [xx yy zz xy yz zx] per amplitude; empty: unknown or not requested
-  std::vector<int> elements;         ///< element of each triangle; empty: unknown
-  bool points = false;               ///< the vertices are drawn too
-  int all_vertices = 0;              ///< number of vertices before thinning
-  std::vector<int> stations;         ///< nodes whose motions are the amplitudes, in the order of their columns
-  /// Shapes from recovery files: node (−1: internal) and component (0 to 2 translations, 3 to 5 rotations) of each
-  /// column.
+  /// Source of the shape: recovery, section, scene, inertia, nodes, marker (formats/PAGE.md).
+  std::string source;
+  formats::Surface surface;          ///< undeformed surface; empty for a marker
+  formats::Deformation deformation;  ///< shapes and amplitudes of the deformation; no columns: rigid
+  /// Stress [xx yy zz xy yz zx] of each vertex per amplitude (6 V x m); empty: unknown or not requested.
+  Eigen::MatrixXd stress;
+  std::vector<int> elements;  ///< element of each triangle; empty: unknown
+  bool points = false;        ///< whether the vertices are drawn too
+  int all_vertices = 0;       ///< number of vertices before thinning
+  std::vector<int> stations;  ///< nodes whose motions are the amplitudes, in the order of their columns
+  /// For shapes from recovery files: node (−1: internal) and component of each column of the deformation. Components 0
+  /// to 2 are translations, 3 to 5 rotations.
   std::vector<int> coordinate_node, coordinate_component;
-  /// Node number of columns that are no coordinates: second-order strain, static answers to inertia loads.
+  /// Value in `coordinate_node` for columns that are no coordinates: second-order strain, static answers to inertia
+  /// loads.
   static constexpr int beyond = -2;
-  std::vector<Eigen::Matrix3d> station_axes;  ///< swept sections: axes at rest, in axes of the node
+  /// For sections swept along a line: axes at rest at each station, in axes of its node.
+  std::vector<Eigen::Matrix3d> station_axes;
 };
 
-/// Largest number of vertices of one body. More are thinned.
+/// Largest number of vertices of one body. A surface with more is thinned.
 inline constexpr int most_vertices = 50'000;
 
+/// Options of the shapes of bodies.
 struct ShapeOptions {
-  bool stress = false;                ///< stress of bodies with recovery files
+  bool stress = false;                ///< also read the stress of bodies with recovery files
   std::vector<std::string> recovery;  ///< recovery files besides those stored with the superelements
 };
 
-/// Shape of a body. Notes go to the run. Throws Error: wrong shape files, recovery files of another superelement.
+/// Shape of a body. Adds notes to the run. Throws Error for wrong shape files, and for recovery files of another
+/// superelement.
 BodyShape shape_of_body(ViewedRun& run, const ViewedBody& body, const ShapeOptions& options);
 
 }  // namespace tisserand::mechanism

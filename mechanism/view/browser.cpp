@@ -31,8 +31,8 @@ std::string browser_program() {
   for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
     if (is_program(name)) return name;
   throw Error(
-      "there is no Chromium here, which draws pictures without a window", "picture",
-      "install it (Debian: apt-get install chromium), or make a page with `mechanism view` and save its picture");
+      "pictures need Chromium, which is not installed", "picture",
+      "install it (Debian: apt-get install chromium), or make a page with `mechanism view` and save a picture from it");
 }
 
 /// Temporary folder, removed with the object.
@@ -40,7 +40,7 @@ class ProfileFolder {
  public:
   ProfileFolder() : path_((fs::temp_directory_path() / "tisserand-browser-XXXXXX").string()) {
     if (::mkdtemp(path_.data()) == nullptr)
-      throw Error("no temporary folder can be made", path_, remedy_of_errno(errno));
+      throw Error("cannot create a temporary folder", path_, remedy_of_errno(errno));
   }
   ~ProfileFolder() {
     std::error_code ignored;
@@ -180,8 +180,8 @@ ChildRequest browser_request(const std::string& profile, Sandbox sandbox) {
 std::string asked_of_page(const std::string& page, const std::string& expression, Sandbox sandbox) {
   if (sandbox == Sandbox::on && ::geteuid() == 0)
     throw Error("Chromium does not run for root with its sandbox", "picture",
-                "run it as another user, or give --no-sandbox: then nothing but Chromium's own checks keeps a page from "
-                "files of root; the page here is made of the results file, so give it for results that you trust");
+                "run it as another user, or give --no-sandbox if you trust the results file. Without the sandbox, only "
+                "Chromium's own checks protect the files of root from the page, which is made from the results file");
   const ProfileFolder profile;
   ChildRequest request = browser_request(profile.path(), sandbox);
   Answer answer;
@@ -197,7 +197,7 @@ std::string asked_of_page(const std::string& page, const std::string& expression
   const ChildReport report = run_child(request);
   if (fell_silent)
     throw Error(fmt::format("the browser did not answer: {}", printable_line(report.complaint, 300)), request.words[0],
-                "see whether it starts from this terminal with --headless");
+                "check whether it starts in this terminal with --headless");
   if (!answer.failure.empty())
     throw Error(fmt::format("the page cannot be drawn: {}", printable_line(answer.failure, 300)), page,
                 "open it in a browser to see it");

@@ -8,8 +8,8 @@
 
 namespace tisserand::mechanism {
 
-/// JSON {"value", "place", "time"}: largest equivalent stress (von Mises) of all vertices and shown instants. "place"
-/// is the vertex of the undeformed body in its part frame. null: the shape has no stress.
+/// Largest equivalent stress (von Mises) over all vertices and shown instants, as JSON {"value", "place", "time"}. Its
+/// "place" is the vertex of the undeformed body in the part frame. The result is null if the shape has no stress.
 formats::Json largest_stress(const ViewedRun& run, const ViewedBody& body, const BodyShape& shape);
 
 }  // namespace tisserand::mechanism

@@ -11,28 +11,29 @@
 
 namespace tisserand::mechanism {
 
-/// Boxes around nodes, frames, shapes and markers on the ground: over all instants, and at some of them. Roads are not
-/// included.
+/// Boxes around all that moves in a run: nodes, frames, shapes, and markers on the ground. One box holds all instants,
+/// others hold one instant each, for some instants. Roads are not included.
 class MotionExtent {
  public:
-  /// Boxes of nodes, frames of bodies, and markers on the ground.
+  /// Makes the boxes of nodes, frames of bodies, and markers on the ground.
   explicit MotionExtent(const ViewedRun& run);
 
-  /// Adds an undeformed shape at some of the instants.
+  /// Adds an undeformed shape to the boxes. `frame`: motion of its frame.
   void add(const formats::Surface& surface, const Track& frame);
 
+  /// Box over all instants.
   const Eigen::AlignedBox3d& box() const { return box_; }
-  /// Largest diagonal at one instant.
+  /// Largest diagonal of a box at one instant.
   double size() const;
-  /// Body to follow if all bodies leave their place (the path is several times `size()`): the heaviest body that moves
-  /// this far. -1: the camera may stay.
+  /// Index of the heaviest body whose path spans more than half of box(), for a camera to follow. −1: box() is not
+  /// several times larger than size(), so the camera may stay.
   int followed() const;
 
  private:
   const ViewedRun& run_;
   std::vector<std::size_t> rows_;
   Eigen::AlignedBox3d box_;
-  std::vector<Eigen::AlignedBox3d> at_;  ///< boxes at rows_
+  std::vector<Eigen::AlignedBox3d> at_;  ///< boxes at the instants `rows_`
 };
 
 }  // namespace tisserand::mechanism

@@ -112,7 +112,8 @@ PageChannels add_channels(const ViewedRun& run, const std::vector<std::string>& 
     page.left_out = {
         {"count", left_out},
         {"why", selection.empty()
-                    ? fmt::format("a page holds at most {} numbers of curves; name others with --channel", most_values)
+                    ? fmt::format("a page holds at most {} values of curves; choose other channels with --channel",
+                                  most_values)
                     : "they were not chosen with --channel"}};
   return page;
 }

@@ -86,7 +86,8 @@ std::string plain_name(const std::string& name) {
 void make_folder(const fs::path& folder) {
   std::error_code fault;
   fs::create_directories(folder, fault);
-  if (fault) throw Error(fmt::format("cannot make the folder: {}", fault.message()), folder.string(), "choose another");
+  if (fault)
+    throw Error(fmt::format("cannot create the folder: {}", fault.message()), folder.string(), "choose another folder");
 }
 
 std::string write_run(const ViewRequest& request, const std::string& file, const std::string& in,
@@ -112,14 +113,14 @@ std::string write_run(const ViewRequest& request, const std::string& file, const
 
 std::string write_paraview(const ViewRequest& request, const std::string& folder) {
   if (request.shown.files.empty()) throw Error("no results file is given", "", "name one or more *.results.h5");
-  std::string told;
+  std::string reported;
   std::set<std::string> names;
   for (const std::string& file : request.shown.files) {
     std::string name = plain_name(stem(file));
     for (int k = 2; !names.insert(name).second; ++k) name = fmt::format("{}-{}", plain_name(stem(file)), k);
-    told += write_run(request, file, folder, name);
+    reported += write_run(request, file, folder, name);
   }
-  return told;
+  return reported;
 }
 
 }  // namespace tisserand::mechanism

@@ -39,9 +39,9 @@ Json view_of(const std::string& text) {
   const auto second = comma == end ? first : std::from_chars(comma + 1, end, elevation);
   if (comma == end || first.ec != std::errc() || first.ptr != comma || second.ec != std::errc() || second.ptr != end ||
       !(std::abs(elevation) <= 90.0) || !(std::abs(azimuth) <= 360.0))
-    throw Error(
-        fmt::format("'{}' is no view", printable_line(text, 60)), "picture",
-        fmt::format("give {}, or azimuth,elevation of the camera in degrees, as -50,25", join(picture_views, ", ")));
+    throw Error(fmt::format("'{}' is not a view", printable_line(text, 60)), "picture",
+                fmt::format("give {}, or azimuth,elevation of the camera in degrees, for example -50,25",
+                            join(picture_views, ", ")));
   return {azimuth * radian, elevation * radian};
 }
 
@@ -72,7 +72,7 @@ std::string followed_of(const std::string& name, const formats::ResultsReader& r
   std::vector<std::string> known;
   for (const formats::SimulatedBody& body : run.layout().simulated.bodies) known.push_back(body.name);
   if (std::ranges::find(known, name) == known.end())
-    throw Error(fmt::format("has no body '{}' that a camera could follow", printable_line(name, 100)), run.path(),
+    throw Error(fmt::format("has no body '{}' for the camera to follow", printable_line(name, 100)), run.path(),
                 "give --follow none, or a body, for example: " + listed(nearest_names(name, known)));
   return name;
 }
@@ -97,8 +97,9 @@ Json still_of(const PictureRequest& request, const formats::ResultsReader& run) 
              {"settings", settings_of(request)}};
   for (const int side : request.size)
     if (side < smallest_side || side > largest_side)
-      throw Error(fmt::format("a picture of {} x {} pixels", request.size[0], request.size[1]), "picture",
-                  fmt::format("give --size with {} to {} pixels a side", smallest_side, largest_side));
+      throw Error(
+          fmt::format("a picture of {} x {} pixels is too small or too large", request.size[0], request.size[1]),
+          "picture", fmt::format("give --size with {} to {} pixels a side", smallest_side, largest_side));
   require_nodes(request.traces, run);
   if (request.follow) still["follow"] = followed_of(*request.follow, run);
   if (request.mode == 0) {
@@ -106,7 +107,7 @@ Json still_of(const PictureRequest& request, const formats::ResultsReader& run) 
     return still;
   }
   if (request.mode > static_cast<int>(run.modes()))
-    throw Error(fmt::format("holds {} modes, and not mode {}", run.modes(), request.mode), run.path(),
+    throw Error(fmt::format("holds {} modes, but not mode {}", run.modes(), request.mode), run.path(),
                 "modes come from `analysis: modes`");
   still["mode"] = request.mode - 1;
   still["phases"] = Json::array();
@@ -157,8 +158,8 @@ std::string picture(const PictureRequest& request) {
   const std::string png =
       base64_decoded(asked_of_page(page.path(), "tisserand.still(" + still.dump() + ")", request.sandbox));
   if (png.empty())
-    throw Error("nothing is to be seen in the picture: no body is in view", request.output,
-                "see --view, --zoom, --exaggerate, --follow and --hide; `mechanism view` shows where the bodies are");
+    throw Error("the picture would be empty: no body is in view", request.output,
+                "change --view, --zoom, --exaggerate, --follow or --hide; `mechanism view` shows where the bodies are");
   TISSERAND_ENSURE(png.starts_with("\x89PNG"), "the page gave {} bytes that are no PNG", png.size());
   write_text_file(request.output, formats::with_producer(png, producer("mechanism")));
   return fmt::format("picture: {} ({} x {} pixels, {:.0f} kB)\n", request.output, request.size[0], request.size[1],

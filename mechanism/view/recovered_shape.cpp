@@ -221,7 +221,7 @@ std::optional<BodyShape> recovered_shape(ViewedRun& run, const ViewedBody& body,
   if (y.cols() == 0 || count != recovery.coordinates()) {
     run.notes.push_back(fmt::format(
         "body '{}' is shown undeformed: {}", body.name,
-        y.cols() == 0 ? "superelements/y is not stored" : "its recovery file has another number of coordinates"));
+        y.cols() == 0 ? "superelements/y is not stored" : "its recovery file has a different number of coordinates"));
     return shape;
   }
   shape.deformation.modes = formats::shapes_at(*found->reader, from.carriers);
@@ -246,7 +246,7 @@ std::optional<BodyShape> recovered_shape(ViewedRun& run, const ViewedBody& body,
 void require_used_recovery(const ViewedRun& run, const ShapeOptions& options) {
   for (const std::string& path : options.recovery) {
     const formats::RecoveryReader reader(path);
-    std::string fault = "belongs to no superelement of this run";
+    std::string fault = "does not belong to a superelement of this run";
     const bool used = std::ranges::any_of(run.bodies, [&](const ViewedBody& body) {
       const std::string id = content_id_of(run, body);
       return !id.empty() && matching(path, id, body.name, fault).has_value();

@@ -259,8 +259,7 @@ void add_links(const ViewedRun& run, Places& places, const PageChannels& channel
     }
   }
   if (!unseen.empty())
-    json["report"]["notes"].push_back("the motion of what these hang on is not stored, so that they are not shown: " +
-                                      listed(unseen));
+    json["report"]["notes"].push_back("not shown, because the motion of their bodies is not stored: " + listed(unseen));
   const formats::ResultsLayout& layout = run.layout();
   for (int i = 0; i < std::ssize(layout.nodes); ++i) {
     const std::string path = "superelements/boundary_force/" + layout.nodes[i];

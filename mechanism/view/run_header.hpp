@@ -11,12 +11,14 @@
 
 namespace tisserand::mechanism {
 
+/// Options of a run in a page.
 struct RunOptions {
-  std::vector<std::string> channels;  ///< selection; empty: as many as fit
+  std::vector<std::string> channels;  ///< selected channels; empty: as many as fit
   ShapeOptions shapes;
 };
 
-/// Object of a run. Its numbers go to `blocks`. Throws Error: unknown channels, wrong shape files.
+/// JSON object of a run in the header of a page (formats/PAGE.md). Adds its numbers to `blocks`. Throws Error for
+/// unknown channels and wrong shape files.
 formats::Json run_header(ViewedRun& run, const RunOptions& options, formats::PageBlocks& blocks);
 
 }  // namespace tisserand::mechanism

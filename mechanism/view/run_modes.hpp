@@ -13,27 +13,29 @@
 
 namespace tisserand::mechanism {
 
-/// Motion of the nodes in each mode, split into that of the frames of the bodies and their deformation. The sum does
-/// not depend on the choice of the frame. Here the frame follows the first node that turns.
+/// Modes of a linearised scene, as motions of the frames of bodies and deformations relative to the frames. The sum of
+/// both does not depend on the choice of the frame. Here the frame follows the first node of the body that turns.
 class ModesOfBodies {
  public:
   explicit ModesOfBodies(const formats::ResultsReader& reader);
 
-  /// Appends two rows per mode, real and imaginary, to the amplitudes of the shape.
+  /// Appends the modes to the amplitudes of the shape of a body: two rows per mode, real and imaginary part.
   void take(const ViewedRun& run, int body, BodyShape& shape);
-  /// Reads the reduced amplitudes of the modes, which follow those of `instants` rows.
+  /// Reads the reduced amplitudes of the modes. They follow the `instants` rows of the run.
   void reduce(int body, const formats::FewModes& few, Eigen::Index instants);
   /// JSON of all modes; null: the file holds none.
   formats::Json json() const;
 
  private:
+  /// Small motion: displacement and rotation.
   struct Small {
     Eigen::Vector3d translation = Eigen::Vector3d::Zero(), rotation = Eigen::Vector3d::Zero();
   };
-  /// Small motion of a node. `part`: 0 real, 1 imaginary.
+  /// Small motion of a node in a mode. `part`: 0 real, 1 imaginary.
   Small motion_of(int node, Eigen::Index mode, int part) const;
+  /// Small motion of the frame of a body in a mode.
   Small frame_motion(const ViewedRun& run, int body, Eigen::Index mode, int part) const;
-  /// Motion of a node relative to the frame, in axes of the frame.
+  /// Small motion of a node relative to the frame of the body, in axes of the frame.
   Small relative_motion(const ViewedRun& run, int body, int node, Eigen::Index mode, int part) const;
   Eigen::VectorXd stations_motion(const ViewedRun& run, int body, const BodyShape& shape, Eigen::Index mode,
                                   int part) const;
@@ -41,9 +43,12 @@ class ModesOfBodies {
                                      int part) const;
 
   Eigen::VectorXd frequency_, damping_;
-  std::vector<Eigen::MatrixXd> translation_, rotation_;  ///< per node, modes x 6: x/real, x/imaginary, y/real, ...
-  Eigen::MatrixXd y_;                                    ///< modes x 2 Ny; without columns: not stored
-  std::vector<formats::Json> bodies_;                    ///< per mode
+  /// Motions of each node (modes x 6): x/real, x/imaginary, y/real, ...
+  std::vector<Eigen::MatrixXd> translation_, rotation_;
+  /// Amplitudes of the coordinates y of the superelements (modes x 2 Ny), real and imaginary. Without columns: not
+  /// stored.
+  Eigen::MatrixXd y_;
+  std::vector<formats::Json> bodies_;  ///< motions of the bodies, one entry per mode
 };
 
 }  // namespace tisserand::mechanism

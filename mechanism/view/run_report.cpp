@@ -43,7 +43,7 @@ Json report_of_run(const formats::ResultsReader& reader) {
   if (report.contains("preflight") && report["preflight"].is_object())
     result["doubts"] = texts_of(report["preflight"], "doubts");
   for (const Json& doubt : texts_of(report, "doubts")) result["doubts"].push_back(doubt);
-  for (const Json& one : texts_of(report, "rejections")) result["lines"].push_back({"step taken again", one});
+  for (const Json& one : texts_of(report, "rejections")) result["lines"].push_back({"rejected step", one});
   add_lines(report, "", result["lines"]);
   for (const char* group : {"energy", "mobility", "linear_solver", "initial_correction"})
     if (report.contains(group) && report[group].is_object())

@@ -7,8 +7,8 @@
 
 namespace tisserand::mechanism {
 
-/// JSON {"notes", "doubts", "lines", "phases", "energy", "effects"}; empty lists if the file holds no report or a
-/// damaged one.
+/// Report of a run as JSON {"notes", "doubts", "lines", "phases", "energy", "effects"}, for a page. The lists are empty
+/// if the file holds no report or a damaged one.
 formats::Json report_of_run(const formats::ResultsReader& reader);
 
 }  // namespace tisserand::mechanism

@@ -22,9 +22,9 @@ void require_stress(const Json& header, const std::string& where) {
   const auto has_stress = [](const Json& shape) { return !shape["stress"].is_null(); };
   for (const Json& run : header["runs"])
     if (std::ranges::any_of(run["shapes"], has_stress)) return;
-  throw Error(
-      "stress is asked for, but no body that deforms has its recovery file", where,
-      "write it with `recovery: yes` in the part, beside the superelement or the results, or name it with --recovery");
+  throw Error("stress is requested, but no deforming body has a recovery file", where,
+              "set `recovery: yes` in the part and put the file next to the superelement or the results, or name it "
+              "with --recovery");
 }
 
 Json header_of(const ViewRequest& request, PageBlocks& blocks) {
@@ -59,29 +59,30 @@ Json header_of(const ViewRequest& request, PageBlocks& blocks) {
 }
 
 /// Messages on what the page does not show as the file has it.
-std::string told(const Json& header) {
+std::string reported(const Json& header) {
   std::string text;
   for (const Json& run : header["runs"]) {
     const std::string name = printable_line(run["file"].get<std::string>(), 200);
     if (!run["completed"].get<bool>())
       text += fmt::format("{}: the run did not complete: {}\n", name, printable(run["reason"].get<std::string>()));
     if (!run["thinned"].is_null())
-      text += fmt::format("{}: {} of {} instants\n", name, run["thinned"]["kept"].get<std::size_t>(),
+      text += fmt::format("{}: shows {} of {} instants\n", name, run["thinned"]["kept"].get<std::size_t>(),
                           run["thinned"]["rows"].get<std::size_t>());
     if (!run["channels_left_out"].is_null())
       text +=
-          fmt::format("{}: {} channels are left out: {}\n", name, run["channels_left_out"]["count"].get<std::size_t>(),
+          fmt::format("{}: {} channels are omitted: {}\n", name, run["channels_left_out"]["count"].get<std::size_t>(),
                       run["channels_left_out"]["why"].get<std::string>());
     std::vector<std::string> bare;
     for (const Json& body : run["bodies"])
       if (body["kind"] == "superelement" && run["shapes"][body["shape"].get<std::size_t>()]["source"] == "nodes")
         bare.push_back("'" + printable_line(body["name"].get<std::string>(), 100) + "'");
     if (!bare.empty())
-      text += fmt::format("{}: shown by nodes and straight lines: {}; `recovery: yes` in the part shows the surface\n",
-                          name, listed(bare));
+      text += fmt::format(
+          "{}: shown by nodes and straight lines: {}; to show the surface, set `recovery: yes` in the part\n", name,
+          listed(bare));
     for (const Json& shape : run["shapes"])
       if (!shape["thinned"].is_null())
-        text += fmt::format("{}: a surface is thinned from {} to {} vertices\n", name,
+        text += fmt::format("{}: a surface is reduced from {} to {} vertices\n", name,
                             shape["thinned"]["vertices"].get<int>(), shape["thinned"]["kept"].get<int>());
   }
   return text;
@@ -99,7 +100,8 @@ std::string view(const ViewRequest& request) {
   const Json header = header_of(request, blocks);
   const std::string page = page_text(viewer_bundle(), header, blocks);
   write_text_file(request.output, page);
-  return fmt::format("{}page: {} ({:.2f} MB)\n", told(header), request.output, 1e-6 * static_cast<double>(page.size()));
+  return fmt::format("{}page: {} ({:.2f} MB)\n", reported(header), request.output,
+                     1e-6 * static_cast<double>(page.size()));
 }
 
 }  // namespace tisserand::mechanism

@@ -9,19 +9,20 @@
 
 namespace tisserand::mechanism {
 
+/// Request for a page: runs, curves, shapes and the output file.
 struct ViewRequest {
   SeriesRequest shown;  ///< results files, labels of the runs, curves (empty: as many as fit), references
-  std::string output;   ///< .html
-  std::string title;    ///< empty: names of the scenes
-  int instants = 2001;  ///< largest number per run: 2000 steps
+  std::string output;   ///< path that ends in .html
+  std::string title;    ///< title of the page; empty: names of the scenes
+  int instants = 2001;  ///< largest number of instants per run: 2000 steps
   ShapeOptions shapes;
 };
 
-/// Page as text. Throws Error.
+/// Page of the runs as HTML text. Throws Error.
 std::string page_of(const ViewRequest& request);
 
-/// Writes the page, completely or not at all. Returns messages for the user, one sentence per line: size, what was
-/// thinned or omitted. Throws Error.
+/// Writes the page of the runs, completely or not at all. Returns messages for the user, one sentence per line: size,
+/// what was thinned or omitted. Throws Error.
 std::string view(const ViewRequest& request);
 
 }  // namespace tisserand::mechanism

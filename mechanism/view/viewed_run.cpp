@@ -23,8 +23,8 @@ PageRows columns_of(const Eigen::MatrixXd& all, int item, int width, const std::
   if (values.array().isNaN().all()) return PageRows(0, width);
   for (Eigen::Index t = 0; t < values.rows(); ++t)
     if (!values.row(t).allFinite())
-      throw Error(fmt::format("{} is no number at t = {:.6g}", printable(name), run.times[t]), run.reader->path(),
-                  "look at the run: it broke down there, or the file was changed");
+      throw Error(fmt::format("{} is not a number at t = {:.6g}", printable(name), run.times[t]), run.reader->path(),
+                  "check the run: it failed at this time, or the file was changed");
   return values;
 }
 
@@ -33,10 +33,10 @@ void read_nodes(ViewedRun& run) {
   const Eigen::MatrixXd position = run.reader->read_dataset("nodes/position", run.rows),
                         rotation = run.reader->read_dataset("nodes/rotation", run.rows);
   if (position.cols() == 0)
-    throw Error("holds no positions of nodes, without which there is nothing to show", run.reader->path(),
-                "add nodes/position and nodes/rotation to output.channels, or leave the key out, and run again");
+    throw Error("contains no positions of nodes, so there is nothing to show", run.reader->path(),
+                "add nodes/position and nodes/rotation to output.channels, or remove this key, and run again");
   if (rotation.cols() == 0)
-    run.notes.push_back("nodes/rotation is not stored: bodies are shown where their nodes are, but do not turn");
+    run.notes.push_back("nodes/rotation is not stored: bodies move with their nodes, but do not rotate");
   for (int i = 0; i < std::ssize(layout.nodes); ++i) {
     const int item = i;
     run.nodes.push_back({columns_of(position, item, 3, "nodes/position/" + layout.nodes[i], run),
@@ -64,7 +64,7 @@ void take_bodies(ViewedRun& run) {
     try {
       run.drawn = formats::read_drawn_scene(scene.text, scene.file);
     } catch (const Error& error) {
-      run.notes.push_back(fmt::format("the text of the scene cannot be read by this program: {}", error.what()));
+      run.notes.push_back(fmt::format("this program cannot read the text of the scene: {}", error.what()));
     }
   }
   std::map<std::string, const formats::BodySpec*> specs;
@@ -166,8 +166,7 @@ void drop_unseen(ViewedRun& run) {
   }
   run.bodies = std::move(seen);
   for (int& body : run.body_of_node) body = body < 0 ? -1 : number[body];
-  if (!unseen.empty())
-    run.notes.push_back("bodies whose motion the file does not hold are not shown: " + listed(unseen));
+  if (!unseen.empty()) run.notes.push_back("bodies not shown, because their motion is not stored: " + listed(unseen));
 }
 
 }  // namespace
@@ -212,14 +211,14 @@ ViewedRun read_viewed_run(const std::string& file, std::size_t instants) {
   ViewedRun run;
   run.reader = std::make_unique<formats::ResultsReader>(file);
   if (run.reader->rows() == 0)
-    throw Error("holds no instants", run.reader->path(), "the run stopped before its first row: see why it did");
+    throw Error("holds no instants", run.reader->path(), "the run stopped before its first row; find out why");
   run.rows = even_rows(run.reader->rows(), instants);
   run.times = run.reader->read_dataset("time", run.rows);
   if (!run.times.allFinite())
-    throw Error("/time holds what is no number", run.reader->path(), "write the results again");
+    throw Error("/time contains values that are not numbers", run.reader->path(), "run the scene again");
   read_nodes(run);
   if (run.layout().simulated.empty()) {
-    run.notes.push_back("the file is older than version 1.5 of the format: it does not tell shapes and joints");
+    run.notes.push_back("the format of the file is older than version 1.5: it contains no shapes and joints");
     name_bodies(run);
   } else {
     take_bodies(run);

@@ -11,17 +11,18 @@
 
 namespace tisserand::reducer {
 
-/// Cost of a factorisation, known before it is done.
+/// Cost of a factorisation, which is known before the factorisation.
 struct FactorCost {
-  double entries = 0.0;     ///< stored entries of L
+  double entries = 0.0;     ///< number of stored entries of L
   double operations = 0.0;  ///< floating-point operations
   double bytes() const { return 8.0 * entries; }
 };
 
-/// Factorisation P A Pᵀ = L Lᵀ, P by nested dissection (METIS). The rows of A must live until factor() has returned.
+/// Factorisation P A Pᵀ = L Lᵀ of a sparse symmetric matrix A, with the permutation P by nested dissection (METIS).
+/// The rows of A must live until factor() has returned.
 class Cholesky {
  public:
-  /// Finds the elimination order and the pattern of L. Throws Error if the pattern exceeds CHOLMOD's indices.
+  /// Finds the permutation P and the pattern of L. Throws Error if the pattern exceeds the indices of CHOLMOD.
   explicit Cholesky(const SymmetricRows& A);
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;
@@ -29,11 +30,13 @@ class Cholesky {
 
   const FactorCost& cost() const { return cost_; }
 
-  /// Least l_jj²/a_jj, the share of a diagonal entry that remains after elimination. The result is 0 if A is not
-  /// positive definite (no factor exists then) and negative if the memory does not suffice.
+  /// Computes L. Returns the least l_jj²/a_jj, which is the share of a diagonal entry that remains after elimination.
+  /// The result is 0 if A is not positive definite, and there is no L then. It is negative if the memory does not
+  /// suffice.
   double factor();
 
-  /// Solution A⁻¹ B. Each column of the result is independent of the other columns, to the last bit.
+  /// Solution A⁻¹ B. Each column of the result is independent of the other columns, to the last bit. Requires a
+  /// successful factor().
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
 
  private:

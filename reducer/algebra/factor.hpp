@@ -15,35 +15,37 @@
 
 namespace tisserand::reducer {
 
-/// Owner of the factor. `negative` and `null` count eigenvalues of the matrix by sign (Sylvester's law of inertia).
+/// Factor of a sparse symmetric matrix A with solutions A⁻¹ B. negative() and null() are the numbers of negative and
+/// zero eigenvalues of A, by Sylvester's law of inertia.
 class Factor {
  public:
-  Factor() = default;  ///< factor of a matrix without rows
-  /// Factors A, expected to be positive definite. If a pivot is below 1e-12 of its diagonal entry, MUMPS factors.
-  /// Pivots below 1e-18 of the largest (after scaling) count as null and do not fail. null_space() finds motions
-  /// without stiffness; pivots do not.
+  Factor() = default;  ///< makes the factor of a matrix without rows
+  /// Factors A, which should be positive definite. If a pivot is below 1e-12 of its diagonal entry, MUMPS factors A
+  /// instead of CHOLMOD. Pivots below 1e-18 of the largest (after scaling) then count as null and do not fail. They do
+  /// not prove motions without stiffness, which null_space() finds.
   explicit Factor(const Matrix& A) : Factor(A, nullptr) {}
-  /// `accept` receives the cost before the factorisation and may throw.
+  /// Factors A. `accept` receives the cost before the factorisation, and may throw to prevent it.
   Factor(const Matrix& A, const std::function<void(const FactorCost&)>& accept);
 
-  /// L D Lᵀ of any symmetric A. Pivots below `null_pivot` of the largest count as null.
+  /// Factor L D Lᵀ of any symmetric A. Pivots below `null_pivot` of the largest count as null.
   static Factor indefinite(const Matrix& A, double null_pivot);
   static Factor indefinite(const Matrix& A) { return indefinite(A, 1e-14); }
 
   int negative() const;
   int null() const;
-  /// Least ratio of a pivot to its diagonal entry if all pivots are clearly positive; 0 if it is not known.
+  /// Least ratio of a pivot to its diagonal entry, if CHOLMOD has factored A; 0 if it is not known.
   double least_pivot() const { return definite_ == nullptr ? 0.0 : least_pivot_; }
-  /// Entries and operations of L; an estimate if MUMPS factors.
+  /// Number of entries of L and operations; an estimate if MUMPS has factored A.
   const FactorCost& cost() const { return cost_; }
 
-  /// Sets a function that receives the number of columns when a solution begins, and 0 when it ends (for timing).
-  void tell_solutions(std::function<void(int)> heard) { heard_ = std::move(heard); }
-  /// Solution A⁻¹ B. Only if null() is 0.
+  /// Sets a function, for measurements of time. It receives the number of columns when a solution begins, and 0 when
+  /// it ends.
+  void report_solutions(std::function<void(int)> heard) { heard_ = std::move(heard); }
+  /// Solution A⁻¹ B. Requires null() = 0.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
-  /// A basis of the null space (n x null()).
+  /// Basis of the null space of A (n x null()).
   Eigen::MatrixXd null_vectors() const;
-  /// The factor spread over several ranks, or null.
+  /// Factor that is spread over several processes; null if this process holds the whole factor.
   const SharedFactor* shared() const { return shared_.get(); }
 
  private:

@@ -8,7 +8,8 @@
 
 namespace tisserand::reducer {
 
-/// Eight numbers, which fill one cache line, as vectors of four. GCC and Clang split or join them to fit the processor.
+/// Row of eight right-hand sides: eight numbers, which fill one cache line, as vectors of four. GCC and Clang split or
+/// join the vectors to fit the processor.
 struct Line {
   static constexpr int width = 8;
   static constexpr int packet = 4;
@@ -37,7 +38,8 @@ struct Line {
   static std::ptrdiff_t at(Eigen::Index row) { return static_cast<std::ptrdiff_t>(width) * row; }
 };
 
-/// Copies columns `first` to first + 7 of B: line i gets row `row(i)`. Columns beyond the last one are zero.
+/// Copies the columns `first` to first + 7 of B to lines. Line i gets row row(i) of B. Columns beyond the last one of
+/// B become zero.
 template <class Row>
 void to_lines(const Eigen::MatrixXd& B, Eigen::Index first, const Row& row, double* lines) {
   for (Eigen::Index c = 0; c < Line::width; ++c) {
@@ -46,7 +48,8 @@ void to_lines(const Eigen::MatrixXd& B, Eigen::Index first, const Row& row, doub
   }
 }
 
-/// Copies lines back to columns of X; the inverse of to_lines().
+/// Copies lines to the columns `first` to first + 7 of X, which reverses to_lines(). Columns beyond the last one of X
+/// are omitted.
 template <class Row>
 void from_lines(const double* lines, Eigen::Index first, const Row& row, Eigen::MatrixXd& X) {
   for (Eigen::Index c = 0; c < Line::width && first + c < X.cols(); ++c) {

@@ -54,7 +54,7 @@ void Mumps::require_factored() const {
   if (failure_ == 0) return;
   const bool memory = failure_ == -9 || failure_ == -13 || failure_ == -7 || failure_ == -5;
   throw Error(fmt::format("MUMPS cannot factor a matrix of {} rows (INFOG(1) = {})", rows_, failure_), "factorisation",
-              memory ? "the memory of this machine does not suffice: use fewer elements"
+              memory ? "this machine has too little memory: use fewer elements, or a machine with more memory"
                      : "please report this with the part file");
 }
 

@@ -11,32 +11,33 @@
 
 namespace tisserand::reducer {
 
-/// Motions v without stiffness. Their strain energy vᵀ S v is only round-off of its terms: at most `null_share` of |v|ᵀ
-/// |S| |v|.
+/// Null space of a stiffness matrix S: motions v whose strain energy is only round-off. vᵀ S v is then at most
+/// `null_share` of |v|ᵀ |S| |v|, the sum of the magnitudes of its terms.
 struct NullSpace {
-  Eigen::MatrixXd vectors;   ///< n x k: a basis that is the unit matrix at `pivots`
-  std::vector<int> pivots;   ///< the k coordinates of the unit matrix
-  int negative = 0;          ///< negative eigenvalues of S, if it is indefinite beyond round-off
-  double least_share = 1.0;  ///< least vᵀ S v / |v|ᵀ |S| |v| found above `null_share`
-  Eigen::VectorXd softest;   ///< the v of least_share; empty if it was not searched for
+  Eigen::MatrixXd vectors;   ///< n x k: basis of the null space, which is the unit matrix at the rows `pivots`
+  std::vector<int> pivots;   ///< k coordinates at which the basis is the unit matrix
+  int negative = 0;          ///< number of negative eigenvalues of S, if S is indefinite beyond round-off
+  double least_share = 1.0;  ///< least vᵀ S v / |v|ᵀ |S| |v| above `null_share` that the search found
+  Eigen::VectorXd softest;   ///< motion v with the energy share `least_share`; empty if there was no search
 };
 
-/// Measured energies of mechanisms are below 5e-18 of their terms (one term is rounded to 1e-16). Those of soft motions
-/// are above 3e-12 (10 000 beams in a row, stiff next to soft). This limit lies between both.
+/// Limit of the energy share vᵀ S v / |v|ᵀ |S| |v| up to which a motion v has no stiffness. Measured shares of
+/// mechanisms are below 5e-18 (one term is rounded to 1e-16). Those of soft motions are above 3e-12 (10 000 beams in a
+/// row, stiff next to soft).
 inline constexpr double null_share = 4e-15;
-/// Below this energy share, round-off is more than a thousandth of the energy.
+/// Energy share vᵀ S v / |v|ᵀ |S| |v| below which round-off is more than a thousandth of the energy of the motion v.
 inline constexpr double doubtful_share = 1e-13;
 
-/// A pivot is trusted if it keeps at least this share of its diagonal entry.
+/// Share of its diagonal entry that a pivot of a factorisation must keep to be trusted.
 inline constexpr double trusted_pivot = 1e-6;
 
-/// Null space of S from `factor`, made by Factor(S). If all pivots keep 1e-6 of their diagonal entries, there is none:
-/// at the last coordinate that a motion v moves, the pivot is vᵀ S v/v_j². Otherwise a block of solutions searches for
-/// v. If it finds energies below 1e-12, subspace iteration with S + 1e-12 diag(S) decides, which is definite if S is
-/// semidefinite.
+/// Null space of S. `factor`: the factor Factor(S). If all pivots keep 1e-6 of their diagonal entries, the null space
+/// is empty: at the last coordinate j that a motion v moves, the pivot is vᵀ S v/v_j². Otherwise a block of solutions
+/// searches for v. If it finds energy shares below 1e-12, subspace iteration with S + 1e-12 diag(S) decides. This
+/// matrix is definite if S is semidefinite.
 NullSpace null_space(const Matrix& S, const Factor& factor);
 
-/// Null space of S by search, without trust in the pivots.
+/// Null space of S by the search of null_space(), also if all pivots of `factor` could be trusted.
 NullSpace searched_null_space(const Matrix& S, const Factor& factor);
 
 }  // namespace tisserand::reducer

@@ -56,7 +56,7 @@ SolverSession::SolverSession() {
   int count = count_of(words);
   char** begin = arguments.data();
   if (SlepcInitialize(&count, &begin, nullptr, nullptr) != 0)
-    throw Error("PETSc and SLEPc do not start", "reducer", "check the installation of MPI, PETSc and SLEPc");
+    throw Error("PETSc and SLEPc cannot start", "reducer", "check the installation of MPI, PETSc and SLEPc");
   petsc_check(PetscPushErrorHandler(collect, &failure_text()));
   ranks_beside_leader();
 }

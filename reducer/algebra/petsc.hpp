@@ -14,8 +14,9 @@ struct _p_Mat;
 
 namespace tisserand::reducer {
 
-/// Starts MPI, PETSc and SLEPc (no option files, no signal handlers) and ends them. One per process, in commands that
-/// solve only, because it costs 50 ms. BLAS and OpenMP get one thread: sums do not depend on the machine.
+/// Session of MPI, PETSc and SLEPc: the constructor starts them, without option files and signal handlers, and the
+/// destructor ends them. A process may have one session. Only commands that solve make it, because it costs 50 ms.
+/// BLAS and OpenMP get one thread, so that sums do not depend on the machine.
 class SolverSession {
  public:
   SolverSession();
@@ -24,10 +25,10 @@ class SolverSession {
   SolverSession& operator=(const SolverSession&) = delete;
 };
 
-/// Throws Error with PETSc's own text if `code` is not 0.
+/// Throws Error with the message of PETSc if the return code `code` is not 0.
 void petsc_check(int code);
 
-/// Owner of a PETSc Mat and of the arrays to which a Mat made "with arrays" only points.
+/// Owner of a PETSc matrix, and of the arrays to which a matrix made "with arrays" only points.
 class Matrix {
  public:
   Matrix() = default;
@@ -44,8 +45,8 @@ class Matrix {
   ~Matrix();
 
   _p_Mat* get() const { return mat_; }
-  int size() const;                 ///< rows
-  _p_Mat** out() { return &mat_; }  ///< for PETSc functions that create a Mat
+  int size() const;                 ///< number of rows
+  _p_Mat** out() { return &mat_; }  ///< pointer for PETSc functions that create a matrix
   void keep_alive(std::shared_ptr<const void> arrays) { arrays_ = std::move(arrays); }
 
  private:
@@ -53,25 +54,26 @@ class Matrix {
   std::shared_ptr<const void> arrays_;
 };
 
-/// View of A, valid while A lives.
+/// View of the upper triangle of A. Requires that A outlives it.
 SymmetricRows symmetric_rows(const Matrix& A);
 
-/// View of columns as a dense PETSc matrix, spread by rows like the square matrix `A`. The values must outlive it.
+/// View of `values` as a dense PETSc matrix with `columns` columns, spread by rows like the square matrix A. Requires
+/// that the values outlive it.
 Matrix dense_view(_p_Mat* A, Eigen::Index columns, const double* values);
 
-/// Product A X for symmetric A (n x n) and dense X (n x k).
+/// Product A X of a symmetric A (n x n) and a dense X (n x k).
 Eigen::MatrixXd multiply(const Matrix& A, const Eigen::MatrixXd& X);
 
 /// Diagonal of A.
 Eigen::VectorXd diagonal(const Matrix& A);
 
-/// Copy of A as a dense matrix, both triangles.
+/// Dense copy of A with both triangles.
 Eigen::MatrixXd dense(const Matrix& A);
 
 /// Product diag(d) A diag(d).
 Matrix scaled(const Matrix& A, const Eigen::VectorXd& d);
 
-/// Sum A + factor B. The pattern of B lies within that of A or is added to it.
+/// Sum A + factor B. Requires that B has the sparsity pattern of A, which is also that of the result.
 Matrix combine(const Matrix& A, double factor, const Matrix& B);
 
 }  // namespace tisserand::reducer

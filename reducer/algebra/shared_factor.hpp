@@ -12,23 +12,24 @@
 
 namespace tisserand::reducer {
 
-/// A rank's part of one factor.
+/// Part of one spread factor on one rank.
 struct FactorPart {
-  Matrix A;  ///< kept until it is factored
+  Matrix A;  ///< rows of the matrix on this rank, kept until it is factored
   std::unique_ptr<Mumps> mumps;
 };
 
-/// Leader: handle of the factor. Each member calls the followers.
+/// Leader's handle of a factor L D Lᵀ that is spread over all ranks. Each member calls the followers, which
+/// take_part().
 class SharedFactor {
  public:
-  /// Finds the elimination order; `null_pivot` as in Mumps.
+  /// Finds the elimination order of A. Pivots below `null_pivot` of the largest (after scaling) will count as null.
   SharedFactor(const Matrix& A, double null_pivot);
   ~SharedFactor();
   SharedFactor(const SharedFactor&) = delete;
   SharedFactor& operator=(const SharedFactor&) = delete;
 
   void factor();
-  int number() const { return number_; }  ///< number by which followers identify it
+  int number() const { return number_; }  ///< number by which the followers identify this factor
   const Mumps& mumps() const { return *part_.mumps; }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
   Eigen::MatrixXd null_vectors() const;
@@ -39,9 +40,9 @@ class SharedFactor {
   int number_ = 0;
 };
 
-/// Followers: parts of factors by number.
+/// Parts of spread factors on a follower, by the number of the factor.
 using FactorParts = std::map<int, FactorPart>;
-/// Does the followers' share of a member function of SharedFactor.
+/// Does a follower's share of the member function of SharedFactor for which the leader has sent `call`.
 void take_part(const Call& call, FactorParts& parts);
 
 }  // namespace tisserand::reducer

@@ -9,9 +9,10 @@
 
 namespace tisserand::reducer {
 
-/// Upper triangles, row by row. Columns ascend from the diagonal, which every row has.
+/// Sparse symmetric matrices S and M with one pattern: upper triangles, row by row. The columns of a row ascend from
+/// the diagonal, which every row has.
 struct SymmetricPair {
-  std::vector<int> begin{0};  ///< rows + 1
+  std::vector<int> begin{0};  ///< rows + 1 numbers: index of the first entry of each row, then the number of entries
   std::vector<int> column;
   std::vector<double> S;
   std::vector<double> M;
@@ -19,19 +20,19 @@ struct SymmetricPair {
   int size() const { return count_of(begin) - 1; }
 };
 
-/// View of the matrix with the pattern of `pair` and `values`, which are its S or M.
+/// View of S or M of `pair`. `values`: pair.S or pair.M.
 SymmetricRows symmetric_rows(const SymmetricPair& pair, const std::vector<double>& values);
 
-/// S and M as PETSc's symmetric matrices.
+/// Stiffness S and mass M as symmetric PETSc matrices.
 struct SystemMatrices {
   Matrix stiffness;
   Matrix mass;
 };
 
-/// PETSc matrices that take the arrays over without a copy.
+/// Makes PETSc matrices of S and M, which take the arrays of `pair` over without a copy.
 SystemMatrices to_petsc(SymmetricPair pair);
 
-/// Throws Error if a matrix with that many stored entries exceeds the range of PETSc's indices.
+/// Throws Error if a matrix with `entries` stored entries exceeds the range of the indices of PETSc.
 void check_entry_count(long entries);
 
 }  // namespace tisserand::reducer

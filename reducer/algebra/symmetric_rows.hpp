@@ -6,7 +6,8 @@
 
 namespace tisserand::reducer {
 
-/// Upper triangle. Row i has columns column[begin[i]] ... column[begin[i + 1] − 1], ascending from the diagonal on.
+/// View of a sparse symmetric matrix: its upper triangle, row by row. Row i has the columns column[begin[i]] to
+/// column[begin[i + 1] − 1], ascending from the diagonal on.
 struct SymmetricRows {
   int size = 0;
   const int* begin = nullptr;
@@ -14,7 +15,8 @@ struct SymmetricRows {
   const double* value = nullptr;
 };
 
-/// A X, eight columns at a time. Each column of the result is independent of the other columns, to the last bit.
+/// Product A X, eight columns at a time. Each column of the result is independent of the other columns, to the last
+/// bit.
 Eigen::MatrixXd multiply(const SymmetricRows& A, const Eigen::MatrixXd& X);
 
 }  // namespace tisserand::reducer

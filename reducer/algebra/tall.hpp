@@ -7,12 +7,12 @@
 
 namespace tisserand::reducer {
 
-/// Aᵀ B (k x b) for A (n x k) and B (n x b), where n is by far the largest. A is read once for up to eight columns of B
-/// in registers. Sums have a fixed order.
+/// Product Aᵀ B (k x b) of tall matrices A (n x k) and B (n x b), where n is by far the largest. A is read once for up
+/// to eight columns of B in registers. Sums have a fixed order.
 Eigen::MatrixXd tall_inner_products(const Eigen::Ref<const Eigen::MatrixXd>& A,
                                     const Eigen::Ref<const Eigen::MatrixXd>& B);
 
-/// C := C − A B for A (n x k), B (k x b) and C (n x b).
+/// Subtracts A B from C: C := C − A B for A (n x k), B (k x b) and C (n x b).
 void subtract_tall_product(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::MatrixXd& B,
                            Eigen::Ref<Eigen::MatrixXd> C);
 

@@ -10,30 +10,32 @@
 
 namespace tisserand::reducer {
 
-/// Treatment of cards that the reader does not support: an error with their names and counts, or a warning.
+/// Treatment of cards that the reader does not support: refused by an Error with their names and counts, or ignored
+/// with a warning.
 enum class UnknownCards { refuse, ignore };
 
 struct DeckOptions {
   UnknownCards unknown = UnknownCards::refuse;
-  bool boundary = true;  ///< false: the part names its boundary, and ASET and similar cards are not read
+  bool boundary = true;  ///< false: ASET and similar cards are not read, because the part file names the boundary
 };
 
-/// Elements of a named set: rows of Mesh::beams, ::shells, ::solids and ::springs.
+/// Elements of a named set, as indices in Mesh::beams, ::shells, ::solids and ::springs.
 struct ElementSet {
   std::vector<int> beams, shells, solids, springs;
 };
 
 struct Deck {
-  Mesh mesh;                       ///< with all nodes, also unused ones; boundary: ASET, BSET or empty
-  std::map<long, int> node_of_id;  ///< key: grid or node number, value: column of Mesh::position
-  std::map<std::string, std::vector<int>> node_sets;  ///< names in lower case
+  /// Mesh with all nodes, also unused ones; its boundary is that of ASET and BSET, or empty.
+  Mesh mesh;
+  std::map<long, int> node_of_id;  ///< key: number of the grid point or node, value: column of Mesh::position
+  std::map<std::string, std::vector<int>> node_sets;  ///< nodes of each set; names in lower case
   std::map<std::string, ElementSet> element_sets;
 };
 
-/// Nastran bulk data in small, large and free field, with INCLUDE. Throws all Errors of the file together.
+/// Reads Nastran bulk data in small, large and free field, with INCLUDE. Throws one Error with all faults of the deck.
 Deck read_nastran(const std::string& path, const DeckOptions& options);
 
-/// Abaqus and CalculiX input, with *INCLUDE. Throws all Errors of the file together.
+/// Reads Abaqus and CalculiX input, with *INCLUDE. Throws one Error with all faults of the deck.
 Deck read_abaqus(const std::string& path, const DeckOptions& options);
 
 }  // namespace tisserand::reducer

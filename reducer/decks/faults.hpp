@@ -11,15 +11,15 @@
 
 namespace tisserand::reducer {
 
-/// Collects errors; beyond 50 they are only counted.
+/// Collection of the faults of a deck for one Error. Faults after the first 50 are only counted.
 class DeckFaults {
  public:
-  /// `more` is the text, with a number, for those that were only counted.
+  /// Begins the collection. `more`: text, with {} for a number, for the faults that were only counted.
   explicit DeckFaults(std::string more = "and {} more errors of this deck") : more_text_(std::move(more)) {}
   void add(std::string what, std::string where, std::string remedy);
   bool empty() const { return errors_.empty(); }
 
-  /// Throws all of them as one Error, if there are any.
+  /// Throws all collected faults as one Error, if there are any.
   void raise() const;
 
  private:

@@ -11,7 +11,7 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr std::size_t most_told = 10;
+constexpr std::size_t most_listed = 10;
 
 std::string element_name(const Mesh& mesh, const BeamElement& beam) {
   return fmt::format("beam {} of '{}'", beam.id, mesh.beam_properties[beam.property].name);
@@ -25,12 +25,12 @@ std::string element_name(const Mesh& mesh, const SolidElement& solid) {
 
 /// First texts of a kind and the number of all.
 struct Findings {
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   std::size_t count = 0;
 
   void add(const std::string& element, const std::vector<std::string>& texts) {
     for (const std::string& text : texts)
-      if (count++ < most_told) told.push_back(element + ": " + text);
+      if (count++ < most_listed) reported.push_back(element + ": " + text);
   }
 };
 
@@ -77,14 +77,14 @@ std::vector<std::string> check_shapes(const Mesh& mesh, const std::string& where
   check_all(mesh, mesh.shells, report);
   check_all(mesh, mesh.solids, report);
   if (report.errors.count > 0)
-    throw Error(
-        fmt::format("{} fault{} of element shapes: {}{}", report.errors.count, report.errors.count == 1 ? "" : "s",
-                    join(report.errors.told, "; "), report.errors.count > report.errors.told.size() ? "; ..." : ""),
-        where, "repair these elements in the mesh or the program that made it");
-  if (report.warnings.count > report.warnings.told.size())
-    report.warnings.told.push_back(fmt::format("... and {} more element shapes of this kind",
-                                               report.warnings.count - report.warnings.told.size()));
-  return report.warnings.told;
+    throw Error(fmt::format("{} fault{} of element shapes: {}{}", report.errors.count,
+                            report.errors.count == 1 ? "" : "s", join(report.errors.reported, "; "),
+                            report.errors.count > report.errors.reported.size() ? "; ..." : ""),
+                where, "repair these elements in the mesh, or in the program that made it");
+  if (report.warnings.count > report.warnings.reported.size())
+    report.warnings.reported.push_back(fmt::format("... and {} more element shapes of this kind",
+                                                   report.warnings.count - report.warnings.reported.size()));
+  return report.warnings.reported;
 }
 
 }  // namespace tisserand::reducer

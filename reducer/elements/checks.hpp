@@ -9,14 +9,17 @@
 
 namespace tisserand::reducer {
 
-/// Checks the shape of every element. Throws one Error with the first ten faults and their number. Returns warnings.
+/// Checks the shape of every element of the mesh. Throws one Error with the first ten faults and the number of all
+/// faults. Returns the first ten warnings and, if there are more, their number. `where`: place for the message of the
+/// Error.
 std::vector<std::string> check_shapes(const Mesh& mesh, const std::string& where);
 
-/// Indices of elements whose shape check_shapes() refuses, counted through beams, then shells, then solids.
+/// Indices of the elements with faults that check_shapes() refuses. The index counts all beams, then all shells, then
+/// all solids.
 std::vector<int> faulty_elements(const Mesh& mesh);
 
-/// Warnings about springs more than 1e8 times as stiff as the stiffest element (of about a thousand per kind):
-/// round-off of such a spring hides the stiffness of the part.
+/// Warnings about springs that are more than 1e8 times as stiff as the stiffest element. Round-off of such a spring
+/// hides the stiffness of the part. About a thousand elements of each kind are compared.
 std::vector<std::string> stiff_spring_doubts(const Mesh& mesh);
 
 }  // namespace tisserand::reducer

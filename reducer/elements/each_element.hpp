@@ -6,7 +6,8 @@
 
 namespace tisserand::reducer {
 
-/// Calls work(element) for the element with that number. The type of its result must not depend on the kind of element.
+/// Calls work(element) for the element with the number `element`, and returns its result. Numbers count beams, then
+/// shells, then solids, then springs of the mesh. The type of the result must not depend on the kind of element.
 template <class Work>
 auto with_element(const Mesh& mesh, int element, const Work& work) {
   auto k = static_cast<std::size_t>(element);

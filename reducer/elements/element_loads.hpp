@@ -8,30 +8,32 @@
 
 namespace tisserand::reducer {
 
-/// Force per length of a beam's axis and acceleration of gravity, part axes.
+/// Distributed load of a beam: force per length of its axis (`line`) and acceleration of gravity, both in part axes.
 struct BeamLoad {
   Eigen::Vector3d line = Eigen::Vector3d::Zero();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
 };
 
-/// Load on the ends of the axis in element axes, with released end forces condensed. It is work on the beam's exact
-/// solution (Hermite's cubics for Euler-Bernoulli, [FK93] with shear), so nodes of prismatic beams move exactly: a
-/// uniform load q gives qL/2 and qL²/12. Gravity acts by the mass matrix of the element.
+/// Consistent load on the ends of the beam axis, in element axes (12 x 1). It is the work of the distributed load on
+/// the exact displacements of the beam: cubic Hermite functions for Euler-Bernoulli, those of [FK93] with shear. So
+/// the nodes of prismatic beams move exactly: a uniform load q gives the forces qL/2 and moments qL²/12. Gravity acts
+/// through the mass matrix of the element. Released end forces are condensed.
 Eigen::Matrix<double, 12, 1> beam_end_load(const Mesh& mesh, const BeamElement& beam, const BeamLoad& load);
 
-/// Load on the nodes in part axes; otherwise as beam_end_load().
+/// Consistent load on the nodes of the beam, in part axes (12 x 1): beam_end_load() moved along the offsets.
 Eigen::Matrix<double, 12, 1> beam_node_load(const Mesh& mesh, const BeamElement& beam, const BeamLoad& load);
 
-/// Pressure forces −p ∫ N_i n dA on each corner of a shell, on the surface through its nodes: 3 x corners, part axes.
-/// N_i are linear or bilinear and give no moments, so plates deflect like a sheet between the nodes (DECISIONS.md
-/// discusses moments of curved edges).
+/// Pressure forces −p ∫ N_i n dA on the corners of a shell, in part axes (3 x corners). The integral is over the
+/// surface through the nodes, with its normal n. The N_i are linear or bilinear and give no moments, so plates deflect
+/// like a sheet between the nodes (DECISIONS.md discusses moments of curved edges).
 Eigen::Matrix3Xd shell_pressure_load(const Mesh& mesh, const ShellElement& shell, double pressure);
 
-/// Pressure forces −p ∫ N_i n dA on a face of three, four, six or eight nodes, n outward (FacePressure): 3 x count. The
-/// integral is exact because n dA is a polynomial.
+/// Pressure forces −p ∫ N_i n dA on the nodes of a face of a solid, in part axes (3 x nodes of the face). The face has
+/// three, four, six or eight nodes, and its normal n points outward (FacePressure). The integral is exact because n dA
+/// is a polynomial.
 Eigen::Matrix3Xd face_pressure_load(const Mesh& mesh, const FacePressure& face);
 
-/// Forces on the nodes of an edge with linear or quadratic shape functions: 3 x count.
+/// Consistent forces on the nodes of a loaded edge (3 x nodes of the edge), by linear or quadratic shape functions.
 Eigen::Matrix3Xd edge_line_load(const Mesh& mesh, const EdgeLineLoad& edge);
 
 }  // namespace tisserand::reducer

@@ -11,8 +11,9 @@
 
 namespace tisserand::reducer {
 
-/// Stiffness and mass in part axes about the nodes (offsets included). Coordinates node by node: six per node for
-/// beams, shells and springs, three for solids. The object is reused, so that only the first element allocates.
+/// Stiffness S and mass M of one element about its nodes, in part axes, with offsets included. Coordinates go node by
+/// node: six per node for beams, shells and springs, three for solids. Callers reuse the object, so that only the
+/// first element allocates memory.
 struct ElementMatrices {
   Eigen::MatrixXd S;
   Eigen::MatrixXd M;
@@ -23,10 +24,11 @@ void element_matrices(const Mesh& mesh, const ShellElement& shell, ElementMatric
 void element_matrices(const Mesh& mesh, const SolidElement& solid, ElementMatrices& out);
 void element_matrices(const Mesh& mesh, const Spring& spring, ElementMatrices& out);
 
-/// Mass matrix (6 x 6) of a point mass about its node, [translation; rotation].
+/// Mass matrix of a point mass about its node (6 x 6), in the order [translation; rotation].
 Eigen::Matrix<double, 6, 6> nodal_mass_matrix(const NodalMass& mass);
 
-/// Faults of an element's shape, texts without the element's name: "inner angle 3.1° at node 17 ...".
+/// Faults of the shape of one element, as texts without the name of the element, such as "inner angle 3.1° at node 17
+/// ...".
 struct ShapeFindings {
   std::vector<std::string> errors;
   std::vector<std::string> warnings;

@@ -8,17 +8,19 @@
 
 namespace tisserand::reducer {
 
-/// [N Vy Vz Mx My Mz] at end 1, then at end 2, in element axes about the beam axis: forces that the part beyond a
-/// section exerts on the part before it. Columns: the twelve nodal coordinates, part axes (with offsets and releases).
+/// Section forces [N Vy Vz Mx My Mz] of a beam at end 1, then at end 2, about the beam axis in element axes. They are
+/// the forces that the part beyond a section exerts on the part before it. Columns (12): the coordinates of both nodes
+/// in part axes; offsets and releases are included.
 Eigen::Matrix<double, 12, 12> beam_section_forces(const Mesh& mesh, const BeamElement& beam);
 
-/// Resultants at the mean of the corners in element axes, 6 x (6 corners): [xx yy xy] of membrane N/t, then of bending
-/// 6M/t². Their sum is the stress on the face of the normal. For a laminate they are not stresses of its plies.
+/// Stress resultants of a shell at the mean of its corners, in element axes (6 x (6 corners)). Rows: [xx yy xy] of the
+/// membrane stress N/t, then of the bending stress 6M/t². The sum of both is the stress on the face to which the
+/// normal points. Columns: the coordinates of the nodes. For a laminate the values are not stresses of plies.
 Eigen::Matrix<double, 6, Eigen::Dynamic> shell_stress(const Mesh& mesh, const ShellElement& shell);
 
-/// Stress [xx yy zz xy yz zx] at every node, part axes, node by node: (6 nodes) x (3 nodes). It is extrapolated from
-/// the quadrature points of the stiffness, where stresses are most accurate (linear in tetrahedra and along each
-/// direction of hexahedra and prisms). Incompatible displacements are included.
+/// Stress [xx yy zz xy yz zx] of a solid at every node, in part axes ((6 nodes) x (3 nodes)). It is extrapolated from
+/// the quadrature points of the stiffness, where stresses are most accurate. The extrapolation is linear in tetrahedra
+/// and along each direction of hexahedra and prisms. Strains of incompatible displacements are included.
 Eigen::MatrixXd solid_stress(const Mesh& mesh, const SolidElement& solid);
 
 }  // namespace tisserand::reducer

@@ -10,7 +10,7 @@ struct GaussPoint {
   double at;
   double weight;
 };
-/// Rules that are exact up to degree 3 and degree 5.
+/// Gauss-Legendre rule of two points, exact up to degree 3. `gauss3` with three points is exact up to degree 5.
 inline constexpr std::array<GaussPoint, 2> gauss2{{{-0.57735026918962576451, 1.0}, {0.57735026918962576451, 1.0}}};
 inline constexpr std::array<GaussPoint, 3> gauss3{
     {{-0.77459666924148337704, 5.0 / 9.0}, {0.0, 8.0 / 9.0}, {0.77459666924148337704, 5.0 / 9.0}}};

@@ -59,11 +59,12 @@ struct FarSpiders {
   }
   std::string others() const {
     if (names.size() < 2) return "";
-    constexpr std::size_t told = 5;
+    constexpr std::size_t reported = 5;
     return fmt::format(
-        " (and {}{} also lie{} far off)",
-        join(std::vector<std::string>(names.begin() + 1, names.begin() + std::min(names.size(), told)), ", "),
-        names.size() > told ? fmt::format(" and {} more", names.size() - told) : "", names.size() == 2 ? "s" : "");
+        " (and {}{} also lie{} far away)",
+        join(std::vector<std::string>(names.begin() + 1, names.begin() + std::min(names.size(), reported)), ", "),
+        names.size() > reported ? fmt::format(" and {} more", names.size() - reported) : "",
+        names.size() == 2 ? "s" : "");
   }
 };
 
@@ -89,13 +90,13 @@ void warn_far_spiders(const Mesh& mesh, const Units& units, std::vector<std::str
   const std::string unit = after_number(unit_label(units, 1, 0, 0));
   constexpr const char* check = "check its position and the unit of its coordinates";
   if (!beside_part.names.empty())
-    warnings.push_back(fmt::format("the node of spider '{}' lies {:.3g}{} beside the part, which is {:.3g}{} large{}: {}",
-                                   beside_part.names[0], beside_part.farthest, unit, size, unit, beside_part.others(),
-                                   check));
+    warnings.push_back(
+        fmt::format("the node of spider '{}' lies {:.3g}{} away from the part, which is {:.3g}{} large{}: {}",
+                    beside_part.names[0], beside_part.farthest, unit, size, unit, beside_part.others(), check));
   if (!off_legs.names.empty())
-    warnings.push_back(fmt::format("the node of spider '{}' lies {:.3g}{} off the nodes that it holds; the part is "
-                                   "{:.3g}{} large{}: {}",
-                                   off_legs.names[0], off_legs.farthest, unit, size, unit, off_legs.others(), check));
+    warnings.push_back(fmt::format(
+        "the node of spider '{}' lies {:.3g}{} away from the nodes that it holds; the part is {:.3g}{} large{}: {}",
+        off_legs.names[0], off_legs.farthest, unit, size, unit, off_legs.others(), check));
 }
 
 /// Warns, once per property, of offsets of more than `most_offset` thicknesses: the elements are far from their nodes.
@@ -103,16 +104,15 @@ void warn_far_offsets(const Mesh& mesh, const Units& units, std::vector<std::str
   const std::string unit = after_number(unit_label(units, 1, 0, 0));
   const auto tell = [&](const char* kind, const std::string& name, double offset, double thickness) {
     if (offset > most_offset * thickness && thickness > 0.0)
-      warnings.push_back(fmt::format("{} of '{}' lie {:.4g}{} beside their nodes, {:.3g} times their thickness: check "
-                                     "the offset and its unit",
-                                     kind, name, offset, unit, offset / thickness));
+      warnings.push_back(fmt::format(
+          "{} of '{}' lie {:.4g}{} away from their nodes, {:.3g} times their thickness: check the offset and its unit",
+          kind, name, offset, unit, offset / thickness));
   };
   std::vector<double> of_shells(mesh.shell_properties.size(), 0.0), of_beams(mesh.beam_properties.size(), 0.0);
   for (const ShellElement& shell : mesh.shells)
     of_shells[shell.property] = std::max(of_shells[shell.property], std::abs(shell.offset));
   for (const BeamElement& beam : mesh.beams)
-    of_beams[beam.property] =
-        std::max({of_beams[beam.property], beam.first_offset.norm(), beam.second_offset.norm()});
+    of_beams[beam.property] = std::max({of_beams[beam.property], beam.first_offset.norm(), beam.second_offset.norm()});
   for (std::size_t p = 0; p < of_shells.size(); ++p)
     tell("the shells", mesh.shell_properties[p].name, of_shells[p], mesh.shell_properties[p].section.thickness);
   for (std::size_t p = 0; p < of_beams.size(); ++p) {
@@ -159,8 +159,9 @@ std::vector<std::string> plausibility_warnings(const Mesh& mesh, const Units& un
       warnings.push_back(std::move(doubt));
   for (const formats::Material& m : materials)
     if (m.poisson_ratio < 0.0)
-      warnings.push_back(fmt::format("material '{}': a Poisson's ratio of {:.4g} is unusual; common are 0 to 0.5",
-                                     m.name, m.poisson_ratio));
+      warnings.push_back(
+          fmt::format("material '{}': a Poisson's ratio of {:.4g} is unusual; common values are 0 to 0.5", m.name,
+                      m.poisson_ratio));
   for (const std::string& doubt : stiff_spring_doubts(mesh)) warnings.push_back(doubt);
   if (!units.named()) return warnings;
   for (const formats::Substance& s : substances(mesh, materials)) {
@@ -181,20 +182,22 @@ std::vector<std::string> mass_warnings(const Mesh& mesh, const formats::RigidPro
   for (const NodalMass& mass : mesh.masses) of_elements -= mass.mass;
   for (const NodalMass& mass : mesh.masses)
     if (of_elements > 1e-9 * rigid.mass && mass.mass > most_point_mass * of_elements)
-      warnings.push_back(fmt::format("point mass '{}' of {:.4g}{} is {:.3g} times the mass of all elements, {:.4g}{}: "
-                                     "check it, and the densities",
-                                     mass.name, mass.mass, unit, mass.mass / of_elements, of_elements, unit));
+      warnings.push_back(
+          fmt::format("point mass '{}' of {:.4g}{} is {:.3g} times the mass of all elements, {:.4g}{}: check this mass "
+                      "and the densities",
+                      mass.name, mass.mass, unit, mass.mass / of_elements, of_elements, unit));
   Eigen::AlignedBox3d box;
   for (int node = 0; node < mesh.nodes(); ++node) box.extend(Eigen::Vector3d(mesh.position.col(node)));
   const double size = box.diagonal().norm(), outside = box.exteriorDistance(rigid.center_of_mass);
   if (outside > most_outside * size)
-    warnings.push_back(fmt::format("the centre of mass of the part lies {:.4g}{} beside its nodes, which extend over "
-                                   "{:.4g}{}: check the offsets of point masses",
-                                   outside, length, size, length));
+    warnings.push_back(
+        fmt::format("the centre of mass of the part lies {:.4g}{} away from its nodes, which extend over {:.4g}{}: "
+                    "check the offsets of point masses",
+                    outside, length, size, length));
   if (units.named() && rigid.mass * units.mass.factor >= most_mass)
-    warnings.push_back(fmt::format(
-        "the part has a mass of {:.3g}{}: is {} the unit of its nodes, and does the density belong to it?", rigid.mass,
-        unit, units.length.label));
+    warnings.push_back(
+        fmt::format("the part has a mass of {:.3g}{}: is {} the unit of its nodes, and does the density fit this unit?",
+                    rigid.mass, unit, units.length.label));
   return warnings;
 }
 

@@ -17,7 +17,7 @@
 
 namespace tisserand::reducer {
 
-/// Term of E2: E2[stress] += coefficient g[first] g[second].
+/// Product of two gradients g in the second-order strain E2: E2[stress] += coefficient g[first] g[second].
 struct QuadraticTerm {
   int stress = 0;
   int first = 0;
@@ -25,48 +25,54 @@ struct QuadraticTerm {
   double coefficient = 0.0;
 };
 
-/// Number of stresses and gradients of one point, node or element, and the products that join them.
+/// Second-order strain E2 of one point, node or element: the number of its stresses and of its gradients, and the
+/// products of gradients that make E2.
 struct QuadraticPattern {
   int stresses = 0;
   int gradients = 0;
   std::vector<QuadraticTerm> terms;
 };
 
-/// Stress [force; moment] on a point that turns: force · (−ω × u) + moment · (−ω × ψ); gradients ω, u, ψ.
+/// Second-order strain of a node of a corotated element that turns by ω. Stress: [force; moment] on the node.
+/// Gradients: ω, displacement u and rotation vector ψ of the node (3 each). E2: −ω × u for the force, −ω × ψ for the
+/// moment.
 ///
-/// It is the second order of displacements after a rotation is removed. With exp(ω)ᵀ the point X + u + ... has moved by
-/// u − ω × X at first and −ω × (u − ½ ω × X) at second order. A rotation vector ψ has become ψ − ω and −½ ω × ψ. The
-/// second order of ω itself does no work, since forces on an element are in equilibrium. So the linear rotation
-/// suffices (element-independent corotation).
+/// It is the second order of the displacements that remain after the rotation is removed. With exp(ω)ᵀ the point X + u
+/// + ... has moved by u − ω × X at first order, and by −ω × (u − ½ ω × X) at second order. A rotation vector ψ has
+/// become ψ − ω and −½ ω × ψ. The second order of ω itself does no work, since the forces on an element are in
+/// equilibrium. So the linear rotation suffices (element-independent corotation).
 const QuadraticPattern& turned_point();
 
-/// Green's strain of a point: stress [xx yy zz xy yz zx], gradients ∂u_i/∂x_k at 3 k + i; E2_kl = ½ Σ_i u_i,k u_i,l.
+/// Second-order part of Green's strain at a point: E2_kl = ½ Σ_i u_i,k u_i,l. Its components are
+/// ordered like those of stress, [xx yy zz xy yz zx]. The gradient ∂u_i/∂x_k has index 3 k + i.
 const QuadraticPattern& green_strain();
 
-/// Beam at a point of its axis, element axes: stress [n; m; W], gradients u', rotation vector ψ, and ψ'. Second order
-/// of Rᵀ x' − e₁ and of the material curvature: E2_n = u' × ψ + ½ (ψ ψ₁ − e₁ |ψ|²), E2_m = ½ ψ' × ψ. W = ∫σ |r − s|² dA
-/// on the elongation of fibres by twist, E2_W = ½ ψ₁'² (Wagner).
+/// Second-order strain of a beam at a point of its axis, in element axes. Stress: force n, moment m and W = ∫σ |r −
+/// s|² dA (7 numbers), where s is the shear centre. Gradients: u', rotation vector ψ, and ψ' (9). n and m work on the
+/// second order of Rᵀ x' − e₁ and of the material curvature: E2_n = u' × ψ + ½ (ψ ψ₁ − e₁ |ψ|²), E2_m = ½ ψ' × ψ. W
+/// works on the elongation of fibres by twist: E2_W = ½ ψ₁'² (Wagner).
 const QuadraticPattern& beam_point();
 
-/// Mean membrane forces [xx yy xy] of a shell on the variation of its rotations over the element at `points` points.
-/// Gradients are [ψx ψy ψz] of each point times the root of its share of the area; E2_xx = ½ Σ(ψy² + ψz²), E2_yy = ½
-/// Σ(ψx² + ψz²), E2_xy = −Σ ψx ψy.
+/// Second-order strain of a shell by the variation of its rotations ψ over the element, sampled at `points` points (3
+/// or 4). Stress: mean membrane forces [xx yy xy]. Gradients: [ψx ψy ψz] of each point times the root of its share of
+/// the area. E2_xx = ½ Σ(ψy² + ψz²), E2_yy = ½ Σ(ψx² + ψz²), E2_xy = −Σ ψx ψy.
 const QuadraticPattern& turning_sheet(int points);
 
-/// A pattern repeated `repeat` times, with its stresses and gradients block after block.
+/// Pattern that is repeated `repeat` times: blocks of stresses and gradients that follow one another.
 struct StrainSection {
   const QuadraticPattern* pattern = nullptr;
   int repeat = 0;
   bool operator==(const StrainSection&) const = default;
 };
 
-/// Stresses and gradients of an element for its coordinates (those of ElementMatrices), section by section.
+/// Stresses and gradients of an element as rows over its coordinates, which are those of ElementMatrices. Rows go
+/// section by section.
 struct SecondOrderRows {
   std::vector<StrainSection> sections;
   Eigen::MatrixXd stress;
   Eigen::MatrixXd gradient;
 
-  /// Sets these sections and zeroes the rows.
+  /// Sets the sections to `layout`, and the rows to zero with `coordinates` columns.
   void start(const std::vector<StrainSection>& layout, Eigen::Index coordinates);
 };
 
@@ -75,20 +81,23 @@ void second_order(const Mesh& mesh, const ShellElement& shell, SecondOrderRows& 
 void second_order(const Mesh& mesh, const SolidElement& solid, SecondOrderRows& out);
 void second_order(const Mesh& mesh, const Spring& spring, SecondOrderRows& out);
 
-/// Adds rows of a corotated element for the turned points `first`, `first` + 1, ... of `out`: forces S d, and
-/// displacements of nodes at X (from any point) without the rotation ω = turn d. S has six rows per node.
+/// Fills the rows of a corotated element: one turned_point() per node, the first of them at the beginning of `out`.
+/// Stress: the forces S d for the coordinates d, with six rows per node. Gradients: the rotation ω = turn d, and the
+/// displacements of the nodes without it. `X`: positions of the nodes from any point (3 x nodes).
 void add_corotated(const Eigen::MatrixXd& S, const Eigen::Matrix3Xd& X,
                    const Eigen::Matrix<double, 3, Eigen::Dynamic>& turn, SecondOrderRows& out);
 
-/// Rotation of two nodes: with the line between them, and about it with the mean of their rotations. For coincident
-/// nodes it is the mean rotation.
+/// Rotation of a pair of nodes as a rigid body, for its 12 coordinates [u θ; u θ] (3 x 12). Across the line between
+/// the nodes it is the turn of this line, about the line the mean of the rotations of both nodes. For coincident nodes
+/// it is the mean rotation.
 Eigen::Matrix<double, 3, Eigen::Dynamic> turn_of_pair(const Eigen::Vector3d& first_to_second);
 
-/// K_G (symmetric) of stresses σ, ordered as the sections' stresses, for the columns of `gradient`.
+/// Geometric stiffness K_G (symmetric) of the stresses `sigma`, which are ordered as in `sections`. K_G has a row and
+/// a column per column of `gradient`.
 Eigen::MatrixXd geometric_stiffness(const std::vector<StrainSection>& sections, const Eigen::MatrixXd& gradient,
                                     const Eigen::VectorXd& sigma);
 
-/// K_G[w] (symmetric).
+/// Geometric stiffness K_G[w] (symmetric) of an element under the stress of its displacements `w`.
 Eigen::MatrixXd geometric_stiffness(const SecondOrderRows& rows, const Eigen::VectorXd& w);
 
 }  // namespace tisserand::reducer

@@ -54,9 +54,9 @@ std::vector<std::string> stiff_spring_doubts(const Mesh& mesh) {
     const double stiff = by_translation ? own.translation : own.rotation;
     const double of_part = by_translation ? part.translation : part.rotation;
     doubts.push_back(
-        fmt::format("spring '{}' has a stiffness of {:.3g}, {:.2g} times that of the stiffest element ({:.3g}): the "
-                    "part's own is lost "
-                    "in its digits; 1e4 times as stiff as the elements is rigid already, or take a rigid spider",
+        fmt::format("spring '{}' has a stiffness of {:.3g}, {:.2g} times that of the stiffest element ({:.3g}), so "
+                    "round-off hides the stiffness of the part; use 1e4 times the stiffness of the elements, which is "
+                    "rigid enough, or a rigid spider",
                     spring.name, stiff, stiff / of_part, of_part));
   }
   return doubts;

@@ -23,7 +23,7 @@ RowKey make_key(long node, long component, const std::set<long>& modal, const st
   const bool internal = node < 0 || modal.contains(node);
   if (node == 0 || component < 1 || (!internal && component > 6) || component > 1000)
     throw Error(fmt::format("component {} of node {}, expected 1 to 6", component, node), where,
-                "give displacements and rotations only; name nodes that carry modes with --modal");
+                "give displacements and rotations only, or use --modal to name the nodes that carry modes");
   return {node, static_cast<int>(component) - 1};
 }
 
@@ -52,7 +52,8 @@ const abaqus::Block* only(const abaqus::Input& input, const std::string& keyword
   for (const abaqus::Block& block : input.blocks) {
     if (block.keyword != keyword) continue;
     if (found != nullptr)
-      throw Error(fmt::format("a second {}", block.title), input.where(block), "give one user element in a file");
+      throw Error(fmt::format("the file has a second {}", block.title), input.where(block),
+                  "give one user element per file");
     found = &block;
   }
   return found;
@@ -79,7 +80,7 @@ std::vector<long> element_nodes(const abaqus::Input& input, const abaqus::Block&
   }
   if (static_cast<long>(nodes.size()) != *count)
     throw Error(fmt::format("NODES={}, but {} node numbers are given", *count, nodes.size()), input.where(user),
-                "give them in the comment '** ELEMENT NODES' as Abaqus writes it, or with *ELEMENT");
+                "give them in the comment '** ELEMENT NODES', which Abaqus writes, or with *ELEMENT");
   return nodes;
 }
 
@@ -95,12 +96,13 @@ std::vector<RowKey> element_rows(const abaqus::Input& input, const abaqus::Block
     long position = 1;
     if (!from.empty()) position = numbers.front(), numbers.erase(numbers.begin());
     if (position < 1 || position > static_cast<long>(nodes.size()) || numbers.empty() || numbers.size() > 1000)
-      throw Error(fmt::format("position {} with {} components in an element of {} nodes", position, numbers.size(),
-                              nodes.size()),
+      throw Error(fmt::format("position {} with {} components does not fit an element of {} nodes", position,
+                              numbers.size(), nodes.size()),
                   input.where(line), "give the position of a node and its components");
     from[position] = numbers;
   }
-  if (!from.contains(1)) throw Error("has no components", input.where(user), "give a line such as 1, 2, 3, 4, 5, 6");
+  if (!from.contains(1))
+    throw Error("*USER ELEMENT has no components", input.where(user), "give a line such as 1, 2, 3, 4, 5, 6");
   std::vector<RowKey> rows;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (const long component : std::prev(from.upper_bound(i + 1))->second) {
@@ -125,7 +127,7 @@ TextMatrix block_matrix(const abaqus::Input& input, const abaqus::Block& block, 
       if (!value)
         throw Error(fmt::format("'{}' is not a finite number", shown(field)), input.where(line), "correct the number");
       if (matrix.entries.size() == expected)
-        throw Error(fmt::format("more than the {} numbers of {} rows", expected, n), input.where(line),
+        throw Error(fmt::format("more numbers than the {} for {} rows", expected, n), input.where(line),
                     "correct the components of *USER ELEMENT");
       add_entry(matrix, {rows[i], rows[j], *value, line.number});
       const std::size_t row_end = storage == Storage::square ? n - 1 : i;
@@ -135,7 +137,7 @@ TextMatrix block_matrix(const abaqus::Input& input, const abaqus::Block& block, 
         ++j;
     }
   if (matrix.entries.size() != expected)
-    throw Error(fmt::format("{} numbers, expected {} for {} rows", matrix.entries.size(), expected, n),
+    throw Error(fmt::format("has {} numbers, expected {} for {} rows", matrix.entries.size(), expected, n),
                 input.where(block), "correct the components of *USER ELEMENT, or write the whole file again");
   return matrix;
 }
@@ -160,7 +162,8 @@ UserElement read_user_element(const std::string& path, const std::set<long>& mod
     if (type != "stiffness" && type != "mass") continue;
     TextMatrix& matrix = type == "mass" ? element.mass : element.stiffness;
     if (!matrix.entries.empty())
-      throw Error(fmt::format("a second *MATRIX, TYPE={}", capitals(type)), input.where(block), "keep one of them");
+      throw Error(fmt::format("the file has a second *MATRIX, TYPE={}", capitals(type)), input.where(block),
+                  "keep one of them");
     matrix = block_matrix(input, block, element.rows, square ? Storage::square : Storage::one_triangle);
   }
   return element;
@@ -174,10 +177,10 @@ TextMatrix read_list(const std::string& path, const std::string& title, const st
     const std::vector<std::string_view> words = words_of(line);
     if (words.empty() || words[0][0] == '*') continue;
     if (words.size() == 3)
-      throw Error("three numbers: FORMAT=COORDINATE does not name nodes", lines.where(),
+      throw Error("has three numbers: FORMAT=COORDINATE does not name nodes", lines.where(),
                   "write the matrices with *MATRIX OUTPUT, FORMAT=MATRIX INPUT");
     if (words.size() != 5)
-      throw Error(fmt::format("has {} fields, expected node, component, node, component, value", words.size()),
+      throw Error(fmt::format("has {} fields, expected 5: node, component, node, component, value", words.size()),
                   lines.where(), "write the matrices with *MATRIX OUTPUT, FORMAT=MATRIX INPUT");
     std::array<long, 4> k{};
     for (std::size_t i = 0; i < 4; ++i) k[i] = integer_of(words[i], "a node or component", lines);
@@ -201,7 +204,7 @@ ReducedMatrices read_abaqus_matrices(const AbaqusSource& source, const std::set<
   matrices.modal = modal;
   if (!is_user_element(source.path)) {
     if (source.mass.empty())
-      throw Error("holds one matrix", source.path, "give the file of the mass matrix with --mass");
+      throw Error("holds only one matrix", source.path, "give the file of the mass matrix with --mass");
     const TextMatrix stiffness = read_list(source.path, "the stiffness matrix", modal);
     assemble(stiffness, read_list(source.mass, "the mass matrix", modal), matrices);
     return matrices;
@@ -210,12 +213,13 @@ ReducedMatrices read_abaqus_matrices(const AbaqusSource& source, const std::set<
   if (!source.mass.empty()) {
     UserElement second = read_user_element(source.mass, modal);
     if (second.rows != element.rows)
-      throw Error(fmt::format("has other rows than {}", source.path), source.mass, "give two matrices of one element");
+      throw Error(fmt::format("its rows differ from those of {}", source.path), source.mass,
+                  "give two matrices of the same element");
     element.mass = std::move(second.mass);
   }
   if (element.stiffness.entries.empty() || element.mass.entries.empty())
     throw Error(fmt::format("has no *MATRIX, TYPE={}", element.mass.entries.empty() ? "MASS" : "STIFFNESS"),
-                source.path, "write both matrices; a mass matrix in a file of its own is given with --mass");
+                source.path, "write both matrices, or name the file of the mass matrix with --mass");
   matrices.rows = element.rows;
   fill(element.stiffness, element.mass, matrices);
   if (has_line(TextLines(source.path).text(), "*NODE")) matrices.places = read_places(source.path);

@@ -9,14 +9,15 @@
 namespace tisserand::reducer::exchange {
 
 struct AbaqusSource {
-  std::string path;  ///< file of both matrices, or of the stiffness
-  std::string mass;  ///< may be empty if `path` contains both
+  std::string path;  ///< file of both matrices, or of the stiffness only
+  std::string mass;  ///< file of the mass matrix; empty if `path` has both
 };
 
-/// Reads either *USER ELEMENT, LINEAR with *MATRIX, TYPE=STIFFNESS and TYPE=MASS (*SUBSTRUCTURE MATRIX OUTPUT, OUTPUT
-/// FILE=USER DEFINED; node numbers from the comment ** ELEMENT NODES or from *ELEMENT), or lines "node, component,
-/// node, component, value" (*MATRIX OUTPUT, FORMAT=MATRIX INPUT). Components 1 to 6. Places are empty, except for *NODE
-/// in the same deck. Throws Error.
+/// Reads the reduced matrices of Abaqus in one of two forms. The first is *USER ELEMENT, LINEAR with *MATRIX,
+/// TYPE=STIFFNESS and TYPE=MASS (*SUBSTRUCTURE MATRIX OUTPUT, OUTPUT FILE=USER DEFINED). Its node numbers come from
+/// the comment ** ELEMENT NODES or from *ELEMENT. The second has lines "node, component, node, component, value"
+/// (*MATRIX OUTPUT, FORMAT=MATRIX INPUT) with components 1 to 6. `modal`: nodes whose rows are internal coordinates.
+/// The result has places of nodes only if the deck has *NODE. Throws Error.
 ReducedMatrices read_abaqus_matrices(const AbaqusSource& source, const std::set<long>& modal);
 
 }  // namespace tisserand::reducer::exchange

@@ -8,8 +8,9 @@
 
 namespace tisserand::reducer::exchange {
 
-/// `stiffness` is job.sti; job.mas and job.dof are in the same folder. Lines "row column value", one triangle; lines
-/// "node.direction", one per row. Places are empty. Throws Error.
+/// Reads the matrices that CalculiX has stored. `stiffness`: path of job.sti; job.mas and job.dof must be in the same
+/// folder. The matrices have lines "row column value" for one triangle, job.dof has a line "node.direction" for each
+/// row. `modal`: nodes whose rows are internal coordinates. The result has no places of nodes. Throws Error.
 ReducedMatrices read_calculix_matrices(const std::string& stiffness, const std::set<long>& modal);
 
 }  // namespace tisserand::reducer::exchange

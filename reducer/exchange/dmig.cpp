@@ -75,16 +75,14 @@ void Reader::header(CardFields& fields, const std::string& name) {
   refused.insert(name);  // until the header is accepted
   if (!fields.ok()) return;
   if (form != 1 && form != 6)
-    return fields.fault(fmt::format("IFO is {}, expected 6 (symmetric) or 1 (square)", form),
-                        "a reduced stiffness or mass matrix is square");
+    return fields.fault(fmt::format("IFO is {}, expected 6 (symmetric) or 1 (square)", form), "give a square matrix");
   if ((type != 1 && type != 2) || polar != 0)
     return fields.fault(fmt::format("TIN is {}, POLAR {}: expected a real matrix, TIN 1 or 2", type, polar),
                         "export stiffness and mass without damping");
   TextMatrix matrix{
       name, model.cards.files[fields.card().file], form == 6 ? Storage::one_triangle : Storage::square, {}};
   if (!matrices.emplace(name, std::move(matrix)).second)
-    return fields.fault(fmt::format("matrix {} has a header already", name),
-                        "keep one matrix of that name in the file");
+    return fields.fault(fmt::format("matrix {} has a second header", name), "keep one matrix of that name in the file");
   refused.erase(name);
 }
 
@@ -98,11 +96,13 @@ RowKey Reader::key(CardFields& fields, int index) {
   if (component < 1 || component > 6) {
     fault(fields,
           grid ? fmt::format("component {} of GRID {}, expected 1 to 6", component, id)
-               : fmt::format("point {} with component {} is no SPOINT or EPOINT", id, component),
+               : fmt::format("point {} with component {} is not an SPOINT or EPOINT", id, component),
           grid ? "correct the component" : "add the SPOINT card, here or in the file of positions");
     return {};
   }
-  if (scalar) fault(fields, fmt::format("component {} of scalar point {}", component, id), "a scalar point has one");
+  if (scalar)
+    fault(fields, fmt::format("component {} of scalar point {}, expected 0 or 1", component, id),
+          "correct the component");
   return {id, static_cast<int>(component) - 1};
 }
 
@@ -110,7 +110,7 @@ void Reader::column(CardFields& fields, const std::string& name) {
   if (refused.contains(name)) return;
   const auto found = matrices.find(name);
   if (found == matrices.end())
-    return fault(fields, fmt::format("column of {} before its header", name),
+    return fault(fields, fmt::format("this column of {} comes before its header", name),
                  "begin the matrix with a card DMIG, name, 0, IFO, TIN");
   const RowKey column = key(fields, 1);
   for (int i = first_term; i < fields.size() && fields.ok(); i += 4) {
@@ -128,7 +128,7 @@ const TextMatrix& find_matrix(const Reader& reader, const std::string& wanted, c
   std::vector<std::string> names;
   for (const auto& [name, matrix] : reader.matrices) names.push_back(name);
   throw Error(fmt::format("holds no DMIG matrix {}{}", wanted,
-                          names.empty() ? std::string() : fmt::format(", but {}", listed(names))),
+                          names.empty() ? std::string() : fmt::format(", only {}", listed(names))),
               path, "name the matrices with --matrices K,M");
 }
 
@@ -150,7 +150,7 @@ void check_count(const NastranModel& model, const TextMatrix& matrix) {
     if (static_cast<std::size_t>(terms) != matrix.entries.size())
       throw Error(
           fmt::format("{} has {} terms, but the comment before it says {}", matrix.title, matrix.entries.size(), terms),
-          matrix.file, "lines were lost or added: export it again, or remove the comment");
+          matrix.file, "lines are missing or were added: export the matrix again, or remove the comment");
   }
 }
 
@@ -198,12 +198,13 @@ ReducedMatrices read_dmig(const DmigSource& source) {
   }
   for (const long id : points.scalar)
     if (points.places.contains(id))
-      throw Error(fmt::format("point {} is a GRID and a scalar point", id), source.path, "remove one of the cards");
+      throw Error(fmt::format("point {} is both a GRID and a scalar point", id), source.path,
+                  "remove one of the cards");
 
   Reader reader{model, points};
   model.for_each("DMIG", [&](CardFields& fields) {
     const std::string name = capitals(fields.text(0));
-    if (name.empty()) return fields.fault("has no name", "give the matrix a name");
+    if (name.empty()) return fields.fault("the matrix has no name", "give the matrix a name");
     if (fields.text(1) == "0")
       reader.header(fields, name);
     else

@@ -57,7 +57,7 @@ Outcome to_matrix_market(const formats::Superelement& element, const std::string
   return {{{base + ".S.mtx", matrix_market_text(element.stiffness, "stiffness of " + comment)},
            {base + ".M.mtx", matrix_market_text(element.mass, "mass of " + comment)},
            {base + ".rows.csv", rows_text(element)}},
-          "17 digits: nothing is lost, except names of units and of the part"};
+          "numbers have 17 digits and are exact; the files do not hold the names of the units and of the part"};
 }
 
 Outcome to_fmx(const formats::Superelement& given, const std::string& base) {
@@ -67,7 +67,7 @@ Outcome to_fmx(const formats::Superelement& given, const std::string& base) {
            {base + "_M.fmx", fmx_bytes(FmxKind::mass, 0, element.mass)},
            {base + "_G.fmx", fmx_bytes(FmxKind::gravity, 0, gravity)},
            {base + ".rows.csv", rows_text(element)}},
-          "binary: nothing is lost; rows are those of the triads in the order of the table, then component modes"};
+          "binary numbers are exact; rows are those of the triads in the order of the table, then component modes"};
 }
 
 Outcome convert(const ExportRequest& request, const formats::Superelement& element) {
@@ -77,15 +77,15 @@ Outcome convert(const ExportRequest& request, const formats::Superelement& eleme
   const bool asked = !request.output.empty();
   if (request.to == "dmig")
     return {{{asked ? request.output : base + ".pch", dmig_text(element)}},
-            "10 to 13 digits, as 16 characters hold; nodes are numbered 1, 2, ..., modes from 1000001"};
+            "numbers have 10 to 13 digits, because a field has 16 characters; nodes are numbered from 1, modes from "
+            "1000001"};
   if (request.to == "mbdyn")
     return {{{asked ? request.output : base + ".fem", mbdyn_text(element, request.input)}},
-            "free elastic modes in mean axes: stiffness and inertia of small motions are kept; centrifugal loads on "
-            "the modes are "
-            "not, as MBDyn takes them from lumped masses, which a superelement does not have"};
+            "free elastic modes in mean axes, with the stiffness and inertia of small motions. Centrifugal loads on "
+            "the modes are missing: MBDyn computes them from lumped masses, which a superelement does not have"};
   if (request.to == "matrixmarket") return to_matrix_market(element, base);
   if (request.to == "fmx") return to_fmx(element, base);
-  throw Error(fmt::format("'{}' is no format", shown(request.to)), "--to",
+  throw Error(fmt::format("'{}' is not a format", shown(request.to)), "--to",
               "choose one of dmig, matrixmarket, fmx, mbdyn");
 }
 
@@ -102,7 +102,7 @@ void export_matrices(const ExportRequest& request) {
   std::string text;
   for (const OutputFile& file : outcome.files)
     text += fmt::format("{:<19}{}\n", text.empty() ? "written" : "", file.path);
-  say(text + fmt::format("{:<19}{}\n", "kept", outcome.remark));
+  say(text + fmt::format("{:<19}{}\n", "note", outcome.remark));
 }
 
 }  // namespace tisserand::reducer::exchange

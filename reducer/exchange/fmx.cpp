@@ -43,9 +43,9 @@ TextMatrix read_matrix(const std::string& path, FmxKind kind, const std::vector<
   std::int16_t order = 0;
   std::memcpy(&order, bytes.data() + tag_length, sizeof order);
   if (order != byte_order)
-    throw Error("has the other order of bytes", path, "write the file on a machine of the same order of bytes");
+    throw Error("has the opposite byte order", path, "write the file on a machine with the byte order of this one");
   if (bytes.compare(head_length - std::strlen(version), std::strlen(version), version) != 0)
-    throw Error("is of another version than 1.0", path, "write the file with a version of FEDEM that is open source");
+    throw Error("does not have version 1.0", path, "write the file with an open-source version of FEDEM");
   const std::size_t n = rows.size(), expected = head_length + n * n * sizeof(double);
   if (bytes.size() != expected)
     throw Error(fmt::format("has {} bytes, expected {} for the {} rows of the table", bytes.size(), expected, n), path,

@@ -37,7 +37,7 @@ std::string replaced(const std::string& path, const std::string& ending, const s
 std::string format_of(const ImportRequest& request) {
   if (!request.from.empty()) {
     if (std::find(formats_known.begin(), formats_known.end(), request.from) == formats_known.end())
-      throw Error(fmt::format("'{}' is no format", shown(request.from)), "--from",
+      throw Error(fmt::format("'{}' is not a format", shown(request.from)), "--from",
                   fmt::format("choose one of {}", join(formats_known, ", ")));
     return request.from;
   }
@@ -48,7 +48,7 @@ std::string format_of(const ImportRequest& request) {
   if (start.starts_with("#FEDEM")) return "fmx";
   if (has_line(lines.text(), "DMIG")) return "dmig";
   if (start.starts_with("*") || (!start.empty() && start[0] >= '0' && start[0] <= '9')) return "abaqus";
-  throw Error("is no file of reduced matrices that this program knows", request.input,
+  throw Error("does not look like a file of reduced matrices", request.input,
               fmt::format("name its format with --from {}", join(formats_known, " | ")));
 }
 
@@ -56,7 +56,7 @@ Units units_of(const std::string& text) {
   if (text == "consistent") return Units::consistent();
   const std::vector<std::string_view> words = words_of(text);
   if (words.size() != 3)
-    throw Error(fmt::format("'{}' are no units", shown(text)), "--units",
+    throw Error(fmt::format("'{}' does not name units", shown(text)), "--units",
                 "give length,mass,time such as m,kg,s or mm,t,s, or consistent");
   return {length_unit(std::string(words[0])), mass_unit(std::string(words[1])), time_unit(std::string(words[2]))};
 }
@@ -67,7 +67,7 @@ std::map<long, std::string> names_of(const std::string& text) {
     const std::size_t equals = word.find('=');
     const std::optional<long> node = parse_integer(word.substr(0, equals));
     if (equals == std::string_view::npos || !node || !names.emplace(*node, word.substr(equals + 1)).second)
-      throw Error(fmt::format("'{}' gives no name to a node", shown(word)), "--names",
+      throw Error(fmt::format("'{}' is not a new pair of node number and name", shown(word)), "--names",
                   "give number=name once for each node, such as 101=base,102=tip");
   }
   return names;
@@ -80,7 +80,7 @@ std::set<long> modal_of(const std::string& text) {
     const std::optional<long> first = parse_integer(word.substr(0, dash));
     const std::optional<long> last = dash == std::string_view::npos ? first : parse_integer(word.substr(dash + 1));
     if (!first || !last || *last < *first || *last - *first >= longest_node_range)
-      throw Error(fmt::format("'{}' is no number or range of nodes", shown(word)), "--modal",
+      throw Error(fmt::format("'{}' is not a node number or a range of node numbers", shown(word)), "--modal",
                   "give numbers and ranges such as 1001-1008,2000");
     for (long node = *first; node <= *last; ++node) nodes.insert(node);
   }
@@ -94,7 +94,7 @@ DmigSource dmig_source(const ImportRequest& request) {
   if (request.matrices.empty()) return source;
   const std::vector<std::string_view> words = words_of(request.matrices);
   if (words.size() != 2)
-    throw Error(fmt::format("'{}' are not two names", shown(request.matrices)), "--matrices",
+    throw Error(fmt::format("'{}' does not hold two names", shown(request.matrices)), "--matrices",
                 "give the names of stiffness and mass such as KAAX,MAAX");
   source.stiffness = words[0];
   source.mass = words[1];
@@ -107,8 +107,8 @@ std::string companion(const ImportRequest& request, const std::string& asked, co
   if (!asked.empty()) return asked;
   if (!guess.empty() && std::filesystem::exists(guess)) return guess;
   const std::string what = option == "--rows" ? "the table of its rows" : "the mass matrix";
-  throw Error(guess.empty() ? fmt::format("comes without {}", what)
-                            : fmt::format("comes without {}: there is no file '{}'", what, guess),
+  throw Error(guess.empty() ? fmt::format("{} is missing", what)
+                            : fmt::format("{} is missing: there is no file '{}'", what, guess),
               request.input, fmt::format("name the file with {} FILE", option));
 }
 
@@ -134,9 +134,10 @@ ReducedMatrices read_matrices(const ImportRequest& request) {
 
 std::string import_text(const ImportCertificate& c) {
   std::string text = fmt::format("{:<19}{} ({})\n", "imported from", c.source, c.format);
-  text += fmt::format("{:<19}asymmetry S {:.1e}, M {:.1e}; S R {:.1e}{}; S_BI {:.1e}{}\n", "as found",
-                      c.stiffness_asymmetry, c.mass_asymmetry, c.rigid_residual, c.filtered ? ", projected out" : "",
-                      c.stiffness_coupling, c.canonical ? ", in canonical form" : ", brought to canonical form");
+  text += fmt::format("{:<19}asymmetry S {:.1e}, M {:.1e}; rigid motions S R {:.1e}{}; coupling S_BI {:.1e}{}\n",
+                      "input deviations", c.stiffness_asymmetry, c.mass_asymmetry, c.rigid_residual,
+                      c.filtered ? ", projected out" : "", c.stiffness_coupling,
+                      c.canonical ? ", in canonical form" : ", brought to canonical form");
   if (c.massless_dropped > 0)
     text += fmt::format("{:<19}{} internal directions without mass were condensed statically\n", "note",
                         c.massless_dropped);

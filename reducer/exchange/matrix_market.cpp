@@ -33,11 +33,11 @@ Header read_header(TextLines& lines) {
                 "correct the header");
   if (!same_word(words[3], "real") && !same_word(words[3], "double") && !same_word(words[3], "integer"))
     throw Error(fmt::format("field '{}', expected real or integer", shown(words[3])), lines.where(),
-                "stiffness and mass are real matrices");
+                "give real matrices");
   const bool symmetric = same_word(words[4], "symmetric");
   if (!symmetric && !same_word(words[4], "general"))
     throw Error(fmt::format("symmetry '{}', expected symmetric or general", shown(words[4])), lines.where(),
-                "stiffness and mass are symmetric matrices");
+                "give symmetric matrices");
   return {coordinate ? Layout::coordinate : Layout::array, symmetric ? Storage::one_triangle : Storage::square};
 }
 
@@ -55,7 +55,7 @@ std::vector<std::string_view> next_words(TextLines& lines) {
 std::size_t row_index(std::string_view word, std::size_t n, const TextLines& lines) {
   const long i = integer_of(word, "a row or column", lines);
   if (i < 1 || i > static_cast<long>(n))
-    throw Error(fmt::format("row or column {}, expected 1 to {}", i, n), lines.where(), "correct the number");
+    throw Error(fmt::format("row or column is {}, expected 1 to {}", i, n), lines.where(), "correct the number");
   return static_cast<std::size_t>(i) - 1;
 }
 
@@ -65,7 +65,7 @@ void read_coordinates(TextLines& lines, const std::vector<RowKey>& rows, long co
     if (words.empty())
       throw Error(fmt::format("ends after {} of {} entries", k, count), lines.path(), "write the whole file again");
     if (words.size() != 3)
-      throw Error(fmt::format("has {} numbers, expected row, column and value", words.size()), lines.where(),
+      throw Error(fmt::format("has {} numbers, expected 3: row, column, value", words.size()), lines.where(),
                   "correct the line");
     const std::size_t i = row_index(words[0], rows.size(), lines), j = row_index(words[1], rows.size(), lines);
     add_entry(matrix, {rows[i], rows[j], number_of(words[2], "the value", lines), lines.number()});
@@ -83,7 +83,8 @@ void read_array(TextLines& lines, const std::vector<RowKey>& rows, TextMatrix& m
                     "write the whole file again");
       add_entry(matrix, {rows[i], rows[j], number_of(words[at], "the value", lines), lines.number()});
     }
-  if (at < words.size()) throw Error("holds more values than its size says", lines.where(), "correct the size");
+  if (at < words.size())
+    throw Error("holds more values than the line of sizes announces", lines.where(), "correct the size");
 }
 
 TextMatrix read_matrix(const std::string& path, const std::string& title, const std::vector<RowKey>& rows) {
@@ -94,7 +95,7 @@ TextMatrix read_matrix(const std::string& path, const std::string& title, const 
   const std::size_t expected = header.layout == Layout::coordinate ? 3 : 2;
   if (sizes.size() != expected)
     throw Error(fmt::format("the line of sizes has {} numbers, expected {}", sizes.size(), expected), lines.where(),
-                "give rows, columns and, for coordinates, the number of entries");
+                "give the numbers of rows and columns and, for format coordinate, the number of entries");
   const auto n = static_cast<long>(rows.size());
   const long found = integer_of(sizes[0], "the number of rows", lines);
   if (found != n || integer_of(sizes[1], "the number of columns", lines) != n)
@@ -105,11 +106,13 @@ TextMatrix read_matrix(const std::string& path, const std::string& title, const 
   } else {
     const long count = integer_of(sizes[2], "the number of entries", lines);
     if (count < 0 || count > n * n)
-      throw Error(fmt::format("{} entries in a matrix of {} rows", count, n), lines.where(), "correct the number");
+      throw Error(fmt::format("the number of entries is {} for a matrix of {} rows", count, n), lines.where(),
+                  "correct the number");
     read_coordinates(lines, rows, count, matrix);
   }
   if (!next_words(lines).empty())
-    throw Error("holds more lines than its size says", lines.where(), "correct the size, or write the file again");
+    throw Error("holds more lines than the line of sizes announces", lines.where(),
+                "correct the size, or write the file again");
   return matrix;
 }
 

@@ -10,10 +10,12 @@
 
 namespace tisserand::reducer::exchange {
 
-/// Reads coordinate and array files, real or integer, symmetric or general, and the table of rows. Throws Error.
+/// Reads two Matrix Market files and their table of rows. The files may be in coordinate or array format, real or
+/// integer, symmetric or general. Throws Error.
 ReducedMatrices read_matrix_market(const TabledFiles& files);
 
-/// Coordinate, real, symmetric format: the lower triangle without zeros, column by column, 17 digits.
+/// Matrix Market file of a symmetric matrix A, in the format "coordinate real symmetric". It has the lower triangle
+/// without zeros, column by column, with 17 digits. `comment`: text of its comment.
 std::string matrix_market_text(const Eigen::MatrixXd& A, const std::string& comment);
 
 }  // namespace tisserand::reducer::exchange

@@ -48,9 +48,10 @@ std::array<Eigen::Index, 6> rows_of_node(const formats::Superelement& element, i
     if (element.dof_node[i] == node) rows[element.dof_component[i]] = static_cast<Eigen::Index>(i);
   for (const Eigen::Index row : rows)
     if (row < 0)
-      throw Error(fmt::format("node '{}' has not all six coordinates, as MBDyn demands of a node that it connects",
-                              element.node_name[node]),
-                  where, "connect the boundary node to its surface with a spider, which gives it rotations");
+      throw Error(
+          fmt::format("node '{}' does not have all six coordinates, which MBDyn requires of a node that it connects",
+                      element.node_name[node]),
+          where, "connect the boundary node to its surface with a spider, which gives it rotations");
   return rows;
 }
 
@@ -86,7 +87,8 @@ std::string matrix_text(const Eigen::VectorXd& diagonal) {
 
 ElasticModes elastic_modes(const formats::Superelement& element, const std::string& where) {
   const Eigen::Index n = element.size();
-  if (n <= 6) throw Error(fmt::format("has {} coordinates, so no elastic mode", n), where, "use a rigid body in MBDyn");
+  if (n <= 6)
+    throw Error(fmt::format("has {} coordinates and therefore no elastic mode", n), where, "use a rigid body in MBDyn");
   const formats::ScaledMatrices s = formats::scale(element);
   const auto D = s.stiffness_row.asDiagonal();
   const Eigen::MatrixXd R = formats::scaled_rigid_motions(element, s.stiffness_row, s.length);
@@ -95,7 +97,8 @@ ElasticModes elastic_modes(const formats::Superelement& element, const std::stri
   const Eigen::MatrixXd S_T = T.transpose() * (D * element.stiffness * D) * T, M_T = T.transpose() * M * T;
   const Eigen::LLT<Eigen::MatrixXd> cholesky(0.5 * (S_T + S_T.transpose()));
   if (cholesky.info() != Eigen::Success)
-    throw Error("has a motion without stiffness besides the six rigid ones", where, "check the superelement");
+    throw Error("has a motion without stiffness in addition to the six rigid-body motions", where,
+                "check the superelement");
   Eigen::MatrixXd B = cholesky.matrixL().solve(M_T);
   B = cholesky.matrixL().solve(B.transpose()).eval();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (B + B.transpose()));

@@ -14,7 +14,7 @@ namespace {
 
 void add(Places& places, long node, NodePlace place, const std::string& where) {
   if (!places.emplace(node, std::move(place)).second)
-    throw Error(fmt::format("node {} has a position already", node), where, "give every node one position");
+    throw Error(fmt::format("node {} has a second position", node), where, "give every node one position");
 }
 
 Places read_table(TextLines& lines) {
@@ -29,7 +29,7 @@ Places read_table(TextLines& lines) {
     first = false;
     if (heading) continue;
     if (words.size() != 4 && words.size() != 5)
-      throw Error(fmt::format("has {} fields, expected number, x, y, z and perhaps a name", words.size()),
+      throw Error(fmt::format("has {} fields, expected number, x, y, z and an optional name", words.size()),
                   lines.where(), "give lines such as 101, 0.5, 0, 1.2, tip");
     NodePlace place;
     for (std::size_t k = 0; k < 3; ++k) place.position[k] = number_of(words[k + 1], "a coordinate", lines);
@@ -42,8 +42,8 @@ Places read_table(TextLines& lines) {
 void read_node_block(const abaqus::Input& input, const abaqus::Block& block, Places& places) {
   const std::string* system = block.find("SYSTEM");
   if (system != nullptr && abaqus::lower(*system) != "r")
-    throw Error(fmt::format("*NODE with SYSTEM={} is not read here", shown(*system)), input.where(block),
-                "give Cartesian positions, or a table of lines number, x, y, z");
+    throw Error(fmt::format("*NODE with SYSTEM={} is not understood in a file of positions", shown(*system)),
+                input.where(block), "give Cartesian positions, or a table with node number, x, y, z in each line");
   for (const abaqus::Line& line : block.data) {
     const std::vector<std::string_view> fields = abaqus::split(line.text);
     const long id = fields.empty() ? 0 : abaqus::to_integer(fields[0]).value_or(0);
@@ -56,8 +56,8 @@ void read_node_block(const abaqus::Input& input, const abaqus::Block& block, Pla
       if (good) place.position[k - 1] = *value;
     }
     if (!good)
-      throw Error(fmt::format("'{}' is no node", shown(line.text)), input.where(line),
-                  "give its number and up to three coordinates");
+      throw Error(fmt::format("'{}' does not define a node", shown(line.text)), input.where(line),
+                  "give the number of the node and up to three coordinates");
     add(places, id, place, input.where(line));
   }
 }
@@ -67,8 +67,9 @@ Places read_abaqus_nodes(const std::string& path) {
   Places places;
   for (const abaqus::Block& block : input.blocks) {
     if (block.keyword == "INSTANCE" || block.keyword == "SYSTEM" || block.keyword == "NGEN")
-      throw Error(fmt::format("{} moves or makes nodes, which is not followed here", block.title), input.where(block),
-                  "give the positions as a flat list of *NODE lines, or as a table of lines number, x, y, z");
+      throw Error(fmt::format("{} moves or creates nodes, which is not understood in a file of positions", block.title),
+                  input.where(block),
+                  "give the positions as *NODE lines, or as a table with node number, x, y, z in each line");
     if (block.keyword == "NODE") read_node_block(input, block, places);
   }
   return places;

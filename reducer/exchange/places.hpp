@@ -12,14 +12,16 @@ struct NastranModel;
 
 namespace tisserand::reducer::exchange {
 
-/// Places from Abaqus or CalculiX input with *NODE, or Nastran bulk data with GRID. Any other file is a table of lines
-/// "number, x, y, z" or "number, x, y, z, name" (# begins a comment; a first line of words is skipped). Throws Error.
+/// Reads places of nodes from Abaqus or CalculiX input with *NODE, or from Nastran bulk data with GRID. Any other file
+/// is a table of lines "number, x, y, z" or "number, x, y, z, name". In a table # begins a comment, and a first line
+/// of words is skipped. Throws Error.
 Places read_places(const std::string& path);
 
-/// Reads the cards of a deck and sorts them by name. Throws Error for faults of single lines.
+/// Reads the cards of a Nastran deck into `model` and sorts them by name. Throws Error for faults of single lines.
 void read_cards(const std::string& path, NastranModel& model);
 
-/// Places from GRID and coordinate systems of cards that have been read, with axes from CD. Throws Error.
+/// Places of nodes from the GRID cards and coordinate systems of a deck that read_cards() has read. Their axes are
+/// those of CD. Throws Error.
 Places places_of(NastranModel& model);
 
 }  // namespace tisserand::reducer::exchange

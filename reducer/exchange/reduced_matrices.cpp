@@ -25,7 +25,7 @@ RowNumbers number_rows(const ReducedMatrices& matrices) {
   RowNumbers numbers;
   for (std::size_t i = 0; i < matrices.rows.size(); ++i)
     if (!numbers.emplace(matrices.rows[i], static_cast<Eigen::Index>(i)).second)
-      throw Error(fmt::format("row {} is {}, which an earlier row is too", i + 1, key_text(matrices.rows[i])),
+      throw Error(fmt::format("row {} is {}, which is already an earlier row", i + 1, key_text(matrices.rows[i])),
                   matrices.source, "give every coordinate one row");
   return numbers;
 }
@@ -33,8 +33,8 @@ RowNumbers number_rows(const ReducedMatrices& matrices) {
 Eigen::Index find_row(const RowNumbers& numbers, const RowKey& key, const TextMatrix& matrix, const MatrixEntry& e) {
   const auto found = numbers.find(key);
   if (found == numbers.end())
-    throw Error(fmt::format("{} has an entry of {}, which is no row", matrix.title, key_text(key)), where(matrix, e),
-                "add the row to the table of rows, or remove the entry");
+    throw Error(fmt::format("{} has an entry for {}, which is not a row", matrix.title, key_text(key)),
+                where(matrix, e), "add the row to the table of rows, or remove the entry");
   return found->second;
 }
 
@@ -47,11 +47,11 @@ Eigen::MatrixXd dense(const TextMatrix& matrix, const RowNumbers& numbers) {
     const Eigen::Index i = find_row(numbers, e.row, matrix, e), j = find_row(numbers, e.column, matrix, e);
     if (!std::isfinite(e.value))
       throw Error(
-          fmt::format("{}: the entry of {} and {} is not finite", matrix.title, key_text(e.row), key_text(e.column)),
+          fmt::format("{}: the entry for {} and {} is not finite", matrix.title, key_text(e.row), key_text(e.column)),
           where(matrix, e), "correct the number");
     if (given(i, j) != 0)
       throw Error(
-          fmt::format("{}: the entry of {} and {} is given twice", matrix.title, key_text(e.row), key_text(e.column)),
+          fmt::format("{}: the entry for {} and {} is given twice", matrix.title, key_text(e.row), key_text(e.column)),
           where(matrix, e), "give every entry once");
     given(i, j) = 1;
     A(i, j) = e.value;
@@ -71,11 +71,12 @@ double symmetrise(const TextMatrix& matrix, const std::vector<RowKey>& rows, Eig
       const double scale = diagonal > 0.0 ? diagonal : std::max(std::abs(A(i, j)), std::abs(A(j, i)));
       worst = std::max(worst, difference / scale);
       if (!(difference <= symmetry_accepted * scale))
-        throw Error(fmt::format("{} is not symmetric: {} and {} give {}, the other way round {}", matrix.title,
-                                key_text(rows[i]), key_text(rows[j]), A(i, j), A(j, i)),
-                    matrix.file,
-                    "export stiffness and mass of a structure without follower loads, damping and gyroscopic terms; a "
-                    "matrix of which one triangle is given must say so in its header");
+        throw Error(
+            fmt::format("{} is not symmetric: the entry for {} and {} is {}, but the transposed entry is {}",
+                        matrix.title, key_text(rows[i]), key_text(rows[j]), A(i, j), A(j, i)),
+            matrix.file,
+            "export stiffness and mass without follower loads, damping and gyroscopic terms; if the file holds one "
+            "triangle only, its header must say so");
       const double mean = A(i, j) + 0.5 * (A(j, i) - A(i, j));
       A(i, j) = A(j, i) = mean;
     }
@@ -116,7 +117,7 @@ void assemble(const TextMatrix& stiffness, const TextMatrix& mass, ReducedMatric
   std::set<RowKey> boundary, internal;
   for (const TextMatrix* matrix : {&stiffness, &mass}) {
     if (matrix->entries.empty())
-      throw Error(fmt::format("{} has no entry", matrix->title), matrix->file, "give both stiffness and mass");
+      throw Error(fmt::format("{} has no entries", matrix->title), matrix->file, "give both stiffness and mass");
     for (const MatrixEntry& e : matrix->entries)
       for (const RowKey& key : {e.row, e.column}) (is_internal(matrices, key) ? internal : boundary).insert(key);
   }

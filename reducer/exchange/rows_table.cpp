@@ -44,8 +44,8 @@ long RowReader::node(const std::vector<std::string_view>& cells) {
   const std::optional<long> number = parse_integer(cells[1]);
   const std::string name = number ? fmt::format("n{}", *number) : std::string(cells[1]);
   if (!formats::is_name(name))
-    throw Error(fmt::format("'{}' is no name of a node", shown(cells[1])), lines.where(),
-                "use letters, digits, _ and -, beginning with a letter or _, or a whole number");
+    throw Error(fmt::format("'{}' is not a valid name of a node", shown(cells[1])), lines.where(),
+                "begin with a letter or _ and use letters, digits, _ and -; or give a whole number");
   NodePlace place;
   place.name = name;
   if (cells.size() != 6)
@@ -55,8 +55,8 @@ long RowReader::node(const std::vector<std::string_view>& cells) {
   if (is_new)
     matrices.places.emplace(found->second, place);
   else if (matrices.places.at(found->second).position != place.position)
-    throw Error(fmt::format("node '{}' had another position before", name), lines.where(),
-                "give a node one position in all its rows");
+    throw Error(fmt::format("node '{}' had a different position in an earlier row", name), lines.where(),
+                "give the node the same position in all its rows");
   return found->second;
 }
 
@@ -65,7 +65,7 @@ void RowReader::row(const std::vector<std::string_view>& cells) {
   if (cells.size() < 3)
     throw Error(fmt::format("has {} cells, expected 6: {}", cells.size(), heading), lines.where(), "complete the line");
   if (integer_of(cells[0], "the number of the row", lines) != static_cast<long>(expected))
-    throw Error(fmt::format("is row {}, expected {}", shown(cells[0]), expected), lines.where(),
+    throw Error(fmt::format("the number of the row is {}, expected {}", shown(cells[0]), expected), lines.where(),
                 "give the rows in order, from 1");
   if (expected > most_rows)
     throw Error(fmt::format("more than {} rows", most_rows), lines.where(), "give reduced matrices");
@@ -97,7 +97,7 @@ ReducedMatrices read_rows(const std::string& format, const TabledFiles& files) {
     first = false;
     if (!is_heading) reader.row(cells);
   }
-  if (matrices.rows.empty()) throw Error("has no rows", files.rows, fmt::format("give lines {}", heading));
+  if (matrices.rows.empty()) throw Error("has no rows", files.rows, fmt::format("give lines with {}", heading));
   return matrices;
 }
 

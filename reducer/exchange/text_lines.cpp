@@ -28,8 +28,7 @@ TextLines::TextLines(const std::string& path) : path_(path) {
     throw Error(std::filesystem::exists(path, code) ? "is not a regular file" : "does not exist", path,
                 "check the path");
   const std::uintmax_t size = std::filesystem::file_size(path, code);
-  if (code || size > most_bytes)
-    throw Error("is larger than 2 GiB", path, "give reduced matrices; this file cannot be one of them");
+  if (code || size > most_bytes) throw Error("is larger than 2 GiB", path, "give a file of reduced matrices");
   std::ifstream stream(path, std::ios::binary);
   text_.resize(static_cast<std::size_t>(size));
   if (!stream || (size > 0 && !stream.read(text_.data(), static_cast<std::streamsize>(size))))

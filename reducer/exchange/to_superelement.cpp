@@ -38,7 +38,7 @@ Order order_rows(const ReducedMatrices& matrices) {
     if (!internal) order.boundary = static_cast<Eigen::Index>(order.row.size());
   }
   if (order.nodes.empty())
-    throw Error("the matrices have no row of a node with a position", matrices.source,
+    throw Error("no row belongs to a node with a position", matrices.source,
                 "a superelement needs boundary nodes; check the positions and the list of modal nodes");
   return order;
 }
@@ -70,9 +70,9 @@ void turn_axes(const ReducedMatrices& matrices, const Order& order, Turned turne
     Eigen::Matrix3d axes = matrices.places.at(key.first).axes;
     if (axes == Eigen::Matrix3d::Identity()) continue;
     if (std::find(triple.begin(), triple.end(), -1) != triple.end())
-      throw Error(fmt::format("node {} has axes of its own, but not all three {}", key.first,
+      throw Error(fmt::format("node {} has its own axes, but not all three {}", key.first,
                               key.second == 0 ? "translations" : "rotations"),
-                  matrices.source, "keep x, y and z of a node together");
+                  matrices.source, "keep x, y and z of the node");
     if (turned == Turned::bounds) axes = axes.cwiseAbs().eval();
     const Eigen::MatrixXd rows = axes * A(triple, Eigen::all);
     A(triple, Eigen::all) = rows;
@@ -90,8 +90,8 @@ std::string name_of(const ReducedMatrices& matrices, const ImportOptions& option
 void require_named_nodes(const ReducedMatrices& matrices, const ImportOptions& options, const Order& order) {
   for (const auto& [node, name] : options.node_names)
     if (std::find(order.nodes.begin(), order.nodes.end(), node) == order.nodes.end())
-      throw Error(fmt::format("node {}, which is to be called '{}', has no row", node, name), matrices.source,
-                  "correct the number in --names");
+      throw Error(fmt::format("node {}, for which --names gives the name '{}', has no row in the matrix", node, name),
+                  matrices.source, "correct the number in --names");
 }
 
 formats::Superelement describe(const ReducedMatrices& matrices, const ImportOptions& options, const Order& order) {
@@ -150,7 +150,7 @@ void make_canonical(formats::Superelement& e, Eigen::Index nb, const std::string
   const Eigen::Index m = form.S_II.size(), n = nb + m;
   if (m > 0 && !(form.S_II[0] > 0.0))
     throw Error("an internal coordinate has no stiffness", where,
-                "internal coordinates must not move without strain; write the file with fixed-boundary modes");
+                "a motion of internal coordinates must cause strain; write the file with fixed-boundary modes");
   c.massless_dropped = static_cast<int>(form.massless);
   e.dof_node.resize(static_cast<std::size_t>(n));
   e.dof_component.resize(static_cast<std::size_t>(n));

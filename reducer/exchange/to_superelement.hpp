@@ -15,19 +15,20 @@ namespace tisserand::reducer::exchange {
 struct ImportOptions {
   std::string name;                        ///< name of the superelement
   Units units;                             ///< units of the file
-  std::map<long, std::string> node_names;  ///< override NodePlace::name and n<number>
+  std::map<long, std::string> node_names;  ///< names of nodes by number, which replace NodePlace::name and n<number>
 };
 
 struct Imported {
   formats::Superelement element;
-  formats::SuperelementReport report;  ///< report on the result
-  ImportCertificate certificate;       ///< deviations found in the input
+  formats::SuperelementReport report;  ///< report of check() on the superelement
+  ImportCertificate certificate;       ///< deviations that the matrices had before the import
 };
 
-/// Turns rows of nodes into the part frame, u = A u_node. Boundary rows come first, in the order of the matrices.
-/// Matrices in canonical form stay as they are, bit for bit. Others are brought there by the congruence y_I = −S_II⁻¹
-/// S_IB y_B + Q η (canonical_form()). Rigid motions are projected out of S (filter_rigid_motions()) if they strain the
-/// part by more than 1e-12 and at most 1e-4 (check()). Throws Error for every inconsistency.
+/// Makes a superelement from foreign reduced matrices. It turns the rows of nodes to the part frame by u = A u_node,
+/// with the axes A of the node. Boundary rows come first, in the order of the matrices. Matrices in canonical form
+/// stay as they are, bit for bit. Others are brought to this form by the congruence y_I = −S_II⁻¹ S_IB y_B + Q η
+/// (canonical_form()). Rigid motions are projected out of S (filter_rigid_motions()) if they strain the part by more
+/// than 1e-12 and at most 1e-4 (check()). Throws Error for every inconsistency.
 Imported to_superelement(const ReducedMatrices& matrices, const ImportOptions& options);
 
 }  // namespace tisserand::reducer::exchange

@@ -8,10 +8,11 @@
 
 namespace tisserand::reducer {
 
-/// Sign of each cell of dimension 2. Seen from outside of the one volume that it bounds, its corners are
-/// counter-clockwise (+1) or clockwise (-1). It is 0 if the cell bounds none or two or the volume is open. Volumes are
-/// cells of dimension 3, else those of CellMesh::geometry, else all faces together if they are closed. The part of a
-/// boundary with the largest box is the outer one, all others are holes.
+/// Sign of each cell of dimension 2 in the mesh, which shows its orientation. It is +1 if the corners are
+/// counter-clockwise for a viewer outside the volume that the cell bounds, and −1 if they are clockwise. It is 0 if
+/// the cell bounds no volume or two, or if the volume is not closed. Volumes are the cells of dimension 3, otherwise
+/// those of CellMesh::geometry. Without both, all faces together are one volume if they are closed. If the boundary of
+/// a volume has several pieces, the one with the largest box is the outer one. The others are holes.
 std::vector<int> outward_signs(const CellMesh& mesh);
 
 }  // namespace tisserand::reducer

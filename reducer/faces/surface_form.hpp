@@ -10,25 +10,29 @@ namespace tisserand::reducer {
 
 enum class FormKind { plane, cylinder, cone, sphere, torus, curved };
 
-/// "plane", ..., or "curved" for no such form.
+/// Word for a kind of form: "plane", ..., or "curved" for none of the other kinds.
 const char* form_word(FormKind kind);
 
 struct SurfaceForm {
   FormKind kind = FormKind::curved;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< on the plane or axis; apex of a cone; centre of sphere, torus
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector; normal of a plane; of a cone from the apex inwards
-  double radius = 0.0;                              ///< of cylinder or sphere; of the circle of centres of a torus
-  double minor_radius = 0.0;                        ///< of a torus
-  double half_angle = 0.0;                          ///< of a cone between axis and surface [rad]
+  /// Point on the plane or axis; apex of a cone; centre of a sphere or torus.
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  /// Unit vector of the axis; normal of a plane; for a cone from the apex inwards.
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+  /// Radius of a cylinder or sphere; for a torus that of the circle of centres.
+  double radius = 0.0;
+  double minor_radius = 0.0;  ///< radius of the tube of a torus
+  double half_angle = 0.0;    ///< angle of a cone between axis and surface [rad]
 };
 
-/// Signed distance to the form, positive on the side to which normal_at() points.
+/// Signed distance of the point `x` from the form, positive on the side to which normal_at() points.
 double distance(const SurfaceForm& form, const Eigen::Vector3d& x);
 
-/// Unit normal at the point of the form nearest to x: away from axis, centre or circle of centres.
+/// Unit normal at the point of the form nearest to `x`. It points away from the axis, the centre or the circle of
+/// centres.
 Eigen::Vector3d normal_at(const SurfaceForm& form, const Eigen::Vector3d& x);
 
-/// Points of a surface, and normals of either sign with their places.
+/// Points of a surface, and normals of either sign at the places `place`, for fitted_form().
 struct SurfaceSamples {
   std::vector<Eigen::Vector3d> point;
   std::vector<Eigen::Vector3d> place, normal;
@@ -36,9 +40,10 @@ struct SurfaceSamples {
   double angle = 0.0;      ///< largest permitted angle between a normal and that of the form [rad]
 };
 
-/// First kind in the order of FormKind that fits within the tolerances. Axes follow from normals, which are normal to a
-/// cylinder's axis, have one angle with a cone's and meet a torus's (Pottmann and Wallner, Computational Line Geometry,
-/// 2001, linear complexes). Gauss-Newton then minimises the distances of the points.
+/// Fits a form to samples of a surface. The result is the first kind in the order of FormKind that fits within the
+/// tolerances. Axes follow from the normals: these are normal to the axis of a cylinder, have one angle with that of a
+/// cone, and meet that of a torus. The method is that of linear complexes (Pottmann and Wallner, Computational Line
+/// Geometry, 2001). Gauss-Newton then minimises the distances of the points.
 SurfaceForm fitted_form(const SurfaceSamples& samples);
 
 }  // namespace tisserand::reducer

@@ -10,14 +10,16 @@
 
 namespace tisserand::reducer {
 
-/// x = T [1 0; Ψ Φ] y, computed by rows on request. T resolves ties and leaves coordinates without stiffness at zero.
+/// Motion of the whole mesh for every coordinate y of the superelement, x = T [1 0; Ψ Φ] y, computed by rows on
+/// request. T resolves ties and leaves coordinates without stiffness at zero.
 class FullShapes {
  public:
-  /// The objects to which `part` refers must outlive this one.
+  /// Prepares the rows. The objects to which `part` refers must outlive this object.
   explicit FullShapes(const ReducedPart& part);
 
   Eigen::Index coordinates() const { return n_B_ + internal_.Phi.cols(); }
-  /// [translation; rotation] of each node in part axes: (6 nodes) x coordinates; zero for missing rotations.
+  /// Motion [translation; rotation] of the nodes for each coordinate, in part axes ((6 nodes) x coordinates). Missing
+  /// rotations are zero.
   Eigen::MatrixXd motions(const std::vector<int>& nodes) const;
 
  private:
@@ -25,7 +27,7 @@ class FullShapes {
   const BoundaryModes& boundary_;
   const InternalModes& internal_;
   Eigen::Index n_B_;
-  std::vector<int> place_;  ///< boundary coordinate of each q, or n_B + row of Ψ and Φ
+  std::vector<int> place_;  ///< for each q: its boundary coordinate, or n_B + row of Ψ and Φ
 };
 
 }  // namespace tisserand::reducer

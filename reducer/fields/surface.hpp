@@ -13,16 +13,16 @@
 namespace tisserand::reducer {
 
 struct Surface {
-  std::vector<Eigen::Vector3i> triangle;  ///< nodes, counter-clockwise seen from outside
-  std::vector<int> element;               ///< number in element_nodes()
+  std::vector<Eigen::Vector3i> triangle;  ///< nodes of each triangle, counter-clockwise seen from outside
+  std::vector<int> element;               ///< element of each triangle, as number in element_nodes()
 };
 
-/// Surface of shells, split along their shorter diagonal, and of faces that only one solid has. Faces of quadratic
-/// solids have four or six triangles.
+/// Visible surface of the mesh as triangles: shells, split along their shorter diagonal, and faces that only one solid
+/// has. Faces of quadratic solids have four or six triangles.
 Surface surface(const Mesh& mesh);
 
-/// Constants and outer contour of a section. A section without a known shape gets the rectangle of the same area and
-/// second moments (a rod the circle of the same area).
+/// Constants and outer contour of a beam section for the recovery file. A section without a known shape gets the
+/// rectangle of the same area and second moments (a rod the circle of the same area).
 formats::RecoverySection recovery_section(const formats::Section& section);
 
 }  // namespace tisserand::reducer

@@ -14,8 +14,9 @@ struct Unfolding {
   std::size_t after = 0;
 };
 
-/// Runs gmsh's optimisation of curved cells if any is folded. Otherwise nothing is moved: the optimisation sums in an
-/// order that changes from run to run, so the last digits of its meshes differ.
+/// Runs gmsh's optimisation of curved cells if any cell is folded, and returns the number of folded cells before and
+/// after. Otherwise nothing is moved. The optimisation sums in an order that changes from run to run, so the last
+/// digits of its meshes differ.
 Unfolding unfold_cells();
 
 }  // namespace tisserand::reducer

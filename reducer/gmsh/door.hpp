@@ -7,18 +7,19 @@
 
 namespace tisserand::reducer {
 
-/// Sets limits of processor time [s] and memory [bytes], no core files, and the end together with the parent. An
-/// allocation beyond the limit ends this process with out_of_memory_code. Sanitizers reserve terabytes, so a build with
-/// them has no limit of memory.
+/// Sets limits of this process: processor time [s], memory [bytes], no core files, and its end together with the
+/// parent. An allocation beyond the limit ends the process with out_of_memory_code. Sanitizers reserve terabytes, so a
+/// build with them has no limit of memory.
 void set_limits(double seconds, double bytes);
 
-/// Landlock: from here on only `file` can be read, or everything in its folder and below. False if the kernel has no
-/// Landlock, or if another thread already runs, which it would not restrict.
+/// Restricts the files that this process can read, by Landlock. From here on these are only `file`, or everything in
+/// its folder and below if `whole_folder`. Returns false if the kernel has no Landlock, or if another thread already
+/// runs, which Landlock would not restrict.
 [[nodiscard]] bool close_paths(const std::string& file, bool whole_folder);
 
-/// seccomp: reading, computing and writing to open files continue. Starting programs, and making, renaming and removing
-/// files, end this process (SIGSYS). All other calls, such as opening a file for writing and sockets, fail with ENOSYS.
-/// False if the kernel has no seccomp.
+/// Restricts the system calls of this process, by seccomp. Reading, computing and writing to open files continue.
+/// Starting programs, and making, renaming and removing files, end the process (SIGSYS). All other calls, such as
+/// opening a file for writing and sockets, fail with ENOSYS. Returns false if the kernel has no seccomp.
 [[nodiscard]] bool close_calls();
 
 }  // namespace tisserand::reducer

@@ -8,8 +8,8 @@
 
 namespace tisserand::reducer {
 
-/// Data of each entity of the open model, lengths times `scale`: size and middle if OpenCASCADE has them. Faces also
-/// have points on a grid of their parameters, inside their parameter rectangle, and the volumes that they bound.
+/// Geometry of each entity of the open model, with lengths times `scale`: size and middle if OpenCASCADE has them.
+/// Faces also have the volumes that they bound, and points on a grid inside the rectangle of their parameters.
 std::vector<EntityGeometry> geometry_of(const std::vector<Entity>& entities, double scale);
 
 }  // namespace tisserand::reducer

@@ -51,12 +51,11 @@ std::string close_door(const GeometryRequest& request) {
   if (request.is_program && !request.is_trusted)
     throw Error(
         std::string(request.kind == MeshFileKind::geo ? "a .geo file is a program" : "the file has an .opt file") +
-            ", and this kernel cannot keep it from reading other files: it lacks " + missing,
+            ", and this kernel cannot prevent it from reading other files: it lacks " + missing,
         request.file,
-        request.kind == MeshFileKind::geo ? "read it first; if you trust it: --trust-geometry"
-                                          : "remove that; if you trust it: --trust-geometry");
-  return std::string("gmsh reads the file with less protection from files made to do harm: this kernel lacks ") +
-         missing;
+        request.kind == MeshFileKind::geo ? "read the file; if you trust it, add --trust-geometry"
+                                          : "remove the .opt file; if you trust it, add --trust-geometry");
+  return std::string("gmsh reads the file with less protection against untrusted files: this kernel lacks ") + missing;
 }
 
 CellMesh mesh_of(const GeometryRequest& request) {
@@ -77,8 +76,8 @@ std::string answer_of(const Error& error) {
   if (error.message().find("Out of memory") != std::string::npos) ::_exit(out_of_memory_code);
   if (error.message().find("Unable to open file") != std::string::npos)
     return pack(Error(error.message(), error.where(),
-                      "a geometry may read files of its own folder only (of others with --trust-geometry, if you trust "
-                      "it), and write none"));
+                      "a geometry may read only files of its own folder and write none; if you trust it, add "
+                      "--trust-geometry to let it read other files"));
   return pack(error);
 }
 
@@ -93,7 +92,7 @@ std::string answer_to(const GeometryRequest& request) {
   } catch (const std::exception& error) {
     return pack(Error(std::string("gmsh: ") + error.what(), request.file, look));
   } catch (...) {
-    return pack(Error("gmsh: an exception of OpenCASCADE", request.file, look));
+    return pack(Error("gmsh: OpenCASCADE failed without a message", request.file, look));
   }
 }
 

@@ -73,13 +73,12 @@ void unfold(const std::string& file, std::vector<std::string>& warnings) {
   const Unfolding cells = unfold_cells();
   if (cells.before == 0) return;
   if (cells.after > 0)
-    throw Error(
-        fmt::format("{} volume elements of second order are folded over themselves by curved faces", cells.after), file,
-        "choose a smaller mesh: size (or curvature, or sizes for the faces), or order: 1");
-  warnings.push_back(
-      fmt::format("{}: curved faces had folded {} elements of second order; their nodes were moved inside. A smaller "
-                  "mesh: size makes better elements",
-                  file, cells.before));
+    throw Error(fmt::format("curved faces fold {} volume elements of second order over themselves", cells.after), file,
+                "choose a smaller `size` of the mesh (or curvature, or sizes for the faces), or order: 1");
+  warnings.push_back(fmt::format(
+      "{}: curved faces folded {} elements of second order; their nodes were moved inside to unfold them. A "
+      "smaller `size` of the mesh gives better elements",
+      file, cells.before));
 }
 
 /// Length, area or volume of an entity; for a .geo file, whose kernel may not know it, about a quarter of its box.
@@ -118,10 +117,10 @@ void check_size(const GeometryRequest& request, int dimension, const gmsh::vecto
     throw Error(fmt::format("mesh: size {:g} is below the tolerance of the geometry, {:g}, and would make about {:.2g} "
                             "elements",
                             request.size, tolerance * request.scale, count),
-                request.file, "give a size of the order of the geometry's details, in units of the part");
+                request.file, "give a size close to that of the details of the geometry, in units of the part");
   if (count > most_elements)
-    throw Error(fmt::format("mesh: size {:g} would make about {:.2g} elements, more than {:g}: the geometry is {:.4g} "
-                            "large in units of the part",
+    throw Error(fmt::format("mesh: size {:g} would make about {:.2g} elements, more than {:g}: the geometry has the "
+                            "size {:.4g} in units of the part",
                             request.size, count, most_elements, size_of_model() * request.scale),
                 request.file, "use a larger size, and `sizes` where details need smaller ones; check the units");
 }
@@ -287,11 +286,12 @@ void open_geometry(GeometryRequest& request) {
   open_file(request);
   const double size = size_of_model();
   if (size > 0.0 && size < 1e-4)
-    throw Error(fmt::format("the geometry is {:.3g} {} large: the tolerances of gmsh, lengths of 1e-8, are too coarse "
-                            "for it",
-                            size, has_units ? "mm" : "of its units"),
-                request.file,
-                "check its unit; or enlarge it in the CAD program, and give scale under mesh to take it back");
+    throw Error(
+        fmt::format("the geometry has the size {:.3g} {}: the tolerances of gmsh, lengths of 1e-8, are too coarse "
+                    "for it",
+                    size, has_units ? "mm" : "of its units"),
+        request.file,
+        "check its unit; or enlarge it in the CAD program, and give `scale` under mesh to restore its size");
 }
 
 CellMesh read_out(const GeometryRequest& request, bool is_geometry) {
@@ -308,7 +308,7 @@ CellMesh read_out(const GeometryRequest& request, bool is_geometry) {
     throw Error("the mesh has no elements", request.file,
                 "mesh the geometry before writing the file, and save all elements (Mesh.SaveAll) or physical groups");
   if (reader.duplicates > 0)
-    mesh.warnings.push_back(fmt::format("{}: {} elements that have the same nodes as another one are left out",
+    mesh.warnings.push_back(fmt::format("{}: {} elements that have the same nodes as another one are omitted",
                                         request.file, reader.duplicates));
   return mesh;
 }

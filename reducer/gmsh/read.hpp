@@ -8,8 +8,8 @@
 
 namespace tisserand::reducer {
 
-/// Cells as from import_with_gmsh(); `begin` is called when a phase begins. gmsh must have been started. Throws Error,
-/// and std::string if gmsh does.
+/// Reads a geometry or mesh file as cells, like import_with_gmsh(), in this process. Requires that gmsh has been
+/// started. `begin` is called when a phase begins. Throws Error, and std::string if gmsh throws it.
 CellMesh read_geometry(const GeometryRequest& request, const std::function<void(MesherPhase)>& begin);
 
 }  // namespace tisserand::reducer

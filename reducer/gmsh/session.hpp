@@ -9,11 +9,11 @@ namespace tisserand::reducer {
 
 inline constexpr int gmsh_verbosity = 2;  ///< errors and warnings
 
-/// Starts gmsh without ~/.gmshrc. Errors and warnings also go to standard error, where they survive a crash. gmsh is
-/// never stopped, the process ends.
+/// Starts gmsh without ~/.gmshrc. Its errors and warnings also go to standard error, where they survive a crash. gmsh
+/// is never stopped; the process ends.
 void start_gmsh();
 
-/// The first messages of a kind ("Error", "Warning") since the start, without the kind.
+/// First messages of gmsh of one kind ("Error", "Warning") since its start, without the word for the kind.
 std::vector<std::string> gmsh_messages(const std::string& kind);
 
 /// Throws Error if gmsh has reported an error although its functions returned.

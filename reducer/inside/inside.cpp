@@ -17,8 +17,8 @@ namespace {
 std::string mechanism_note(const std::string& words, Eigen::Index count) {
   return fmt::format(
       "mechanism: allow keeps {} motion(s) without stiffness as internal coordinates of frequency 0: {}. Displacements "
-      "are linear in them: they hold for small turns (0.1 rad errs by half a per cent of the path). For large ones "
-      "reduce two parts and join them in the scene. There is no second order in a companion file.",
+      "are linear in them and valid for small rotations only: at 0.1 rad the error is 0.5 % of the path. For large "
+      "rotations reduce two parts and connect them in the scene. The companion file omits second order.",
       count, words);
 }
 

@@ -12,21 +12,22 @@
 
 namespace tisserand::reducer {
 
-/// Data of the inside that a reduction needs.
+/// Partition, matrix blocks, factor and modes of the interior of a part: the data that a reduction needs.
 struct Inside {
   Partition partition;
   Blocks blocks;
-  Factor S_II;  ///< if the part has a mechanism, of the inside held by pins
+  Factor S_II;  ///< factor of S_II; for a mechanism, of the interior with its pins held
   BoundaryModes boundary;
   InternalModes internal;
-  std::vector<std::string> notes, warnings;  ///< whole sentences
+  std::vector<std::string> notes, warnings;  ///< notes and warnings in whole sentences
 };
 
-/// Splits S and M, factors S_II, finds motions without stiffness and computes the modes. `system` loses its matrices as
-/// in take_apart(). Throws Error if something inside moves without stiffness and the part does not allow that.
+/// Reduces the interior of a part: splits S and M, factors S_II, finds motions without stiffness and computes the
+/// modes. `system` loses its matrices as in take_apart(). Throws Error if something in the interior moves without
+/// stiffness and the part does not allow that.
 Inside reduce_inside(const Mesh& mesh, System& system, const formats::Part& part, const PhaseListener& begin);
 
-/// Arguments for the functions that use the modes.
+/// Collects the arguments of the functions that use the modes. The arguments must outlive the result.
 InternalProblem problem_of(const Mesh& mesh, const System& system, const Inside& inside, const formats::Part& part,
                            const PhaseListener& begin);
 

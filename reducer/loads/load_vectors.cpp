@@ -31,7 +31,7 @@ class NodalForces {
       if (!coordinates_.rotates(force.node) && !force.value.tail<3>().isZero(0.0))
         throw Error(fmt::format("load case '{}': moment of '{}' on {}, which has no rotations", load.name, force.name,
                                 mesh_.node_label[force.node]),
-                    load.where, "put it on a spider that grabs several nodes there");
+                    load.where, "apply it to a spider that connects several nodes there");
       add(force.node, force.value);
     }
     for (const ShellPressure& pressure : load.shells) {
@@ -77,7 +77,7 @@ class NodalForces {
     if (const int node = system.coordinates.node[x]; !nodal.at(node).isZero(0.0))
       place = coordinate_name(mesh, system, x);
   throw Error(fmt::format("load case '{}': {} has neither stiffness nor mass to carry its load", load.name, place),
-              load.where, "load another node or direction, or give the elements there stiffness in it");
+              load.where, "load another node or direction, or give the elements there stiffness in this direction");
 }
 
 }  // namespace

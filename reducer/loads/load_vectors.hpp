@@ -10,16 +10,17 @@
 namespace tisserand::reducer {
 
 struct LoadVectors {
-  Eigen::MatrixXd x;        ///< coordinates x of the mesh x cases: f, without gravity
-  Eigen::MatrixXd q;        ///< coordinates q x cases: Tᵀ f + M R g
+  Eigen::MatrixXd x;        ///< coordinates of the mesh x cases: forces f without gravity
+  Eigen::MatrixXd q;        ///< coordinates q x cases: forces Tᵀ f + M R g, with gravity g
   Eigen::MatrixXd applied;  ///< 6 x cases: resultant [force; moment about the origin of the part frame]
-  Eigen::VectorXd size;     ///< sum of the magnitudes of the forces on nodes (moments over System::length)
+  /// Sum of the magnitudes of the forces on nodes per case (moments are divided by System::length).
+  Eigen::VectorXd size;
 };
 
-/// Consistent forces of Mesh::load_cases on the coordinates of the mesh, transformed through its ties: spiders get the
-/// force and moment of their nodes. Gravity g acts through M on the translations of R. This equals the mass of the
-/// elements times the translation before ties, which rigid motions satisfy. Throws Error for moments on nodes without
-/// rotations and for forces that move only coordinates without stiffness and mass.
+/// Computes the consistent forces of Mesh::load_cases on the coordinates of the mesh and, through its ties, on q. So
+/// spiders get the force and moment of their nodes. Gravity g gives the forces M R g with the translations in R. They
+/// equal the weights of the elements before ties, since rigid motions satisfy the ties. Throws Error for moments on
+/// nodes without rotations and for forces that move only coordinates without stiffness and mass.
 LoadVectors load_vectors(const Mesh& mesh, const System& system);
 
 }  // namespace tisserand::reducer

@@ -43,7 +43,7 @@ std::vector<OwnedCoordinate> held_coordinates(const Mesh& mesh, const Coordinate
       if (!rotates && !support.where_present && (support.components & rotations_only) != 0)
         throw Error(fmt::format("support '{}' holds rotations, but {} has none: only solid elements meet there",
                                 support.name, mesh.node_label[node]),
-                    support.where, "hold translations, or a spider that grabs several nodes there");
+                    support.where, "hold translations, or a spider that connects several nodes there");
       const Components components = rotates ? support.components : support.components & translations_only;
       if (const auto leg = following.find(node); leg != following.end() && (leg->second.components & components) != 0)
         throw Error(fmt::format("support '{}' holds {}, which follows the rigid spider '{}'", support.name,

@@ -9,8 +9,8 @@
 
 namespace tisserand::reducer {
 
-/// Held coordinates, each once, ascending, with the first support that holds it. Throws Error for rotations that a node
-/// does not have and for nodes that follow a rigid spider.
+/// Coordinates of the mesh that supports hold, each once, ascending, with the first support that holds it. Throws
+/// Error for rotations that a node does not have and for nodes that follow a rigid spider.
 std::vector<OwnedCoordinate> held_coordinates(const Mesh& mesh, const Coordinates& coordinates);
 
 }  // namespace tisserand::reducer

@@ -106,7 +106,7 @@ void check_retained(const Mesh& mesh, const Coordinates& coordinates, const std:
     if (b.rotations && !coordinates.rotates(b.node))
       throw Error(fmt::format("boundary node '{}' retains rotations, but {} has none: only solid elements meet there",
                               b.name, mesh.node_label[b.node]),
-                  where, "retain translations only, or attach a boundary node by a spider to several nodes there");
+                  where, "retain translations only, or connect a boundary node by a spider to several nodes there");
 }
 
 Eigen::MatrixXd rigid_motions(const Mesh& mesh, const Coordinates& coordinates, const Eigen::Vector3d& point) {

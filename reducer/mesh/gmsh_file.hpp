@@ -8,8 +8,9 @@
 
 namespace tisserand::reducer {
 
-/// Writes text of version 4.1, with one named physical group for each property of beams, shells and solids, for
-/// springs, spiders (lines to their legs), boundary nodes and point masses. The file is complete or does not exist.
+/// Writes the mesh as a gmsh text file of version 4.1. It has one named physical group for each property of beams,
+/// shells and solids, for springs, spiders (lines to their nodes), boundary nodes and point masses. The file is
+/// complete or does not exist.
 void write_gmsh_file(const Mesh& mesh, const std::string& path);
 
 }  // namespace tisserand::reducer

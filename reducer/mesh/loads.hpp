@@ -11,43 +11,44 @@
 
 namespace tisserand::reducer {
 
-/// Nodes with held components.
+/// Support of a part: nodes with components that it holds.
 struct MeshSupport {
   std::string name;
   std::vector<int> nodes;       ///< ascending, each once
-  std::uint8_t components = 0;  ///< Components
-  bool where_present = false;   ///< rotations only of nodes that have them; otherwise all nodes must have them
+  std::uint8_t components = 0;  ///< held components, see Components
+  bool where_present = false;   ///< true: holds rotations only of nodes that have them; false: all nodes must have them
   std::string where;
 };
 
-/// [force; moment] on a node, part axes.
+/// Load [force; moment] on a node, in part axes.
 struct NodeLoad {
   int node = 0;
   Eigen::Matrix<double, 6, 1> value = Eigen::Matrix<double, 6, 1>::Zero();
   std::string name;
 };
 
-/// Force per area against the normal of a shell.
+/// Pressure on a shell: force per area, opposite to the normal of the shell.
 struct ShellPressure {
   int shell = 0;
   double pressure = 0.0;
 };
 
-/// Pressure on a face of a solid: three, four, six or eight nodes, corners counter-clockwise seen from outside, then
-/// the middles of the edges between them.
+/// Pressure on a face of a solid, positive into the solid. The face has three, four, six or eight nodes: corners
+/// counter-clockwise seen from outside, then the middles of the edges between them.
 struct FacePressure {
   std::array<int, 8> nodes{};
   int count = 0;
   double pressure = 0.0;
 };
 
-/// Force per length of the axis, part axes.
+/// Load on a beam: force per length of its axis, in part axes.
 struct BeamLineLoad {
   int beam = 0;
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
 };
 
-/// Force per length on an edge of a shell or solid: two ends, then the middle node if there is one.
+/// Load on an edge of a shell or solid: force per length. Its nodes are the two ends, then the middle node if there is
+/// one.
 struct EdgeLineLoad {
   std::array<int, 3> nodes{};
   int count = 0;
@@ -61,7 +62,7 @@ struct MeshLoadCase {
   std::vector<FacePressure> faces;
   std::vector<BeamLineLoad> beams;
   std::vector<EdgeLineLoad> edges;
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< acceleration
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< acceleration of gravity
   std::string where;
 };
 

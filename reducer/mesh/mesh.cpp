@@ -135,7 +135,7 @@ void check_connected(const Mesh& mesh, const std::string& where) {
       fmt::format("the part is in {} pieces that no element connects: {}", first.size(),
                   listed(names, ", ", first.size())),
       where,
-      fmt::format("connect them: the nearest nodes are {} and {}, {:.6g} apart; elements are connected only where they "
+      fmt::format("connect them: the nearest nodes are {} and {}, {:.6g} apart. Elements are connected only where they "
                   "share a node (beams: a point of the same name), or by a spider",
                   mesh.node_label[gap.inside], mesh.node_label[gap.outside], gap.distance));
 }
@@ -173,7 +173,7 @@ void check_boundary_holds(const Mesh& mesh, const std::string& where) {
   const std::vector<std::string> words = free_motions(mesh, held);
   if (words.empty()) return;
   throw Error(
-      fmt::format("the boundary {} does not hold the part; still free: {}", boundary_text(mesh), join(words, "; ")),
+      fmt::format("the part can still move when the boundary {} is fixed: {}", boundary_text(mesh), join(words, "; ")),
       where, "retain more coordinates: a boundary node with translations and rotations, or more boundary nodes");
 }
 

@@ -22,36 +22,39 @@
 
 namespace tisserand::reducer {
 
-/// Set of components of a node: bit 0-2 translations x, y, z; bit 3-5 rotations.
+/// Set of components of a node as bits: bits 0 to 2 for translations x, y, z, bits 3 to 5 for rotations about them.
 using Components = std::uint8_t;
 inline constexpr Components translations_only = 0b000111;
 inline constexpr Components rotations_only = 0b111000;
 inline constexpr Components all_components = 0b111111;
 
-/// Beam of two nodes with axes R_PE (columns: element x, y, z in part axes; x from end to end of the beam axis).
+/// Beam of two nodes with its axes R_PE. The columns of R_PE are x, y, z of the element in part axes; x points from
+/// end to end of the beam axis.
 struct BeamElement {
   int first = 0;
   int second = 0;
   Eigen::Matrix3d R_PE = Eigen::Matrix3d::Identity();
-  int property = 0;                                        ///< index in Mesh::beam_properties
-  Eigen::Vector3d first_offset = Eigen::Vector3d::Zero();  ///< from the node to the end of the beam axis, part axes
+  int property = 0;  ///< index in Mesh::beam_properties
+  /// Vector from the first node to the first end of the beam axis, part axes.
+  Eigen::Vector3d first_offset = Eigen::Vector3d::Zero();
   Eigen::Vector3d second_offset = Eigen::Vector3d::Zero();
   std::uint16_t released = 0;  ///< bit k: the k-th of the twelve end forces (element axes) is zero
   int id = 0;                  ///< number in a deck or group, for messages
 };
 
-/// Common data of beams; the length of each element comes from its ends.
+/// Section and material that beams share. The length of each beam comes from its ends.
 struct BeamProperty {
   BeamElementData data;
   std::string name;  ///< name of the line, group or property card, for messages
 };
 
-/// Shell with three or four nodes around the normal (counter-clockwise seen from its tip); nodes[3] = -1: a triangle.
+/// Shell with three or four nodes, counter-clockwise seen against its normal. For a triangle nodes[3] is −1.
 struct ShellElement {
   std::array<int, 4> nodes{-1, -1, -1, -1};
   int property = 0;     ///< index in Mesh::shell_properties
   double offset = 0.0;  ///< offset of the middle surface from the nodes, along the normal
-  /// Direction whose projection is the x axis of the laminate; zero: from nodes[0] to nodes[1].
+  /// Direction in part axes whose projection is the x axis of the laminate. If it is zero, x points from nodes[0] to
+  /// nodes[1].
   Eigen::Vector3d material_x = Eigen::Vector3d::Zero();
   int id = 0;
   int corners() const { return nodes[3] < 0 ? 3 : 4; }
@@ -63,7 +66,8 @@ struct ShellProperty {
   std::string name;
 };
 
-/// Shapes with the node order of gmsh's elements 4, 11, 5, 17, 6, 18 (its documentation, "Node ordering").
+/// Shapes of solids. The order of the nodes is that of the gmsh elements 4, 11, 5, 17, 6, 18 (gmsh documentation,
+/// "Node ordering").
 enum class SolidShape : std::uint8_t { tetrahedron4, tetrahedron10, hexahedron8, hexahedron20, prism6, prism15 };
 int node_count(SolidShape shape);
 
@@ -74,7 +78,7 @@ struct SolidElement {
   int id = 0;
 };
 
-/// Nodes of an element in sequence.
+/// Nodes of a beam, shell or solid in their order.
 inline std::array<int, 2> nodes_of(const BeamElement& beam) { return {beam.first, beam.second}; }
 inline std::span<const int> nodes_of(const ShellElement& shell) {
   return std::span(shell.nodes).first(static_cast<std::size_t>(shell.corners()));
@@ -89,7 +93,7 @@ struct SolidProperty {
   std::string name;
 };
 
-/// Stiffness between two nodes: 12 x 12 in part axes (elements/spring.hpp makes it for springs and bushings).
+/// Spring or bushing between two nodes, as a 12 x 12 stiffness in part axes. elements/spring.hpp makes this stiffness.
 struct Spring {
   int first = 0;
   int second = 0;
@@ -102,38 +106,41 @@ inline std::array<int, 2> nodes_of(const Spring& spring) { return {spring.first,
 struct NodalMass {
   int node = 0;
   double mass = 0.0;
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about its centre of mass, part axes
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();   ///< centre of mass from the node, part axes
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< inertia about the centre of mass, part axes
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();   ///< vector from the node to the centre of mass, part axes
   std::string name;
 };
 
-/// rigid: the nodes follow the reference node (RBE2). averaging: the reference node follows the weighted mean motion of
-/// the nodes, which can still deform (RBE3).
+/// Kind of a spider. rigid: its nodes follow the reference node (RBE2). averaging: the reference node follows the
+/// weighted mean motion of the nodes, which can still deform (RBE3).
 enum class SpiderKind { rigid, averaging };
 
 struct Spider {
   SpiderKind kind = SpiderKind::rigid;
   int reference = 0;
   std::vector<int> nodes;
-  std::vector<double> weight;                          ///< averaging: one per node, positive
-  Components node_components = all_components;         ///< rigid: those that follow; averaging: those that are averaged
-  Components reference_components = all_components;    ///< averaging: components that the mean defines
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: the directions of the components, in part axes
+  std::vector<double> weight;  ///< averaging spider: weight of each node, positive
+  /// Components of the nodes that follow (rigid) or are averaged (averaging).
+  Components node_components = all_components;
+  /// Averaging spider: components of the reference that the mean defines.
+  Components reference_components = all_components;
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: directions of the components, in part axes
   std::string name;
 };
 
-/// Linear equation Σ coefficient u(node, component) = 0 in part axes (MPC, *EQUATION, partial ties in local axes).
+/// Term coefficient u(node, component) of a linear equation whose terms have the sum 0, in part axes (MPC, *EQUATION,
+/// ties in local axes).
 struct TieTerm {
   int node = 0;
   int component = 0;
   double coefficient = 0.0;
 };
 struct TieEquation {
-  std::vector<TieTerm> terms;  ///< the first one is the preferred dependent coordinate
+  std::vector<TieTerm> terms;  ///< terms; the first has the coordinate that is preferably made dependent
   std::string name;
 };
 
-/// Node that other bodies see; components that are not retained stay internal.
+/// Node that other bodies see. Components that are not retained stay internal coordinates.
 struct MeshBoundary {
   std::string name;
   int node = 0;
@@ -141,7 +148,7 @@ struct MeshBoundary {
   bool rotations = true;
 };
 
-/// Node with held components that tie the frame of a modal body.
+/// Node whose held components tie the frame of a modal body to it.
 struct FrameNode {
   std::string name;
   int node = 0;
@@ -150,8 +157,8 @@ struct FrameNode {
 
 struct Mesh {
   Eigen::Matrix3Xd position;            ///< 3 x nodes, part frame
-  std::vector<std::string> node_label;  ///< for messages: "tip", "spar[3]" or "node 4711"
-  std::vector<int> node_number;         ///< in the mesh file; 0: none; empty: no node has one
+  std::vector<std::string> node_label;  ///< name of each node for messages: "tip", "spar[3]" or "node 4711"
+  std::vector<int> node_number;         ///< number of each node in the mesh file; 0: none; empty: no node has one
   std::vector<BeamProperty> beam_properties;
   std::vector<BeamElement> beams;
   std::vector<ShellProperty> shell_properties;
@@ -163,41 +170,46 @@ struct Mesh {
   std::vector<Spider> spiders;
   std::vector<TieEquation> equations;
   std::vector<MeshBoundary> boundary;
-  std::vector<FrameNode> held;        ///< of formats::ModalBodyRequest
-  std::vector<MeshSupport> supports;  ///< of `reducer solve`
+  std::vector<FrameNode> held;        ///< nodes that hold the frame of a modal body (formats::ModalBodyRequest)
+  std::vector<MeshSupport> supports;  ///< supports for `reducer solve`
   std::vector<MeshLoadCase> load_cases;
-  std::vector<std::string> warnings;  ///< from reading the part; they are reported and kept in the certificate
+  /// Warnings from reading the part, which are reported and kept in the certificate.
+  std::vector<std::string> warnings;
 
   int nodes() const { return static_cast<int>(position.cols()); }
   int elements() const { return count_of(beams) + count_of(shells) + count_of(solids) + count_of(springs); }
 };
 
-/// Appends a row and returns its number.
+/// Appends `row` to `rows` and returns its index.
 template <class Row>
 int add_row(std::vector<Row>& rows, std::type_identity_t<Row> row) {
   rows.push_back(std::move(row));
   return count_of(rows) - 1;
 }
 
-/// Normal of a shell with twice its area as length.
+/// Normal vector of a shell, whose length is twice the area.
 Eigen::Vector3d normal_of(const Mesh& mesh, const ShellElement& shell);
 
-/// l = largest distance of a node from the mean of the nodes (1 if 0): the length that scales rotations.
+/// Characteristic length of a mesh, which scales rotations: the largest distance of a node from the mean of the nodes,
+/// or 1 if this is 0.
 double characteristic_length(const Mesh& mesh);
 
-/// Throws Error naming the pieces, and the nearest pair of nodes between them, unless elements and ties form one piece.
+/// Throws Error unless elements and ties connect the mesh to one piece. The message names the pieces and the nearest
+/// pair of nodes between two of them.
 void check_connected(const Mesh& mesh, const std::string& where);
 
-/// Node with its held components.
+/// Node with the components at which it is held.
 struct HeldComponents {
   int node = 0;
   Components components = all_components;
 };
 
-/// Descriptions of the rigid motions that held nodes leave free: "turning about the axis (0, 0, 1) through (0, 0, 0)".
+/// Descriptions of the rigid motions of the mesh that `held` nodes leave free, such as "turning about the axis (0, 0,
+/// 1) through (0, 0, 0)". It is empty if there are none.
 std::vector<std::string> free_motions(const Mesh& mesh, const std::vector<HeldComponents>& held);
 
-/// Throws Error naming the free motions if the retained boundary coordinates leave a rigid motion of the part free.
+/// Throws Error if the retained boundary coordinates leave a rigid motion of the part free. The message names these
+/// motions.
 void check_boundary_holds(const Mesh& mesh, const std::string& where);
 
 }  // namespace tisserand::reducer

@@ -32,7 +32,7 @@ constexpr std::array endings{
     Ending{".dat", MeshFileKind::nastran}, Ending{".inp", MeshFileKind::abaqus}};
 
 [[noreturn]] void refuse_format(const std::string& file, const std::string& what) {
-  throw Error(what, file, "check that the ending of its name says what it is, and write it again");
+  throw Error(what, file, "check that the ending of the file name fits its content, or write the file again");
 }
 
 [[noreturn]] void refuse_end(const std::string& file, const std::string& what) {
@@ -41,8 +41,8 @@ constexpr std::array endings{
 
 std::string content_of(const std::string& file, const std::string& where) {
   if (std::filesystem::is_fifo(file) || std::filesystem::is_socket(file) || std::filesystem::is_character_file(file))
-    throw Error(fmt::format("mesh file '{}' is a pipe or a device, and is read twice", file), where,
-                "write what comes out of it into a file");
+    throw Error(fmt::format("mesh file '{}' is a pipe or a device, but it must be read twice", file), where,
+                "write its output into a file");
   if (std::filesystem::is_directory(file)) throw Error(fmt::format("mesh file '{}' is a folder", file), where, "");
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
@@ -73,12 +73,12 @@ void check_msh(const std::string& file, const std::string& text) {
   const std::size_t format = text.find("$MeshFormat");
   // gmsh would take a file with another beginning for a .geo file.
   if (format == std::string::npos || (format > 0 && !text.starts_with("$Comments")))
-    refuse_format(file, "this is no .msh file of gmsh: no $MeshFormat");
+    refuse_format(file, "this is not a .msh file of gmsh: it has no $MeshFormat");
   const std::vector<std::string> words = words_after(text, format);
   if (words.size() < 3) refuse_end(file, "it ends in $MeshFormat");
   if (words[0] != "2.2" && words[0] != "4.1" && words[0] != "2" && words[0] != "4")
     throw Error(fmt::format("the .msh file has version {}", words[0]), file,
-                "versions 2.2 and 4.1 are read: gmsh -save -format msh41");
+                "use version 2.2 or 4.1: gmsh -save -format msh41");
   for (const std::string_view section : {"Nodes", "Elements"}) {
     const std::size_t begin = text.find(fmt::format("${}", section));
     if (begin == std::string::npos) refuse_end(file, fmt::format("it has no ${}", section));
@@ -90,20 +90,22 @@ void check_msh(const std::string& file, const std::string& text) {
     unsigned long long count = 0;
     if (which < counts.size())
       std::from_chars(counts[which].data(), counts[which].data() + counts[which].size(), count);
-    if (count > text.size()) refuse_end(file, fmt::format("{} {} in {} bytes", count, section, text.size()));
+    if (count > text.size())
+      refuse_end(file, fmt::format("{} {} do not fit into {} bytes", count, section, text.size()));
   }
 }
 
 void check_step(const std::string& file, const std::string& text) {
   const std::size_t begin = text.find("ISO-10303-21;");
-  if (begin == std::string::npos || begin > 1000) refuse_format(file, "this is no STEP file: no ISO-10303-21");
+  if (begin == std::string::npos || begin > 1000)
+    refuse_format(file, "this is not a STEP file: it has no ISO-10303-21");
   if (text.find("END-ISO-10303-21") == std::string::npos) refuse_end(file, "END-ISO-10303-21 is missing");
 }
 
 /// Checks column 73 of an IGES file, which names the section: S, G, D, P, T.
 void check_iges(const std::string& file, const std::string& text) {
   if (text.size() < 73 || (text[72] != 'S' && text[72] != 'C'))
-    refuse_format(file, "this is no IGES file: no S in column 73");
+    refuse_format(file, "this is not an IGES file: it has no S in column 73");
   const std::size_t end = text.find_last_not_of(" \r\n");
   const std::size_t line = text.rfind('\n', end) == std::string::npos ? 0 : text.rfind('\n', end) + 1;
   if (line + 72 > end || text[line + 72] != 'T') refuse_end(file, "the terminate section is missing");
@@ -112,7 +114,7 @@ void check_iges(const std::string& file, const std::string& text) {
 void check_brep(const std::string& file, const std::string& text) {
   const std::size_t begin = text.find("CASCADE Topology");
   if (begin == std::string::npos || begin > 1000)
-    refuse_format(file, "this is no BREP file of OpenCASCADE: no CASCADE Topology");
+    refuse_format(file, "this is not a BREP file of OpenCASCADE: it has no CASCADE Topology");
   const std::size_t shapes = text.find("TShapes");
   if (shapes == std::string::npos) refuse_end(file, "TShapes is missing");
 }
@@ -133,10 +135,9 @@ bool is_geometry(MeshFileKind kind) {
 
 MeshFileKind mesh_file_kind(const std::string& file, const std::string& where) {
   if (const auto kind = known_mesh_file(file)) return *kind;
-  throw Error(fmt::format("mesh file '{}': the ending '{}' is unknown", file,
-                          std::filesystem::path(file).extension().string()),
-              where,
-              "known are .geo, .msh, .step, .stp, .iges, .igs, .brep, .bdf, .nas, .dat, .inp");
+  throw Error(
+      fmt::format("mesh file '{}': the ending '{}' is unknown", file, std::filesystem::path(file).extension().string()),
+      where, "known are .geo, .msh, .step, .stp, .iges, .igs, .brep, .bdf, .nas, .dat, .inp");
 }
 
 void check_mesh_file(const std::string& file, const std::string& where) {
@@ -144,7 +145,7 @@ void check_mesh_file(const std::string& file, const std::string& where) {
   const std::string text = content_of(file, where);
   switch (kind) {
     case MeshFileKind::geo:
-      if (text.find('\0') != std::string::npos) refuse_format(file, "this is no .geo file: it holds binary data");
+      if (text.find('\0') != std::string::npos) refuse_format(file, "this is not a .geo file: it holds binary data");
       return;  // a program: gmsh/door.hpp defines what it may do
     case MeshFileKind::msh:
       return check_msh(file, text);

@@ -9,16 +9,18 @@ namespace tisserand::reducer {
 
 enum class MeshFileKind { geo, msh, step, iges, brep, nastran, abaqus };
 
-/// Kind by the ending of the name; empty for other endings.
+/// Kind of a mesh or geometry file by the ending of its name. Returns nothing for unknown endings.
 std::optional<MeshFileKind> known_mesh_file(const std::string& file);
 
-/// Whether the file is a geometry, which is meshed; meshes and decks have elements.
+/// Whether a file of this kind holds a geometry, which is meshed. Meshes and decks hold elements.
 bool is_geometry(MeshFileKind kind);
 
-/// Kind by the ending of the name. Throws Error for unknown endings; `where` is that of the part file.
+/// Kind of a mesh or geometry file by the ending of its name. Throws Error for unknown endings. `where`: place in the
+/// part file, for the message.
 MeshFileKind mesh_file_kind(const std::string& file, const std::string& where);
 
-/// Throws Error if the file is missing or empty, does not begin like its kind, or ends too early.
+/// Throws Error if the mesh or geometry file is missing or empty, does not begin like a file of its kind, or ends too
+/// early. `where`: place in the part file, for the message.
 void check_mesh_file(const std::string& file, const std::string& where);
 
 }  // namespace tisserand::reducer

@@ -10,14 +10,15 @@
 
 namespace tisserand::reducer {
 
-/// A solid as the cell from which it was made.
+/// Cell with the shape and nodes of a solid.
 Cell as_cell(const SolidElement& solid);
 
-/// Faces of the mesh whose corners are all `wanted` and that belong to one solid only: corners counter-clockwise seen
-/// from outside, then the middles of their edges.
+/// Outer faces of the solids whose corners are all `wanted`. A face is outer if it belongs to one solid only. The
+/// nodes of a face are its corners, counter-clockwise seen from outside, then the middles of its edges.
 std::vector<Cell> outer_faces(const Mesh& mesh, const std::function<bool(int node)>& wanted);
 
-/// Face that belongs to one solid only, by the numbers of its three or four corners in that solid.
+/// Outer face of a solid: a face that belongs to one solid only. `corners` are the numbers of its three or four
+/// corners in that solid.
 struct OuterFace {
   int solid = 0;
   std::vector<int> corners;  ///< counter-clockwise seen from outside

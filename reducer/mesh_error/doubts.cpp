@@ -93,14 +93,15 @@ VectorXd traction_energy(const Mesh& mesh, const SolidElement& solid, const std:
 }  // namespace
 
 const char* explain(MeshDoubt doubt) {
-  constexpr const char* texts[] = {"",
-                                   "errors above 50 % mix the modes",
-                                   "smoothed stresses do not vanish at free faces, there are too few elements across",
-                                   "stresses scatter from element to element, there are too few elements per wave",
-                                   "errors of opposite sign cancel",
-                                   "a curve turns by more than 25 degrees from element to element",
-                                   "there are fewer than three elements between folds",
-                                   "doubly curved shells turn by more than 1.5 degrees from element to element"};
+  constexpr const char* texts[] = {
+      "",
+      "errors above 50 % mix the modes",
+      "smoothed stresses do not vanish at free faces, because there are too few elements across",
+      "stresses scatter from element to element, because there are too few elements per wave",
+      "errors of opposite sign cancel",
+      "a curved surface or edge turns by more than 25 degrees from element to element",
+      "there are fewer than three elements between folds",
+      "doubly curved shells turn by more than 1.5 degrees from element to element"};
   static_assert(std::size(texts) == static_cast<std::size_t>(MeshDoubt::double_curvature) + 1);
   return texts[static_cast<std::size_t>(doubt)];
 }

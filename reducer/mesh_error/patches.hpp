@@ -9,28 +9,29 @@
 
 namespace tisserand::reducer {
 
-/// Patch of elements around a node. Shells are numbered before solids.
+/// Patch of elements around a node, over which stresses are smoothed. Shells are numbered before solids.
 struct StressPatch {
   int node = 0;
   double angle = 0.0;         ///< sum of the angles (shells) or solid angles (solids) of its elements at the node
-  std::vector<int> elements;  ///< ascending
-  /// Patches whose polynomials are used here: itself, or at edges and faces its neighbours inside, whose polynomials
-  /// have elements on both sides.
+  std::vector<int> elements;  ///< numbers of its elements, ascending
+  /// Patches whose polynomials give the smooth stress at the node. It is the patch itself, or at edges and faces its
+  /// neighbours inside, whose polynomials have elements on both sides.
   std::vector<int> source;
 };
 
 struct StressPatches {
   std::vector<StressPatch> patch;
-  std::vector<int> first;          ///< elements + 1: index into `of_corner`
+  std::vector<int> first;          ///< elements + 1 numbers: index in `of_corner` of the first corner of each element
   std::vector<int> of_corner;      ///< patch of each corner of each element
-  std::vector<ShellEdges> ending;  ///< for shells: edges at which patches end
+  std::vector<ShellEdges> ending;  ///< for each shell: edges at which patches end
 };
 
-/// Patches of a mesh. Stresses jump, so patches end, where properties or offsets change, three shells share an edge, or
-/// normals of shells differ by more than 30 degrees. Shells with opposite normals stay together.
+/// Finds the patches of a mesh. Patches end where stresses jump: where properties or offsets change, where three
+/// shells share an edge, or where normals of shells differ by more than 30 degrees. Shells with opposite normals stay
+/// in one patch.
 StressPatches stress_patches(const Mesh& mesh);
 
-/// Corners of an element in this numbering, and their nodes.
+/// Number of corners of an element, numbered as in StressPatch. corner_node() gives the node of a corner.
 int corners_of(const Mesh& mesh, int element);
 int corner_node(const Mesh& mesh, int element, int corner);
 

@@ -9,10 +9,12 @@
 namespace tisserand::reducer {
 
 struct ShellForm {
-  bool turned = false;      ///< at two edges, or both ends of a free edge, by 25 to 75 degrees: a coarse curve
-  bool few_across = false;  ///< the shell and all with a common corner touch a fold: fewer than three across
-  bool double_curvature =
-      false;  ///< both curvatures turn it by more than 1.5 degrees, the smaller by more than a fifth of the other
+  /// true: a coarse curve, where the shell turns by 25 to 75 degrees at two edges or at both ends of a free edge.
+  bool turned = false;
+  /// true: fewer than three shells across, since the shell and all with a common corner touch a fold.
+  bool few_across = false;
+  /// true: both curvatures turn the shell by more than 1.5 degrees, the smaller by more than a fifth of the other.
+  bool double_curvature = false;
 };
 
 std::vector<ShellForm> shell_forms(const Mesh& mesh);

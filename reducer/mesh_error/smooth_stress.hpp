@@ -12,21 +12,24 @@
 
 namespace tisserand::reducer {
 
-/// Smooth stresses for motions of the modes (6 rows per node [translation; rotation], part axes).
+/// Smooth stresses σ* of THEORY (92) for the motions of some modes, by superconvergent patch recovery.
 class SmoothStress {
  public:
-  /// Fits polynomials [ZZ92a]: linear for first-order elements, quadratic for the others. Terms that the points of a
-  /// patch do not determine (single layer of elements) are omitted. The result is the same for any number of threads.
+  /// Fits polynomials to the stresses around each corner [ZZ92a]: linear for first-order elements, quadratic for the
+  /// others. Terms that the points of a patch do not determine (single layer of elements) are omitted. The result is
+  /// equal for any number of threads. `motion`: modes (6 rows per node [translation; rotation] in part axes, one
+  /// column per mode).
   SmoothStress(const Mesh& mesh, const Eigen::MatrixXd& motion);
 
-  /// Stresses for energy_error(). Shell: [N; M; Q] at the corners in its axes, Q = div M of the polynomials. Solid: [xx
-  /// yy zz xy yz zx] at all nodes.
+  /// Smooth stresses of one shell at its corners, for energy_error(): [N; M; Q] in the axes of the shell, where Q is
+  /// div M of the polynomials. of_solid() gives those of one solid at all nodes: [xx yy zz xy yz zx].
   Eigen::MatrixXd of_shell(int shell) const;
   Eigen::MatrixXd of_solid(int solid) const;
   const ShellSurround& around(int shell) const { return surround_[shell]; }
 
-  /// Stresses at the sample points, and the smooth ones there minus these; 6 x (points · modes), modes within a point.
-  /// Elements as in StressPatch.
+  /// Stresses of an element at its sample points (6 x (points · modes), the modes of one point side by side).
+  /// scatter() gives the smooth stresses at the points minus the sampled ones. Elements are numbered as in
+  /// StressPatch.
   Eigen::MatrixXd samples(int element) const;
   Eigen::MatrixXd scatter(int element) const;
 
@@ -35,7 +38,7 @@ class SmoothStress {
     Eigen::Vector3d origin;
     Eigen::Matrix3d axes;  ///< columns; shells: normal last; solids: axes of the part
     double size = 1.0;
-    Eigen::MatrixXd coefficient;  ///< terms x (6 · modes)
+    Eigen::MatrixXd coefficient;  ///< coefficients of the polynomials of all stresses: terms x (6 · modes)
   };
   Polynomial fit(const StressPatch& patch) const;
   Eigen::MatrixXd at(int patch, const Eigen::Vector3d& place) const;
@@ -44,13 +47,14 @@ class SmoothStress {
   Eigen::Index modes_;
   StressPatches patches_;
   std::vector<ShellSurround> surround_;
-  std::vector<Eigen::Matrix3d> axes_;  ///< R_PE of shells
+  std::vector<Eigen::Matrix3d> axes_;  ///< axes R_PE of the shells
   std::vector<Eigen::Matrix3Xd> place_;
-  std::vector<Eigen::MatrixXd> sample_;  ///< points x (6 · modes)
+  std::vector<Eigen::MatrixXd> sample_;  ///< sampled stresses of each element: points x (6 · modes)
   std::vector<Polynomial> polynomial_;
 };
 
-/// Motions of the nodes of an element, with the rows of element_matrices().
+/// Motions of the nodes of one element, with the rows of element_matrices(). `motion`: motions of all nodes (6 rows
+/// per node).
 Eigen::MatrixXd motion_of(const ShellElement& shell, const Eigen::MatrixXd& motion);
 Eigen::MatrixXd motion_of(const SolidElement& solid, const Eigen::MatrixXd& motion);
 

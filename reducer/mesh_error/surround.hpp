@@ -10,9 +10,10 @@
 
 namespace tisserand::reducer {
 
-/// Surround of each shell. The normal at a corner is the mean of those of its patch, weighted by their angles. At
-/// borders, where a patch has one side only, curvature continues as inside. A free edge is curved if it turns by less
-/// than 30 degrees into the next one; its bow is a twelfth of length and mean turn.
+/// Finds the slopes of the curved surface and the bows of free edges around each shell. The normal at a corner is the
+/// mean of the normals of its patch, weighted by their angles. At borders, where a patch has one side only, curvature
+/// continues as inside. A free edge is curved if it turns by less than 30 degrees into the next one. Its bow is a
+/// twelfth of its length times its mean turn.
 std::vector<ShellSurround> surroundings(const Mesh& mesh, const StressPatches& patches);
 
 }  // namespace tisserand::reducer

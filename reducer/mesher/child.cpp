@@ -34,7 +34,8 @@ namespace {
 
 [[noreturn]] void cannot_start(int number, const std::string& program) {
   throw Error(fmt::format("cannot start the program that runs gmsh: {}", std::strerror(number)), program,
-              number == ENOENT ? "keep it in the folder of reducer-solver, or install anew" : remedy_of_errno(number));
+              number == ENOENT ? "keep it in the folder of reducer-solver, or install the programs again"
+                               : remedy_of_errno(number));
 }
 
 /// Descriptor that is closed by its destructor.

@@ -8,17 +8,17 @@
 
 namespace tisserand::reducer {
 
-/// Reason for the end of the child.
+/// Reason why the process that runs gmsh has ended.
 enum class MesherEnding {
   answered,
-  memory,          ///< its limit of memory
-  processor_time,  ///< its limit of processor time
-  reading_time,    ///< its limit of processor time for reading the file
-  wall_time,       ///< its limit by the clock
+  memory,          ///< it reached its limit of memory
+  processor_time,  ///< it reached its limit of processor time
+  reading_time,    ///< it reached its limit of processor time for reading the file
+  wall_time,       ///< it reached its limit of time by the clock
   idle,            ///< it waited for something, such as a pipe in place of a file
   forbidden,       ///< a system call that only malicious files need
-  crashed,         ///< by a signal
-  left             ///< ended by itself without an answer
+  crashed,         ///< a signal ended it
+  left             ///< it ended by itself without an answer
 };
 
 struct MesherReport {
@@ -26,11 +26,11 @@ struct MesherReport {
   int signal = 0;
   MesherPhase phase = MesherPhase::starting;
   std::string answer;
-  std::string last_words;  ///< last line of its standard error, printable
+  std::string last_words;  ///< last line of standard error of the process, printable
 };
 
-/// Starts the program with only the request, and waits. Its standard input is empty, its environment has what the
-/// loader needs. Throws Error if it cannot be started.
+/// Starts the program that runs gmsh with the request, and waits until it has answered or must end. Its standard input
+/// is empty, and its environment has only what the loader needs. Throws Error if it cannot be started.
 MesherReport run_mesher(const GeometryRequest& request);
 
 }  // namespace tisserand::reducer

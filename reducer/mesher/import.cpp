@@ -84,50 +84,52 @@ std::string twice(double value) { return fmt::format("{:.2g}", std::max(2.0 * va
 
 [[noreturn]] void explain(const MesherReport& report, const GeometryRequest& request) {
   const std::string& file = request.file;
-  const std::string words = report.last_words.empty() ? "" : fmt::format(" (it said: {})", report.last_words);
+  const std::string words = report.last_words.empty() ? "" : fmt::format(" (last message: {})", report.last_words);
   const std::string at = doing(report.phase);
   const auto remedy = [&](const std::string& option) {
-    return (is_coarse(request)
-                ? "the file is probably damaged: write it again, or heal it in the CAD program; if it is whole: "
-                : "choose a larger mesh: size, or allow more if you trust the file: ") +
+    return (is_coarse(request) ? "the file is probably damaged: write it again, or repair it in the CAD program; if it "
+                                 "is not damaged, add "
+                               : "choose a larger mesh: size; if you trust the file, allow more with ") +
            option;
   };
   const std::string time = remedy("--geometry-time " + twice(request.seconds));
   switch (report.ending) {
     case MesherEnding::memory:
-      throw Error(fmt::format("gmsh was stopped while {}: it wanted more than {:.4g} GB of memory", at,
+      throw Error(fmt::format("gmsh was stopped while {}: it needed more than {:.4g} GB of memory", at,
                               request.bytes / gigabyte),
                   file, remedy("--geometry-memory " + twice(request.bytes / gigabyte)));
     case MesherEnding::processor_time:
       throw Error(
-          fmt::format("gmsh was stopped while {}: it wanted more than {:.4g} s of processor time", at, request.seconds),
+          fmt::format("gmsh was stopped while {}: it needed more than {:.4g} s of processor time", at, request.seconds),
           file, time);
     case MesherEnding::reading_time:
-      throw Error(fmt::format("gmsh was stopped while reading the file: it wanted more than {:.4g} s of processor time "
+      throw Error(fmt::format("gmsh was stopped while reading the file: it needed more than {:.4g} s of processor time "
                               "for {:.4g} kB",
                               request.reading_seconds, kilobytes(file)),
                   file, time);
     case MesherEnding::idle:
       throw Error(fmt::format("gmsh was stopped while {}: it waited for {:.4g} s and computed nothing", at,
                               request.idle_seconds),
-                  file, "a geometry must only draw: remove what waits, such as a pipe that is included");
+                  file, "a geometry may only draw: remove commands that wait, such as the inclusion of a pipe");
     case MesherEnding::wall_time:
-      throw Error(fmt::format("gmsh was stopped while {}: it was not done after {:.4g} s", at, request.wall_seconds),
-                  file, time);
+      throw Error(
+          fmt::format("gmsh was stopped while {}: it had not finished after {:.4g} s", at, request.wall_seconds), file,
+          time);
     case MesherEnding::forbidden:
-      throw Error("gmsh was stopped: the file wants to start a program, to wait, or to make, rename or remove files",
-                  file, "a geometry must only draw: remove such commands (SystemCall, CreateDir, Sleep, ...)");
+      throw Error("gmsh was stopped: the file tries to start a program, to wait, or to create, rename or remove files",
+                  file, "a geometry may only draw: remove such commands (SystemCall, CreateDir, Sleep, ...)");
     case MesherEnding::crashed:
       throw Error(fmt::format("gmsh crashed while {}: {}{}", at, ::strsignal(report.signal), words), file,
-                  report.phase == MesherPhase::starting ? "install anew"
+                  report.phase == MesherPhase::starting ? "install the programs again"
                   : report.signal == SIGKILL
                       ? "the machine may have run out of memory: choose a larger mesh: size"
-                      : "the file is probably damaged: write it again, or heal it in the CAD program");
+                      : "the file is probably damaged: write it again, or repair it in the CAD program");
     case MesherEnding::left:
     case MesherEnding::answered:
       throw Error(fmt::format("gmsh ended while {} and gave no mesh{}", at, words), file,
-                  report.phase == MesherPhase::starting ? "install anew"
-                                                        : "a geometry must not end gmsh (Exit); else it is damaged");
+                  report.phase == MesherPhase::starting
+                      ? "install the programs again"
+                      : "remove Exit from the geometry; if it has none, the file is probably damaged: write it again");
   }
   throw Error("gmsh ended", file, "");
 }

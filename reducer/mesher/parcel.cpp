@@ -11,7 +11,7 @@ namespace {
 
 enum class AnswerKind : std::uint8_t { mesh = 1, error = 2 };
 
-constexpr const char* no_mesh = "what gmsh made of it is no mesh";
+constexpr const char* no_mesh = "gmsh returned an invalid mesh";
 
 void pack_cells(Packer& to, const std::vector<Cell>& cells) {
   std::vector<std::uint8_t> shapes;
@@ -35,16 +35,17 @@ std::vector<Cell> unpack_cells(Unpacker& from, int dimension, std::size_t node_c
   std::vector<Cell> cells(shapes.size());
   std::size_t next = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {
-    from.require(shapes[c] <= static_cast<std::uint8_t>(CellShape::prism15), "an element of no known kind");
+    from.require(shapes[c] <= static_cast<std::uint8_t>(CellShape::prism15), "an element of unknown kind");
     cells[c].shape = static_cast<CellShape>(shapes[c]);
     cells[c].id = ids[c];
     cells[c].nodes.fill(-1);
     const CellForm form = form_of(cells[c].shape);
-    from.require(form.dimension == dimension, "an element of another dimension");
+    from.require(form.dimension == dimension, "an element of wrong dimension");
     from.require(nodes.size() - next >= static_cast<std::size_t>(form.nodes), "an element without nodes");
     for (int k = 0; k < form.nodes; ++k) {
       const int node = nodes[next++];
-      from.require(node >= 0 && static_cast<std::size_t>(node) < node_count, "an element on a node that is not there");
+      from.require(node >= 0 && static_cast<std::size_t>(node) < node_count,
+                   "an element on a node that does not exist");
       cells[c].nodes[k] = node;
     }
   }
@@ -64,7 +65,7 @@ std::vector<Eigen::Vector3d> unpack_vectors(Unpacker& from) {
   std::vector<Eigen::Vector3d> vectors(numbers.size() / 3);
   for (std::size_t n = 0; n < vectors.size(); ++n) {
     vectors[n] = Eigen::Vector3d(numbers[3 * n], numbers[3 * n + 1], numbers[3 * n + 2]);
-    from.require(vectors[n].allFinite(), "a coordinate that is no finite number");
+    from.require(vectors[n].allFinite(), "a coordinate that is not a finite number");
   }
   return vectors;
 }
@@ -93,7 +94,7 @@ void unpack_geometry(Unpacker& from, CellMesh& mesh) {
     entity.size = from.value<double>();
     for (double& value : entity.center) value = from.value<double>();
     from.require(std::isfinite(entity.size) && entity.size >= 0.0 && entity.center.allFinite(),
-                 "a size that is no finite number");
+                 "a size that is not a finite number");
     entity.point = unpack_vectors(from);
     entity.normal = unpack_vectors(from);
     from.require(entity.point.size() == entity.normal.size(), "points of a face without normals");
@@ -110,10 +111,10 @@ void unpack_entities(Unpacker& from, CellMesh& mesh) {
     entity.label = from.text();
     entity.first = from.value<std::size_t>();
     entity.count = from.value<std::size_t>();
-    from.require(entity.dimension >= 1 && entity.dimension <= 3, "an entity of no known dimension");
+    from.require(entity.dimension >= 1 && entity.dimension <= 3, "an entity of unknown dimension");
     std::size_t& first = next[entity.dimension];
     from.require(entity.first == first && entity.count <= mesh.cells[entity.dimension].size() - first,
-                 "an entity of elements that are not there");
+                 "an entity with elements that do not exist");
     first += entity.count;
   }
   for (int d = 1; d <= 3; ++d) from.require(next[d] == mesh.cells[d].size(), "elements without an entity");
@@ -125,11 +126,11 @@ void unpack_groups(Unpacker& from, CellMesh& mesh) {
     group.name = from.text();
     group.dimension = from.value<int>();
     group.entities = from.row<int>();
-    from.require(group.dimension >= 1 && group.dimension <= 3, "a group of no known dimension");
+    from.require(group.dimension >= 1 && group.dimension <= 3, "a group of unknown dimension");
     for (const int row : group.entities)
       from.require(row >= 0 && static_cast<std::size_t>(row) < mesh.entities.size() &&
                        mesh.entities[row].dimension == group.dimension,
-                   "a group of entities that are not there");
+                   "a group with entities that do not exist");
   }
 }
 
@@ -210,7 +211,7 @@ CellMesh unpack_answer(const std::string& bytes, const std::string& file) {
   Unpacker from(bytes, file, no_mesh);
   const auto kind = from.value<std::uint8_t>();
   if (kind == static_cast<std::uint8_t>(AnswerKind::error)) throw from.error();
-  from.require(kind == static_cast<std::uint8_t>(AnswerKind::mesh), "it has no known kind");
+  from.require(kind == static_cast<std::uint8_t>(AnswerKind::mesh), "its kind is unknown");
   CellMesh mesh;
   unpack_nodes(from, mesh);
   for (int d = 1; d <= 3; ++d) mesh.cells[d] = unpack_cells(from, d, mesh.position.size());
@@ -232,7 +233,7 @@ std::string doing(MesherPhase phase) {
     case MesherPhase::meshing:
       return "meshing the geometry";
     case MesherPhase::answering:
-      return "handing over the mesh";
+      return "returning the mesh";
   }
   return "reading the file";  // a separate byte
 }

@@ -12,31 +12,33 @@
 
 namespace tisserand::reducer {
 
-/// Descriptors of the program that runs gmsh, open when it starts.
+/// File descriptors of the process that runs gmsh, open when it starts: for the request and for the answer.
 inline constexpr int request_descriptor = 3, answer_descriptor = 4;
-/// Its exit code if an allocation exceeded its limit of memory.
+/// Exit code of the process that runs gmsh if an allocation exceeded its limit of memory.
 inline constexpr int out_of_memory_code = 77;
 
-/// Byte that the answer's descriptor carries when a phase begins; the last one precedes the answer.
+/// Phase of the process that runs gmsh. It writes this byte to the answer's descriptor when a phase begins; the last
+/// one precedes the answer.
 enum class MesherPhase : char { starting = 0, reading = 'r', meshing = 'm', answering = 'a' };
 
 /// Words for a phase, such as "reading the file".
 std::string doing(MesherPhase phase);
 
-/// Requested size on an entity of a geometry.
+/// Requested size of elements on an entity of a geometry.
 struct SizedEntity {
   int dimension = 0;
   int number = 0;
-  double size = 0.0;  ///< in units of the part
+  double size = 0.0;  ///< size of elements in units of the part
 };
 
-/// Request to gmsh. Lengths in units of the part, unless said otherwise.
+/// Request to the process that runs gmsh: file, sizes of elements, permissions and limits. Lengths are in units of the
+/// part, unless the member says otherwise.
 struct GeometryRequest {
   std::string file;
   MeshFileKind kind = MeshFileKind::geo;
   std::string target_unit;  ///< unit of OpenCASCADE, into which STEP and IGES are converted
   int dimension = 2;        ///< geometry is meshed up to this dimension
-  double size = 0.0;        ///< as in formats::MeshFile, like the next ones
+  double size = 0.0;        ///< size of elements; it and the next five members are as in formats::MeshFile
   double smallest = 0.0;
   int curvature = 0;
   int order = 0;
@@ -44,13 +46,14 @@ struct GeometryRequest {
   double scale = 1.0;
   std::vector<SizedEntity> sizes;
   bool describes_faces = false;  ///< fills CellMesh::geometry
-  bool is_program = false;       ///< gmsh may run commands in the file, or in one next to it
-  bool is_trusted = false;       ///< may read files anywhere
+  bool is_program = false;       ///< true: gmsh may run commands in the file, or in one next to it
+  bool is_trusted = false;       ///< true: gmsh may read files anywhere
   double seconds = 0.0;          ///< limit of processor time
-  double reading_seconds = 1e9;  ///< limit of the phase `reading`; for the caller, not sent, like the next two
-  double wall_seconds = 0.0;     ///< limit by the clock
-  double idle_seconds = 1e9;     ///< limit without any processor time
-  double bytes = 0.0;            ///< limit of memory
+  /// Limit of processor time of the phase `reading`; like the next two it is not sent to the process.
+  double reading_seconds = 1e9;
+  double wall_seconds = 0.0;  ///< limit of time by the clock
+  double idle_seconds = 1e9;  ///< limit of time without any use of the processor
+  double bytes = 0.0;         ///< limit of memory [bytes]
 };
 
 std::string pack(const GeometryRequest& request);
@@ -59,8 +62,8 @@ GeometryRequest unpack_request(const std::string& bytes);
 std::string pack(const CellMesh& mesh);
 std::string pack(const Error& error);
 
-/// Mesh of an answer; throws the Error that was packed. Also throws Error if sizes, numbers of nodes and entities do
-/// not fit each other, or a coordinate is not finite. Texts are made printable.
+/// Mesh from the bytes of an answer. Throws the Error if one was packed. Also throws Error if sizes and numbers of
+/// nodes and entities do not fit each other, or if a coordinate is not finite. Texts are made printable.
 CellMesh unpack_answer(const std::string& bytes, const std::string& file);
 
 }  // namespace tisserand::reducer

@@ -52,7 +52,7 @@ std::vector<Matrix6> nodal_blocks(const Mesh& mesh, const Coordinates& coordinat
             blocks[a](coordinates.component[j], coordinates.component[i]) = pair.M[k];
       else if (std::abs(pair.M[k]) > 1e-12 * std::sqrt(pair.M[pair.begin[i]] * pair.M[pair.begin[j]]))
         throw Error(fmt::format("modal_body: lumped masses couple {} and {}", mesh.node_label[a], mesh.node_label[b]),
-                    where, "a beam there has releases: put a joint or a spring in their place");
+                    where, "a beam there has releases: use a joint or a spring in their place");
     }
   return blocks;
 }
@@ -68,8 +68,7 @@ NodalMass rigid_mass(const Matrix6& block, int node, const Mesh& mesh, double le
   const Matrix6 moved = nodal_mass_matrix({node, mass.mass, Eigen::Matrix3d::Zero(), mass.offset, ""});
   if ((block - moved).leftCols<3>().cwiseAbs().maxCoeff() > 1e-9 * mass.mass * std::max(1.0, length))
     throw Error(fmt::format("modal_body: the lumped mass at {} is not that of a rigid body", mesh.node_label[node]),
-                where,
-                "the sections of its beams have a mass beside the axis without its inertia: change their offsets");
+                where, "the sections of its beams have a mass off the axis, but not its inertia: change their offsets");
   mass.inertia -= moved.bottomRightCorner<3, 3>();
   if (mass.inertia.cwiseAbs().maxCoeff() < 1e-12 * block.bottomRightCorner<3, 3>().cwiseAbs().maxCoeff())
     mass.inertia.setZero();
@@ -94,7 +93,7 @@ Partition held_partition(const Mesh& mesh, const System& system) {
 
 [[noreturn]] void fail_for_modes(int asked, int available, const std::string& where) {
   throw Error(fmt::format("modal_body: {} modes asked for, but only {} exist", asked, available), where,
-              "ask for fewer, or use more elements or masses with rotary inertia");
+              "ask for fewer modes, or use more elements or masses with rotary inertia");
 }
 
 LumpedModes held_modes(const Mesh& mesh, const System& system, const formats::ModalBodyRequest& body,
@@ -103,15 +102,15 @@ LumpedModes held_modes(const Mesh& mesh, const System& system, const formats::Mo
   const Eigen::JacobiSVD<Eigen::MatrixXd> held(rows(system.R, p.boundary));
   if (const auto& value = held.singularValues(); !(value[5] > 1e-8 * value[0]))
     throw Error("modal_body: the six held components leave a rigid motion of the part free", body.where,
-                "hold one node, or 3 + 2 + 1 translations at three nodes, or for a rod four components and two");
+                "hold all components of one node, or 3, 2 and 1 translations at three nodes, or for a rod four "
+                "components at one node and two at another");
   const Blocks blocks = split(system.matrices, p);
   const Factor S_II(blocks.S_II);
-  require_stiffness(
-      null_space(blocks.S_II, S_II), S_II, {mesh, system, p},
-      {"the modal body", "on its reference",
-       "give the elements there stiffness in that direction, or split the part at the hinge: a modal body "
-       "has no mechanism"},
-      body.where);
+  require_stiffness(null_space(blocks.S_II, S_II), S_II, {mesh, system, p},
+                    {"the modal body", "on its reference",
+                     "give the elements there stiffness in that direction, or split the part at the hinge: a modal "
+                     "body cannot contain a mechanism"},
+                    body.where);
   const int available = finite_mode_count(blocks.M_II);
   if (body.modes > available) fail_for_modes(body.modes, available, body.where);
   const Spectrum spectrum = lowest_pairs({blocks.S_II, blocks.M_II, S_II, 0.0}, body.modes, available,
@@ -135,12 +134,14 @@ void make_orthogonal_to_rigid_motions(const System& system, Eigen::MatrixXd& q) 
 LumpedModes free_modes(const Mesh& mesh, const System& system, const formats::ModalBodyRequest& body,
                        const formats::ModeSelection& asked, double lowest) {
   if (!(lowest > 0.0))
-    throw Error("modal_body: the part has no free frequencies, and so no mean axis", body.where,
-                "hold six components: reference: tip");
+    throw Error("modal_body: the part has no free frequencies, so it has no mean axis", body.where,
+                "hold six components, for example reference: tip");
   const std::optional<FreeModes> pairs = full_free_modes(system, {.scale = lowest, .count = body.modes}, asked);
   if (!pairs)
-    throw Error("modal_body: some rigid motion of the lumped masses moves no mass, which leaves the mean axis open",
-                body.where, "hold six components, or give the part inertia about every axis");
+    throw Error(
+        "modal_body: the mass or inertia of the lumped masses is zero in a rigid motion, so the mean axis is not "
+        "defined",
+        body.where, "hold six components, or give the part inertia about every axis");
   if (pairs->value.size() < body.modes) fail_for_modes(body.modes, count_of(pairs->value), body.where);
   LumpedModes modes{pairs->value, pairs->vector, pairs->solver.text};
   const Partition p = held_partition(mesh, system);

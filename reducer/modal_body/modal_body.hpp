@@ -10,19 +10,21 @@
 
 namespace tisserand::reducer {
 
-/// Body that `part.modal_body` requests, from the elements of `mesh` with lumped mass matrices. A mass with an offset
-/// from its node (point masses, beams and shells with offsets) becomes a node of its own that follows rigidly. XᵀM X is
-/// exactly that of the coupled masses. Ties restrict the modes; masses stay at the nodes of the mesh.
+/// Makes the floating-frame body that `part.modal_body` requests, from the elements of `mesh` with lumped mass
+/// matrices. A mass with an offset from its node (point masses, beams and shells with offsets) becomes a node of its
+/// own that follows rigidly. Xᵀ M X of the lumped masses is exactly that of the coupled masses. Ties restrict the
+/// modes; masses stay at the nodes of the mesh.
 ///
-/// Held components: modes of the rest, with basis and signs of internal modes. Mean axis: elastic modes of the free
-/// part, exactly orthogonal to its rigid motions. `lowest` is an eigenvalue ω² of the size of its first. A group of
-/// equal frequencies is completed. Throws Error for conditions that leave the frame loose, more modes than exist,
-/// masses that couple nodes (released beams), a mean axis without inertia or without `lowest` (0). `recover` receives
-/// the modes.
+/// If components are held, the modes are those of the other coordinates, with basis and signs of internal modes. For a
+/// mean axis they are the elastic modes of the free part, exactly orthogonal to its rigid motions. `lowest`: an
+/// eigenvalue ω² of the magnitude of the first of them. A group of equal frequencies is completed. `recover` receives
+/// the modes. Throws Error for conditions that leave the frame loose, for more modes than exist, and for masses that
+/// couple nodes (released beams). It also throws for a mean axis without inertia or without `lowest` (0).
 formats::ModalBody lumped_modal_body(const Mesh& mesh, const formats::Part& part, double lowest,
                                      const RecoveryListener& recover = nullptr);
 
-/// Body and its certificate, as a step of reduce(). `file` and `model` belong to the superelement.
+/// Makes the modal body of a part and its certificate, as a step of reduce(). `file`: certificate of the superelement.
+/// `model`: certificate to which that of the body is added.
 formats::ModalBody modal_body(const Mesh& mesh, const formats::Part& part, const FileCertificate& file,
                               const RecoveryListener& recover, ModelCertificate& model);
 

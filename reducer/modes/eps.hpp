@@ -15,47 +15,51 @@ struct _p_EPS;
 
 namespace tisserand::reducer {
 
-/// Types of EPS that are used.
+/// Methods of SLEPc's eigenvalue solver EPS that this program uses.
 enum class EigenSolver { lapack, block_lanczos, krylov_schur };
 
-/// Name of the type for EPSSetType.
+/// Name of the method as EPSSetType expects it.
 const char* eps_type(EigenSolver solver);
 
-/// Version of the loaded library, such as "SLEPc 3.18.2".
+/// Name and version of the loaded SLEPc library, such as "SLEPc 3.18.2".
 std::string slepc_version();
 
-/// Inverse of A − target B as the solver applies it.
+/// Operator (A − target B)⁻¹ of a search by shift and inversion.
 struct ShiftInvert {
   double target = 0.0;
-  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> solve;  ///< (A − target B)⁻¹ X, on the rows of this process
-  /// Whether Krylov-Schur solves once more per vector, which removes parts without a share in B.
+  /// Returns (A − target B)⁻¹ X; X holds the rows of this process.
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> solve;
+  /// Whether Krylov-Schur solves once more for each found vector. This removes parts that B does not see, such as
+  /// motions of massless coordinates.
   bool purify = true;
 };
 
-/// A x = λ B x, B positive (semi)definite. Types by shift and inversion find the λ nearest to the target, which for
-/// block_lanczos lies below the spectrum. If A and B are spread over several processes, all members are collective and
-/// vectors are the rows of this process. A and B must outlive it.
+/// Eigenvalue problem A x = λ B x with symmetric A and symmetric positive (semi)definite B, solved by SLEPc. A search
+/// by shift and inversion finds the λ nearest to the target. For block_lanczos the target must lie below the spectrum.
+/// If the rows of A and B are spread over several processes, all of them must call every member together, and vectors
+/// hold the rows of this process. A and B must outlive this object.
 class Eps {
  public:
   Eps(const Matrix& A, const Matrix& B, ShiftInvert inverse);
-  /// Problem for LAPACK, which finds the largest λ first: A and B dense, B positive definite.
+  /// Prepares a problem for LAPACK, which finds the largest λ first. Requires dense A and B, B positive definite.
   Eps(const Matrix& A, const Matrix& B);
   ~Eps();
   Eps(const Eps&) = delete;
   Eps& operator=(const Eps&) = delete;
 
-  /// Sets a function that receives the approximate share of solve() that is done, which never decreases.
+  /// Sets `done`, which receives the approximate completed share of solve(), 0 to 1. The share never decreases.
   void share(std::function<void(double)> done) { share_ = std::move(done); }
-  /// Finds pairs orthogonal to the known vectors (xᵀ B x = 1; may be empty). Returns whether `count` were found.
+  /// Searches for `count` eigenpairs whose vectors are B-orthogonal to the columns of `known`. Requires xᵀ B x = 1 for
+  /// each column of `known`, which may have none. Returns whether `count` pairs were found.
   bool solve(EigenSolver type, int count, const Eigen::MatrixXd& known);
-  /// Pairs that converged in the last solve(), nearest to the target first, at most `most`.
+  /// Converged pairs of the last solve(), nearest to the target first, at most `most`.
   EigenPairs pairs(int most) const;
-  /// Residuals of these pairs; for block_lanczos those of iterate_once().
+  /// Residuals of the pairs that pairs() returns. For block_lanczos they come from iterate_once().
   Eigen::VectorXd residuals() const;
   int iterations() const;
 
  private:
-  struct Calls;  ///< callbacks from SLEPc
+  struct Calls;  ///< functions that SLEPc calls
   void create(const Matrix& A, const Matrix& B);
   void tell(double done);
   void deflate(const Eigen::MatrixXd& known);
@@ -65,9 +69,9 @@ class Eps {
   _p_EPS* eps_ = nullptr;
   Eigen::Index rows_ = 0;
   int wanted_ = 1;
-  int columns_ = 0;             ///< columns solved for by solve()
-  double done_ = 0.0;           ///< share of solve() that was last reported
-  std::exception_ptr failure_;  ///< exception in a function that SLEPc called
+  int columns_ = 0;             ///< number of columns for which solve() has applied the inverse
+  double done_ = 0.0;           ///< completed share of solve() that was last reported
+  std::exception_ptr failure_;  ///< exception that a function called by SLEPc threw; null if none
 };
 
 }  // namespace tisserand::reducer

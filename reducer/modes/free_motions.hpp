@@ -6,15 +6,16 @@
 
 namespace tisserand::reducer {
 
-/// Elastic modes in the system's coordinates q, qᵀ M q = 1.
+/// Elastic modes of the reduced part, expanded to the coordinates q of the unreduced part, with qᵀ M q = 1.
 struct FreeMotions {
-  bool boundary_held = false;  ///< true: internal modes, since no elastic modes of the free part can be computed
-  Eigen::VectorXd lambda;      ///< ω², ascending
+  bool boundary_held = false;  ///< true: modes with the boundary held, because free modes cannot be computed
+  Eigen::VectorXd lambda;      ///< ω² of the modes, ascending
   Eigen::MatrixXd q;
 };
 
-/// q_B = y_B, q_I = Ψ y_B + Φ y_I for the `most` lowest elastic modes y of (S̄, M̄) of the free part. If these do not
-/// exist (something loose, a rigid motion without mass): those with the boundary held.
+/// Computes the `most` lowest elastic modes y of (S̄, M̄) of the free reduced part, and expands them by q_B = y_B, q_I
+/// = Ψ y_B + Φ y_I, THEORY (79). If free modes cannot be computed, it takes the internal modes with the boundary held
+/// instead. Reasons are a mechanism in the part and a rigid motion without mass.
 FreeMotions free_motions(const ReducedPart& part, int most);
 
 }  // namespace tisserand::reducer

@@ -251,10 +251,11 @@ Candidates candidates_for(const InternalProblem& problem, const BoundaryModes& b
       continue;
     }
     if (2 * sought > most || c.spectrum.kept == available)
-      throw Error(fmt::format("the accuracy of {:g} up to {:g} is not met: {} internal modes leave {:.2g}",
+      throw Error(fmt::format("the accuracy of {:g} up to the frequency {:g} is not reached: {} internal modes leave "
+                              "an error of {:.2g}",
                               selection.accuracy->error, selection.accuracy->up_to, c.spectrum.kept,
                               error_with(boundary, c, c.spectrum.kept, *selection.accuracy)),
-                  selection.where, "ask for a larger error or a lower frequency");
+                  selection.where, "request a larger error or a lower frequency");
     least = std::max(least, sought / 2);  // moment vectors with more modes, too
   }
 }
@@ -288,9 +289,9 @@ Spectrum spectrum_for(const Pencil& pencil, const formats::ModeSelection& select
 }  // namespace
 
 void fail_low_cutoff(const formats::ModeSelection& selection, const char* kind, double lowest) {
-  throw Error(fmt::format("cutoff {:g} is below the first {} mode, {:.4g}: no mode would be kept", *selection.cutoff,
-                          kind, std::sqrt(std::max(0.0, lowest)) / (2.0 * std::numbers::pi)),
-              selection.where, "raise it, or write `modes: 0` in its place if none is wanted");
+  throw Error(fmt::format("cutoff {:g} is below the first {} mode ({:.4g}), so no mode would be kept",
+                          *selection.cutoff, kind, std::sqrt(std::max(0.0, lowest)) / (2.0 * std::numbers::pi)),
+              selection.where, "increase `cutoff`, or write `modes: 0` in its place if you need no modes");
 }
 
 int finite_mode_count(const Matrix& M) {

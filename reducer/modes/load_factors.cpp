@@ -144,8 +144,9 @@ std::pair<EigenPairs, int> lowest_factors(const Side& side, int count) {
       return {{pairs.value.head(asked), pairs.vector.leftCols(asked)}, counted - asked};
     missing = wanted;
   }
-  throw Error(fmt::format("{} load factors of buckling were found, and more exist below them", pairs.value.size()),
-              "eigenvalue solver", "ask for fewer or for more, or report this with the part file");
+  throw Error(
+      fmt::format("{} load factors of buckling were found, but others below them were missed", pairs.value.size()),
+      "eigenvalue solver", "ask for fewer or more of them, or report this with the part file");
 }
 
 /// Normalises φᵀ S φ = 1 and computes factors as Rayleigh's quotients, and the residual.
@@ -165,11 +166,12 @@ void finish(const StressPencil& pencil, const EigenPairs& pairs, LoadFactors& re
     result.shape.col(k) /= std::sqrt(size);
   }
   if (!(result.residual <= largest_residual))
-    throw Error(fmt::format("load factors of buckling have a relative residual of {:.1e}, above {:.0e}",
-                            result.residual, largest_residual),
-                "eigenvalue solver",
-                "the part is badly conditioned: avoid very short beside very long elements, and very stiff beside very "
-                "soft ones");
+    throw Error(
+        fmt::format("load factors of buckling have a relative residual of {:.1e}, but at most {:.0e} is accepted",
+                    result.residual, largest_residual),
+        "eigenvalue solver",
+        "the part is ill-conditioned: avoid very short elements next to very long ones, and very stiff elements next "
+        "to very soft ones");
 }
 
 }  // namespace

@@ -46,8 +46,8 @@ void require_mass_of(const InternalProblem& problem, const MatrixXd& N, const Ma
   const VectorXd terms = N.cwiseAbs2().transpose() * diagonal_mass.cwiseAbs();
   for (Index i = 0; i < k; ++i)
     if (!(mass(i, i) > least * terms[i]))
-      throw Error(fmt::format("a motion without stiffness moves no mass either: {}", motion_words(problem, N.col(i))),
-                  problem.where, "give what moves there mass (rotary inertia), or stiffness");
+      throw Error(fmt::format("a motion has neither stiffness nor mass: {}", motion_words(problem, N.col(i))),
+                  problem.where, "give the nodes that move there mass (rotary inertia), or stiffness");
 }
 
 }  // namespace

@@ -9,11 +9,12 @@
 
 namespace tisserand::reducer {
 
-/// Deviations of the projection from its exact form before correction, relative to the largest entries.
+/// Deviations of the reduced matrices from the exact canonical form before project() corrects them, relative to the
+/// largest entries.
 struct ProjectionDefects {
-  double stiffness_coupling = 0.0;  ///< |S̄_BI|, exactly 0 in theory
-  double orthonormality = 0.0;      ///< |Φᵀ M_II Φ − 1|
-  double rigid_residual = 0.0;      ///< |S̄ R| before the rigid motions were projected out
+  double stiffness_coupling = 0.0;  ///< largest |S̄_BI|, which is 0 in theory
+  double orthonormality = 0.0;      ///< largest |Φᵀ M_II Φ − 1| of the internal vectors Φ
+  double rigid_residual = 0.0;      ///< largest |S̄ R| with the rigid motions R, before project() removes it
 };
 
 struct Projection {
@@ -21,9 +22,9 @@ struct Projection {
   ProjectionDefects defects;
 };
 
-/// Projection [Car00] (25), (38) with T = [1 0; Ψ Φ]: S̄ = diag(S_BB + S_BI Ψ + Ψᵀ(S_IB + S_II Ψ), Λ), M̄ = [M_BB +
-/// M_BI Ψ + Ψᵀ M_IB + Ψᵀ M_II Ψ, (M_BI + Ψᵀ M_II) Φ; ., 1], symmetrised. The canonical form is exact: S̄_BI = 0, M̄_II
-/// = 1, S̄_II = Λ ascending, and S̄ R = 0 by projection.
+/// Projects S and M on the basis of THEORY (79), which gives the reduced matrices S̄ and M̄ of THEORY (80),
+/// symmetrised ([Car00] (25), (38)). The canonical form of THEORY (7) is set exactly: S̄_BI = 0, M̄_II = 1, and S̄_II
+/// = Λ, ascending. A projection makes S̄ R = 0 exact for the rigid motions R.
 Projection project(const formats::Part& part, const InternalProblem& problem, const BoundaryModes& boundary,
                    const InternalModes& internal);
 

@@ -55,8 +55,8 @@ MatrixXd responses(const InternalProblem& problem, const BoundaryModes& boundary
 }
 
 void fail_without_mass(const InternalProblem& problem) {
-  throw Error("some rigid motion of the part moves no mass: it has no free modes", problem.where,
-              "give it mass, or write method: craig_bampton");
+  throw Error("the mass or inertia of a rigid motion is zero, so the part has no free modes", problem.where,
+              "give the part inertia about every axis, or write method: craig_bampton");
 }
 
 /// Elastic modes of the free part, by number or up to a frequency. `lambda_1`: eigenvalue of the size of the first.

@@ -103,7 +103,7 @@ SearchResult search_all(const Pencil& pencil) {
   try {
     eps.solve(EigenSolver::lapack, size, {});
   } catch (const Error& error) {
-    throw Error(fmt::format("LAPACK found no eigenpairs of {} coordinates: {}", size, error.message()),
+    throw Error(fmt::format("LAPACK did not solve the eigenproblem with {} coordinates: {}", size, error.message()),
                 "eigenvalue solver", "the stiffness is not positive definite: check sections and boundary");
   }
   SearchResult result{eps.pairs(size), std::nullopt, {{EigenSolver::lapack, eps.iterations()}}};

@@ -12,42 +12,44 @@
 
 namespace tisserand::reducer {
 
-/// S, M and the factor of S − shift M, with shift below the spectrum.
+/// Eigenproblem S x = λ M x with the factor of S − shift M. Requires a shift below the spectrum.
 struct Pencil {
   const Matrix& S;
   const Matrix& M;
   const Factor& factor;
   double shift = 0.0;
-  std::function<void(double)> share = [](double /*done*/) {};  ///< receives the approximate share that is done
-  /// Receives the phase: "count" before eigenvalues are counted, "internal modes" after it.
+  std::function<void(double)> share = [](double /*done*/) {};  ///< receives the approximate completed share, 0 to 1
+  /// Receives the name of a phase: "count" before eigenvalues are counted, "internal modes" after the count.
   std::function<void(const std::string&)> begin = [](const std::string& /*phase*/) {};
 };
 
-/// Type and iterations of a call of EPSSolve.
+/// Method and number of iterations of one call of EPSSolve.
 struct EigenRun {
   EigenSolver type = EigenSolver::lapack;
   int iterations = 0;
 };
 
 struct SearchResult {
-  EigenPairs pairs;                         ///< ascending
-  std::optional<Eigen::VectorXd> residual;  ///< from iterate_once(), if the solver took that step
+  EigenPairs pairs;  ///< found pairs, ascending
+  /// Residuals from iterate_once(); absent if the solver did not take that step.
+  std::optional<Eigen::VectorXd> residual;
   std::vector<EigenRun> runs;
 };
 
-/// The `wanted` lowest pairs orthogonal to `known` (xᵀ M x = 1; may be empty), and others that converged, by
-/// block_lanczos or krylov_schur. If block_lanczos breaks down or does not converge, krylov_schur replaces it. If the
-/// factor is spread over ranks, so are the vectors during the search.
+/// Searches for the `wanted` lowest pairs M-orthogonal to the columns of `known`, by block_lanczos or krylov_schur.
+/// Requires xᵀ M x = 1 for each column of `known`, which may have none. Further converged pairs are returned too. If
+/// block_lanczos breaks down or does not converge, krylov_schur replaces it. If the factor is spread over processes,
+/// the vectors are spread too during the search.
 SearchResult search(const Pencil& pencil, EigenSolver type, int wanted, const Eigen::MatrixXd& known);
 
-/// Work of the followers during a search.
+/// Part of search() that the other processes run while the first process calls search().
 void help_to_search(const Mumps& factor);
 
-/// All pairs of a small pencil by LAPACK, ascending, without those whose 1/(λ − shift) is round-off relative to that of
-/// the first.
+/// Computes all pairs of a small pencil by LAPACK, ascending. Pairs whose 1/(λ − shift) is round-off of that of the
+/// first pair are omitted.
 SearchResult search_all(const Pencil& pencil);
 
-/// Operator of the pencil for iterate_once(), with all rows on this process.
+/// Operator of the pencil for iterate_once(), with all rows in this process.
 ShiftedOperator shifted_operator(const Pencil& pencil);
 
 }  // namespace tisserand::reducer

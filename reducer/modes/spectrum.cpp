@@ -36,7 +36,7 @@ void append(const EigenPairs& more, EigenPairs& pairs) {
 }
 
 [[noreturn]] void fail_missing(int found, int exist) {
-  throw Error(fmt::format("{} internal modes found where {} exist", found, exist), "eigenvalue solver",
+  throw Error(fmt::format("{} internal modes were found, but {} exist", found, exist), "eigenvalue solver",
               "ask for fewer modes, or use fewer elements per line");
 }
 
@@ -200,12 +200,11 @@ SolverReport report_of(const Spectrum& s) {
   if (s.unsharp.empty()) return report;
   double error = 0.0;
   for (const UnsharpPair& pair : s.unsharp) error = std::max(error, pair.error);
-  report.notes.push_back(fmt::format(
-      "{} modes keep a residual above {:.0e}, from {:.6g} on: their frequencies are within {:.1e}, relatively, of "
-      "those "
-      "of the mesh.",
-      s.unsharp.size(), usual_residual, std::sqrt(std::max(0.0, s.unsharp.front().lambda)) / (2.0 * std::numbers::pi),
-      error));
+  report.notes.push_back(
+      fmt::format("{} modes have a residual above {:.0e}; the lowest of them has the frequency {:.6g}. The relative "
+                  "error of their frequencies is at most {:.1e}.",
+                  s.unsharp.size(), usual_residual,
+                  std::sqrt(std::max(0.0, s.unsharp.front().lambda)) / (2.0 * std::numbers::pi), error));
   return report;
 }
 
@@ -239,17 +238,15 @@ EigenSolver choose_solver(Eigen::Index size, int count, const formats::ModeSelec
     case formats::EigenSolverChoice::block_lanczos:
       if (!has_block_lanczos())
         throw Error(
-            "this reducer has no block_lanczos: SLEPc's header slepc/private/epsimpl.h was missing when it was "
-            "configured",
+            "this reducer was built without block_lanczos, because SLEPc's header slepc/private/epsimpl.h was missing",
             asked.eigensolver_where, "write eigensolver: krylov_schur, or auto");
       return EigenSolver::block_lanczos;
     case formats::EigenSolverChoice::lapack:
       if (size > most_dense)
-        throw Error(
-            fmt::format("eigensolver: lapack computes all modes of dense matrices, {} coordinates are more than "
-                        "{}",
-                        size, most_dense),
-            asked.eigensolver_where, "write eigensolver: auto, or use fewer elements");
+        throw Error(fmt::format("eigensolver: lapack computes all modes of dense matrices; the part has {} "
+                                "coordinates, but at most {} are allowed",
+                                size, most_dense),
+                    asked.eigensolver_where, "write eigensolver: auto, or use fewer elements");
       return EigenSolver::lapack;
     case formats::EigenSolverChoice::automatic:
       break;
@@ -266,10 +263,11 @@ Spectrum lowest_pairs(const Pencil& pencil, int count, int available, EigenSolve
   refine_unsharp(pencil, s);
   const double residual = s.residual.head(s.kept).maxCoeff();
   if (!(residual <= most_residual))
-    throw Error(fmt::format("internal modes have a relative residual of {:.1e}, above {:.0e}", residual, most_residual),
+    throw Error(fmt::format("internal modes have a relative residual of {:.1e}, but at most {:.0e} is accepted",
+                            residual, most_residual),
                 "eigenvalue solver",
-                "the part is badly conditioned: avoid very short beside very long elements, and very stiff beside very "
-                "soft ones");
+                "the part is ill-conditioned: avoid very short elements next to very long ones, and very stiff "
+                "elements next to very soft ones");
   return s;
 }
 
@@ -280,8 +278,9 @@ EigenPairs dense_lowest(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, doub
   DensePairs found = largest_pairs(M, B, count);
   if (found.info > 0 && found.info <= S.rows()) found = largest_pairs_by_qr(M, B, count);
   if (found.info != 0)
-    throw Error(fmt::format("LAPACK found no eigenpairs of {} coordinates (info {})", S.rows(), found.info),
-                "eigenvalue solver", "the stiffness is not positive definite: check sections and boundary");
+    throw Error(
+        fmt::format("LAPACK did not solve the eigenproblem with {} coordinates (info {})", S.rows(), found.info),
+        "eigenvalue solver", "the stiffness is not positive definite: check sections and boundary");
   EigenPairs pairs{Eigen::VectorXd(count), Eigen::MatrixXd(S.rows(), count)};
   for (int k = 0; k < count; ++k) {
     const double m = found.mu[count - 1 - k];

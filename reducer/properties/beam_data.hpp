@@ -9,20 +9,21 @@
 
 namespace tisserand::reducer {
 
-/// Rotary inertia of bending: `without` drops ρI θ'² of bending and keeps the torsional inertia ρ(Iy + Iz).
+/// Treatment of rotary inertia. `without` omits ρI θ'² of bending and keeps the torsional inertia ρ(Iy + Iz).
 enum class RotaryInertia { with, without };
 
-/// Mass without stiffness on the beam, linear from its first to its second end.
+/// Mass without stiffness that a beam carries, linear from its first to its second end.
 struct AddedMass {
-  double first = 0.0;  ///< per length, at the first end
+  double first = 0.0;  ///< mass per length at the first end
   double second = 0.0;
-  double inertia = 0.0;   ///< about x through its centre, per length, constant
-  double offset_y = 0.0;  ///< offset of its centre from the axis
+  double inertia = 0.0;   ///< inertia about x through its centre, per length, constant
+  double offset_y = 0.0;  ///< offset of its centre from the beam axis
   double offset_z = 0.0;
 };
 
-/// Data that determine the matrices of one element. The twelve coordinates are [u v w θx θy θz] of end 1, then of end
-/// 2, in the element's axes: x from end 1 to end 2, y and z the axes of the section.
+/// Section, material, length and options of one beam element, which determine its matrices. The twelve coordinates are
+/// [u v w θx θy θz] of end 1, then of end 2, in the axes of the element: x from end 1 to end 2, y and z the axes of
+/// the section.
 struct BeamElementData {
   formats::Section section;
   formats::Material material;
@@ -30,8 +31,8 @@ struct BeamElementData {
   formats::BeamTheory theory = formats::BeamTheory::timoshenko;
   formats::MassMatrix mass_matrix = formats::MassMatrix::consistent;
   RotaryInertia rotary_inertia = RotaryInertia::with;
-  /// Sections of a tapered beam at equal distances from end 1 to end 2 (at least two). Their constants vary by the
-  /// polynomial through all of them (see properties/beam_taper.hpp). Empty: `section` everywhere.
+  /// Sections of a tapered beam at equal distances from end 1 to end 2, at least two. Their constants vary by the
+  /// polynomial through all of them (properties/beam_taper.hpp). If there are none, `section` holds everywhere.
   std::vector<formats::Section> stations;
   AddedMass added_mass;
 };

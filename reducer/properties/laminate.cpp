@@ -91,7 +91,7 @@ void check_ply(const Ply& ply, std::size_t number, const std::string& where) {
     demand(value > 0.0 && std::isfinite(value), quantity, value, "positive and finite");
   demand(ply.density >= 0.0 && std::isfinite(ply.density), "density", ply.density, "finite and not negative");
   demand(std::isfinite(ply.angle), "angle", ply.angle, "finite");
-  demand(ply.nu12 * ply.nu12 < ply.E1 / ply.E2, "nu12", ply.nu12, "smaller than sqrt(E1/E2) in size");
+  demand(ply.nu12 * ply.nu12 < ply.E1 / ply.E2, "nu12", ply.nu12, "smaller than sqrt(E1/E2) in absolute value");
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ ShellSection laminate(const std::vector<Ply>& plies, double bottom) {
 }
 
 void check_plies(const std::vector<Ply>& plies, const std::string& where) {
-  if (plies.empty()) throw Error("a laminate without plies", where, "list at least one ply");
+  if (plies.empty()) throw Error("the laminate has no plies", where, "list at least one ply");
   for (std::size_t i = 0; i < plies.size(); ++i) check_ply(plies[i], i + 1, where);
 }
 

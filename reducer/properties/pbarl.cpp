@@ -95,14 +95,14 @@ SectionPolygon to_element_axes(SectionPolygon polygon, int quarter_turns) {
 std::string list_of_types() {
   std::vector<std::string> types;
   for (const auto& [type, count] : size_counts()) types.emplace_back(type);
-  return "known: " + join(types, ", ");
+  return "known are " + join(types, ", ");
 }
 
 [[noreturn]] void refuse(std::string_view type, const Sizes& sizes, const std::string& what, const std::string& where) {
   std::vector<std::string> words;
   for (std::size_t i = 0; i < sizes.size(); ++i) words.push_back(fmt::format("DIM{} = {:g}", i + 1, sizes[i]));
   throw Error(fmt::format("section type {}: {}; {}", type, what, join(words, ", ")), where,
-              "correct the sizes; their order is that of the figures of PBARL");
+              "correct the sizes; their order is that of the figures for PBARL in the manual of Nastran");
 }
 
 SectionPolygon polygon_of(std::string_view type, const Sizes& sizes, const std::string& where) {
@@ -110,8 +110,8 @@ SectionPolygon polygon_of(std::string_view type, const Sizes& sizes, const std::
     if (const auto fault = formats::profile_fault(drawn->shape, drawn->sizes)) refuse(type, sizes, *fault, where);
     return to_element_axes(formats::profile_polygon(drawn->shape, drawn->sizes), drawn->quarter_turns);
   }
-  if (type == "Z" && !(sizes[3] > sizes[2])) refuse(type, sizes, "DIM4 is not more than DIM3", where);
-  if (type == "HEXA" && !(sizes[1] > 2.0 * sizes[0])) refuse(type, sizes, "DIM2 is not more than 2 DIM1", where);
+  if (type == "Z" && !(sizes[3] > sizes[2])) refuse(type, sizes, "DIM4 must exceed DIM3", where);
+  if (type == "HEXA" && !(sizes[1] > 2.0 * sizes[0])) refuse(type, sizes, "DIM2 must exceed 2 DIM1", where);
   const SectionPolygon polygon = type == "Z" ? zed(sizes) : type == "HEXA" ? hexagon(sizes) : double_box(sizes);
   if (const auto fault = formats::polygon_fault(polygon)) refuse(type, sizes, *fault, where);
   return to_element_axes(polygon, 0);
@@ -145,7 +145,8 @@ Section pbarl_section(std::string_view type, const Sizes& sizes, const std::stri
     section = formats::rectangle_section(sizes[1], sizes[0]);
   } else {
     section = formats::polygon_section(polygon_of(type, sizes, where));
-    if (!formats::is_resolved(section)) refuse(type, sizes, "the walls are too thin for its torsion constant", where);
+    if (!formats::is_resolved(section))
+      refuse(type, sizes, "the walls are too thin to compute the torsion constant", where);
   }
   section.where = where;
   return section;

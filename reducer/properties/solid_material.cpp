@@ -41,11 +41,10 @@ Matrix6 orthotropic_elasticity(const OrthotropicConstants& constants, const std:
       -nu13 / E1, -nu23 / E2, 1.0 / E3;
   const Eigen::LLT<Eigen::Matrix3d> factors(normal);
   if (factors.info() != Eigen::Success)
-    throw Error(
-        fmt::format("orthotropic material: Poisson's ratios nu12, nu13, nu23 = {:.6g}, {:.6g}, {:.6g} do not go "
-                    "with E = {:.6g}, {:.6g}, {:.6g}: some strain would have negative energy",
-                    nu12, nu13, nu23, E1, E2, E3),
-        where, "nu_ij/E_i = nu_ji/E_j: check which of the two ratios is meant");
+    throw Error(fmt::format("orthotropic material: Poisson's ratios nu12, nu13, nu23 = {:.6g}, {:.6g}, {:.6g} are not "
+                            "consistent with E = {:.6g}, {:.6g}, {:.6g}: some strain would have negative energy",
+                            nu12, nu13, nu23, E1, E2, E3),
+                where, "check which of the two ratios you gave: nu_ij/E_i = nu_ji/E_j");
   Matrix6 C = Matrix6::Zero();
   C.topLeftCorner<3, 3>() = factors.solve(Eigen::Matrix3d::Identity());
   C.topLeftCorner<3, 3>() = (0.5 * (C.topLeftCorner<3, 3>() + C.topLeftCorner<3, 3>().transpose())).eval();
@@ -71,7 +70,7 @@ SolidMaterial anisotropic_solid(const Matrix6& C_M, const Eigen::Matrix3d& R_PM,
                                 const std::string& where) {
   if (!C_M.allFinite() || !C_M.isApprox(C_M.transpose(), 1e-6) || Eigen::LLT<Matrix6>(C_M).info() != Eigen::Success)
     throw Error(
-        "elastic matrix of a solid: not symmetric and positive definite", where,
+        "the elastic matrix of a solid is not symmetric and positive definite", where,
         "give the 21 constants of stress = C strain in the order xx yy zz xy yz zx with engineering shear strains");
   return {rotated_elasticity(C_M, R_PM), density};
 }

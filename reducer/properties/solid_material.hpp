@@ -6,13 +6,13 @@
 
 namespace tisserand::reducer {
 
-/// σ = C ε with [xx yy zz xy yz zx], engineering shear strains, part axes.
+/// Linear elastic material of a solid: σ = C ε in part axes, order [xx yy zz xy yz zx], engineering shear strains.
 struct SolidMaterial {
   Eigen::Matrix<double, 6, 6> C = Eigen::Matrix<double, 6, 6>::Zero();
   double density = 0.0;
 };
 
-/// Isotropic material from its constants.
+/// Isotropic solid material from its constants.
 SolidMaterial isotropic_solid(double youngs_modulus, double poisson_ratio, double density);
 
 }  // namespace tisserand::reducer

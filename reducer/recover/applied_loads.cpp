@@ -41,27 +41,26 @@ std::vector<std::string> applied_loads_notes(const formats::Recovery& recovery, 
   if (body.is_modal) {
     if (recovery.loads && !unanswered.empty())
       notes.push_back(fmt::format(
-          "forces act on the body at {}, of which its recovery file has no static answers: the stress of these forces "
-          "that the modes leave out is neither added nor estimated; make these nodes `boundary` nodes in the part file",
+          "forces act on the body at {}, but the recovery file has no static answers to them. The part of their stress "
+          "that the modes omit is neither added nor estimated. Make these nodes `boundary` nodes in the part file.",
           quoted_names(unanswered)));
     return notes;
   }
   if (!unanswered.empty())
-    notes.push_back(fmt::format(
-        "load cases of the part act on the body ({}), of which the recovery file has no static answers: the stress of "
-        "load cases that the modes leave out is neither added nor estimated; reduce the part again with `recovery: "
-        "yes` "
-        "(method macneal has none)",
-        quoted_names(unanswered)));
+    notes.push_back(
+        fmt::format("load cases of the part act on the body ({}), but the recovery file has no static answers to them. "
+                    "The part of their stress that the modes omit is neither added nor estimated. Reduce the part "
+                    "again with `recovery: yes`, but not with method: macneal, which has no static answers.",
+                    quoted_names(unanswered)));
   const std::size_t row = body.row;
   const bool stored =
       row + 1 < layout.load_case_offset.size() && layout.load_case_offset[row + 1] > layout.load_case_offset[row];
   if (stored) return notes;
   if (const std::vector<std::string> names = loads_of_scene(layout.simulated, body.name); !names.empty())
     notes.push_back(fmt::format(
-        "load cases of the part act on the body ({}), whose factors the results do not hold (written before version "
-        "1.11, or without the channel superelements/load_factor): the stress of load cases that the modes leave out is "
-        "neither added nor estimated; run the scene again",
+        "load cases of the part act on the body ({}), but the results do not hold their factors. The part of their "
+        "stress that the modes omit is neither added nor estimated. The results were written before version 1.11, or "
+        "without the channel superelements/load_factor. Run the scene again with this channel.",
         quoted_names(names)));
   return notes;
 }

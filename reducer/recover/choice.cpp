@@ -30,24 +30,23 @@ int find_element(const Recovery& r, const std::string& word, const std::string& 
   int number = 0;
   const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (fault != std::errc() || end != digits.data() + digits.size())
-    throw Error(fmt::format("'{}' is no number of an element", printable_line(word, 60)), "--element",
+    throw Error(fmt::format("'{}' is not the number of an element", printable_line(word, 60)), "--element",
                 "give a number, such as 12, or group and number, such as skin/12");
   const int group = slash == std::string::npos ? -1 : find_group(r, word.substr(0, slash), where);
   std::vector<int> found;
   for (int e = 0; e < r.elements.count(); ++e)
     if (r.elements.id[e] == number && (group < 0 || r.elements.group[e] == group)) found.push_back(e);
   if (found.empty())
-    throw Error(
-        fmt::format("has no element '{}'", printable_line(word, 60)), where,
-        "give the number in the deck, or the number within its group; `reducer recover` without --element writes "
-        "all of them into the envelope");
+    throw Error(fmt::format("has no element '{}'", printable_line(word, 60)), where,
+                "give its number in the deck, or its number within its group; the numbers of all elements are in the "
+                "envelope that `reducer recover` writes without --element");
   if (found.size() == 1) return found[0];
   std::vector<std::string> names;
   for (const int e : found) names.push_back(element_text(r, e));
-  throw Error(fmt::format("has {} elements '{}': {}", found.size(), word, listed(names)), where,
-              group < 0 ? fmt::format("give the group too, such as --element {}/{}",
+  throw Error(fmt::format("has {} elements that match '{}': {}", found.size(), word, listed(names)), where,
+              group < 0 ? fmt::format("give the group and the number, such as --element {}/{}",
                                       r.group_name[r.elements.group[found[0]]], number)
-                        : "choose their nodes with --point");
+                        : "choose nodes of these elements with --point");
 }
 
 }  // namespace

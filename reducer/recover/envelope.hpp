@@ -15,8 +15,8 @@ namespace tisserand::reducer {
 
 enum class Extreme { largest, smallest };
 
-/// Largest or smallest value of one quantity over time, for each of many items. If values are equal except for
-/// round-off (equal_by_symmetry), the first instant counts.
+/// Largest or smallest value over time of one quantity, for each of many items (nodes, elements or stress points). The
+/// first instant counts if values are equal except for round-off (equal_by_symmetry).
 class ExtremeOverTime {
  public:
   ExtremeOverTime(Extreme kind, int items);
@@ -25,10 +25,10 @@ class ExtremeOverTime {
   Extreme kind() const { return kind_; }
   int items() const { return count_of(height_); }
   float value(int item) const { return kind_ == Extreme::largest ? height_[item] : -height_[item]; }
-  int instant(int item) const { return instant_[item]; }  ///< −1: none yet
-  int place(int item) const { return place_[item]; }      ///< see Placed
+  int instant(int item) const { return instant_[item]; }  ///< number of the instant of the extreme value; −1: none yet
+  int place(int item) const { return place_[item]; }      ///< place of the extreme value in the item, see Placed
   std::vector<float> values() const;
-  /// Item of [first, end) with the extreme value, the earliest of equal ones; −1: none.
+  /// Item of [first, end) with the extreme value, the earliest in time of equal ones. Returns −1 if there is none.
   int extreme(int first, int end) const;
 
  private:
@@ -37,7 +37,8 @@ class ExtremeOverTime {
   std::vector<int> instant_, place_;
 };
 
-/// Von Mises stress (beams: |normal stress|), largest and smallest principal stress (beams: normal stress) of items.
+/// Envelope of stress for many items: largest von Mises stress, and largest and smallest principal stress. Beams have
+/// the normal stress in place of principal stresses, and its magnitude in place of the von Mises stress.
 struct StressEnvelope {
   explicit StressEnvelope(int items)
       : von_mises(Extreme::largest, items), largest(Extreme::largest, items), smallest(Extreme::smallest, items) {}
@@ -46,32 +47,37 @@ struct StressEnvelope {
   ExtremeOverTime von_mises, largest, smallest;
 };
 
-/// Envelope of a body. Its size depends on the mesh, not on the number of instants.
+/// Envelope over time of the displacements and stresses of a body. Its size depends on the mesh, not on the number of
+/// instants.
 class Envelope {
  public:
   explicit Envelope(const formats::Recovery& recovery);
 
-  /// Adds a block of a batch whose first instant has number `first` in the run.
+  /// Adds the values of `block` at all instants of the batch `motion`. `first`: number in the run of the first instant
+  /// of the batch.
   void add(const FieldBlock& block, const BodyMotion& motion, Eigen::Index first);
-  /// Copies the values of stress points to solids, after the last block.
+  /// Copies the values of stress points to the solids that have them. Must be called after the last block.
   void finish(const SolidPoints& points);
 
-  ExtremeOverTime displacement;  ///< nodes
-  StressEnvelope point;          ///< stress points of solids
-  StressEnvelope element;        ///< elements; the place in a solid is its node, from 1
+  ExtremeOverTime displacement;  ///< largest displacement of each node
+  StressEnvelope point;          ///< stresses at the stress points of solids
+  StressEnvelope element;        ///< stresses of the elements; the place in a solid is its node, counted from 1
 
  private:
   const formats::Recovery& recovery_;
 };
 
-/// Text for a place within an element: "top", "end 1 (0.01, -0.02)", "node 4711".
+/// Text for a place within an element: "top", "end 1 (0.01, -0.02)", "node 4711". `place`: see Placed. `length`:
+/// factor from lengths of the recovery file to those of the text.
 std::string place_text(const formats::Recovery& recovery, int element, int place, double length);
 
-/// Writes one line per element: largest von Mises stress, largest and smallest principal stress, with times and places.
+/// Writes a CSV file with one line per element: largest von Mises stress, largest and smallest principal stress, with
+/// their times and places.
 void write_envelope_csv(const std::string& path, const formats::Recovery& recovery, const MotionReader& motion,
                         const Envelope& envelope);
 
-/// Writes the envelope on the mesh at rest, with displacements and, for solids, stresses at the nodes.
+/// Writes the envelope as a VTU file on the undeformed mesh: stresses of the elements, displacements of the nodes and,
+/// for solids, stresses at the nodes.
 void write_envelope_vtu(const std::string& path, const formats::Recovery& recovery, const MotionReader& motion,
                         const formats::VtuCells& cells, const Envelope& envelope);
 

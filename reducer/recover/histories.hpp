@@ -11,46 +11,48 @@
 
 namespace tisserand::reducer {
 
-/// Axes of the floating frame in the world at an instant, R_0; 1 in the part frame.
+/// Axes R_0 of the floating frame in the world at an instant. They are the unit matrix if `frame` is the part frame.
 Eigen::Matrix3d frame_axes(const BodyMotion& motion, RecoverFrame frame, Eigen::Index instant);
 
-/// Undeformed positions of places of the part (part frame of the image, units of the scene), carried by the floating
-/// frame or at rest in the part frame.
+/// Undeformed positions of `places` at an instant. In the world frame the floating frame carries them; in the part
+/// frame they are at rest. `places`: positions in the part frame (mirrored, if the body is), in units of the scene (3
+/// x places).
 Eigen::Matrix3Xd rest_positions(const Eigen::Matrix3Xd& places, const BodyMotion& motion, RecoverFrame frame,
                                 Eigen::Index instant);
 
-/// Table over time. It takes blocks of a batch of instants, then writes a line for each instant.
+/// Table over time with one line per instant. It takes the field blocks of a batch of instants, then gives its lines.
 class HistoryTable {
  public:
   virtual ~HistoryTable() = default;
   virtual std::string header() const = 0;
   virtual void begin(Eigen::Index /*instants*/) {}
   virtual void take(const FieldBlock& block) = 0;
-  /// Cells ",1,2,3" of an instant of the batch.
+  /// Cells ",1,2,3" of the line of an instant of the batch.
   virtual std::string cells(const BodyMotion& motion, Eigen::Index instant) const = 0;
 };
 
-/// Tables of the chosen items of the recovery file. A table without items is missing.
+/// Tables of the chosen nodes, elements and groups of a recovery file. A table without items is omitted.
 struct ChosenHistories {
   std::vector<std::unique_ptr<HistoryTable>> tables;
-  std::vector<std::string> endings;  ///< "points", "elements", "groups"
+  std::vector<std::string> endings;  ///< end of the file name of each table: "points", "elements" or "groups"
 };
 
-/// Tables for a request. Throws Error for nodes, elements or groups that the file lacks, element numbers that several
-/// groups have, and lines of the file of points that name nothing. The arguments must outlive the result.
+/// Makes the tables for the nodes, elements and groups of `request`. Throws Error for those that the recovery file
+/// lacks, for an element number that several groups have, and for a line of the file of points that names nothing.
+/// `still`: data of the motion that do not depend on time. The arguments must outlive the result.
 ChosenHistories chosen_histories(const formats::Recovery& recovery, const BodyMotion& still,
                                  const RecoverRequest& request);
 
-/// Files of the tables; each of them is complete or does not exist.
+/// CSV files of the tables. Each file is complete or does not exist.
 class Histories {
  public:
-  /// `stem`: folder and name before _points.csv.
+  /// Begins the files. `stem`: folder and file name up to the "_" before "points.csv".
   Histories(ChosenHistories chosen, const BodyMotion& still, const std::string& stem);
 
   void begin(Eigen::Index instants);
   void take(const FieldBlock& block);
   void end(const BodyMotion& motion);
-  /// Gives the files their final names and returns these.
+  /// Gives the files their final names, and returns the names.
   std::vector<std::string> publish();
 
  private:

@@ -11,19 +11,19 @@
 
 namespace tisserand::reducer {
 
-/// Chosen item, with the words that chose it.
+/// Node, element or group that the user chose, with the words that chose it.
 struct ChosenItem {
   std::string label;
-  int index = 0;  ///< of a node, element or group
+  int index = 0;  ///< index of the node, element or group in the recovery file
 };
 
-/// Rows of items of a field at the instants of a batch, collected from its blocks.
+/// Values of chosen items of one field at the instants of a batch, collected from the blocks of the field.
 class KeptItems {
  public:
   explicit KeptItems(formats::RecoveryField field) : field_(field) {}
   void want(int item) { rows_.try_emplace(item); }
   void take(const FieldBlock& block);
-  /// Rows of an item, width x instants.
+  /// Values of one item (width of the field x instants).
   const Eigen::MatrixXf& of(int item) const { return rows_.at(item); }
 
  private:
@@ -31,8 +31,8 @@ class KeptItems {
   std::map<int, Eigen::MatrixXf> rows_;
 };
 
-/// Table of nodes: displacement x, y, z (axes of the requested frame), position, and largest von Mises stress (beams:
-/// |normal stress|) of the elements at the node.
+/// Table of chosen nodes: displacement x, y, z (axes of the requested frame), position, and largest von Mises stress
+/// of the elements at the node (beams: |normal stress|).
 class NodeTable : public HistoryTable {
  public:
   NodeTable(const formats::Recovery& recovery, const BodyMotion& still, RecoverFrame frame,
@@ -56,9 +56,9 @@ class NodeTable : public HistoryTable {
       shell_{formats::RecoveryField::shell_stress}, solid_{formats::RecoveryField::solid_stress};
 };
 
-/// Table of elements. Beam: forces and moments at both ends, largest and smallest normal stress. Shell: von Mises
-/// stress of both faces, principal stresses, membrane and bending stress. Solid: von Mises and principal stresses of
-/// its worst node, and the mean stress of its nodes.
+/// Table of chosen elements. Beams have forces and moments at both ends, and the largest and smallest normal stress.
+/// Shells have the von Mises stress of both faces, principal stresses, and membrane and bending stress. Solids have
+/// von Mises and principal stresses of their worst node, and the mean stress of their nodes.
 class StressTable : public HistoryTable {
  public:
   StressTable(const formats::Recovery& recovery, const BodyMotion& still, std::vector<ChosenItem> elements);
@@ -79,7 +79,7 @@ class StressTable : public HistoryTable {
       solid_{formats::RecoveryField::solid_stress};
 };
 
-/// Table of groups: largest von Mises stress in the group with its element (for solids the label of the node), largest
+/// Table of chosen groups: largest von Mises stress with its element (for solids, the label of its node), and largest
 /// and smallest principal stress.
 class GroupTable : public HistoryTable {
  public:
@@ -100,7 +100,7 @@ class GroupTable : public HistoryTable {
   const formats::Recovery& recovery_;
   const BodyMotion& still_;
   std::vector<ChosenItem> groups_;
-  std::vector<int> row_;                   ///< of each group of the file; −1: not chosen
+  std::vector<int> row_;                   ///< row of each group of the recovery file in `groups_`; −1: not chosen
   std::vector<std::vector<Worst>> worst_;  ///< first index: row, second: instant of the batch
 };
 

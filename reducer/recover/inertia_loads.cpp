@@ -71,15 +71,15 @@ double lowest_left_out(const formats::Recovery& recovery, const MotionReader& mo
 bool may_have_loads(const formats::Recovery& recovery, std::vector<std::string>& notes) {
   if (recovery.loads) return true;
   notes.push_back(
-      "the recovery file has no answers to inertia loads: stress that the modes leave out is not added; reduce the "
-      "part again with `recovery: yes` (method macneal has none)");
+      "the recovery file has no static answers to inertia loads, so stress that the modes omit is not added. Reduce "
+      "the part again with `recovery: yes`, but not with method: macneal, which has no static answers.");
   return false;
 }
 
 std::string unknown_loads_note() {
-  return "the results do not hold the acceleration of the floating frame (written before version 1.10, of modal bodies "
-         "before 1.11, without these channels, or of an analysis without accelerations): stress that the modes leave out "
-         "is not added; run the scene again";
+  return "the results do not hold the acceleration of the floating frame, so stress that the modes omit is not added. "
+         "They were written before version 1.10 (modal bodies: 1.11), without these channels, or by an analysis "
+         "without accelerations. Run the scene again with these channels.";
 }
 
 void add_load_factors(const formats::Recovery& recovery, const formats::ResultsReader& results,

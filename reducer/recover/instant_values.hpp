@@ -9,24 +9,26 @@
 
 namespace tisserand::reducer {
 
-/// One value per node or cell at one instant.
+/// Displacements and stresses at one instant, as one value per node or per element. V is the number of nodes.
 struct InstantValues {
-  std::vector<float> displacement;     ///< V: length
-  std::vector<float> solid_von_mises;  ///< V: largest of the stress points at the node; 0 without any
-  std::vector<float> solid_stress;     ///< 6 V: stress of that point, in VTK's order xx yy zz xy yz xz
-  std::vector<float> von_mises;        ///< elements: beams |normal stress|, worse face of shells, worst node of solids
+  std::vector<float> displacement;     ///< V: magnitude of the displacement [length of the scene]
+  std::vector<float> solid_von_mises;  ///< V: largest von Mises stress of the stress points at the node; 0 without any
+  /// 6 V: stress of the stress point with this largest value, in the order xx yy zz xy yz xz of VTK.
+  std::vector<float> solid_stress;
+  /// Elements: |normal stress| of beams, von Mises stress of the worse face of shells and worst node of solids.
+  std::vector<float> von_mises;
 };
 InstantValues instant_values(const formats::Recovery& recovery, const SolidPoints& points,
                              const RecoveredFields& fields, Eigen::Index instant);
 
-/// Largest value of a kind and its node or element; -1: none.
+/// Largest stress of one kind of element, and the element or node that has it (`at`; −1: none).
 struct LargestAt {
   float value = 0.0f;
   int at = -1;
 };
 
 struct InstantPeaks {
-  LargestAt beam, shell, solid;  ///< elements; for solids the node
+  LargestAt beam, shell, solid;  ///< `at` is the element, for solids the node
 };
 InstantPeaks instant_peaks(const formats::Recovery& recovery, const InstantValues& values);
 

@@ -45,10 +45,11 @@ std::vector<std::string> instant_lines(const LoadInstant& at, const Recovery& r,
       wrench_text("weight, inertia of the frame: force", at.balance.frame, r.units),
       wrench_text("inertia of the deformation: force", at.balance.deformation, r.units),
       wrench_text("residual of all: force", at.balance.sum, r.units),
-      "residual over the sum of all sizes  " + errors_text(at.balance)};
+      "residual relative to all loads      " + errors_text(at.balance)};
   if (at.balance.compared)
-    lines.push_back(fmt::format("forces at boundary nodes differ from those of the run by {:.3g} of {:.6g}{}",
-                                at.balance.differs, at.balance.largest, after_number(unit_label(r.units, 1, 1, -2))));
+    lines.push_back(fmt::format(
+        "forces at boundary nodes differ from those of the run by {0:.3g}{2}; the largest force is {1:.6g}{2}",
+        at.balance.differs, at.balance.largest, after_number(unit_label(r.units, 1, 1, -2))));
   return lines;
 }
 
@@ -58,19 +59,21 @@ std::vector<std::string> head_lines(const LoadHead& head, LoadFormat format) {
   std::vector<std::string> lines{
       fmt::format("loads of part '{}', body '{}', by {}", r.name, head.still.body, r.producer),
       fmt::format("recovery file {}, results {}", head.request.recovery, head.request.results),
-      length.empty() ? "units: those of the part" : fmt::format("units: length {}, force {}", length, force),
-      "axes, numbers of nodes and origin of moments: those of the part's mesh file",
-      "All loads of an instant cancel. Hold six coordinates that keep the part from moving, at any nodes, or use",
+      length.empty() ? "units are those of the part" : fmt::format("units: length {}, force {}", length, force),
+      "axes, node numbers and origin of moments are those of the part's mesh file",
+      "The loads of each instant are in equilibrium. Hold six coordinates that prevent rigid motion, at any nodes, or "
+      "use",
       format == LoadFormat::nastran
-          ? "inertia relief (PARAM,INREL,-2): reactions and relief are zero but for the residual."
-          : "(CalculiX) three nodes: reactions are zero but for the residual.",
-      "Displacements then differ from those of `reducer recover` by a rigid motion, stresses do not."};
+          ? "inertia relief (PARAM,INREL,-2). Reactions and relief are as small as the residual."
+          : "(CalculiX) three nodes. Reactions are as small as the residual.",
+      "Displacements then differ from those of `reducer recover` by a rigid motion. Stresses are equal."};
   if (head.still.mirror.prod() < 0.0 || head.still.mirror.minCoeff() < 0.0)
-    lines.push_back(fmt::format("the body is the mirror image ({}) of the part: these are the loads on the part itself",
+    lines.push_back(fmt::format("the body is the mirror image ({}) of the part: these loads act on the original part",
                                 three(head.still.mirror)));
   if (!head.numbers.unknown.empty()) {
     lines.push_back(
-        fmt::format("{} nodes have no number in the mesh file; they are called:", head.numbers.unknown.size()));
+        fmt::format("{} nodes have no number in the mesh file. They get these numbers (number, name, position):",
+                    head.numbers.unknown.size()));
     for (const int n : head.numbers.unknown)
       lines.push_back(
           fmt::format("  {}  {}  at {}", head.numbers.number[n], r.node_label[n], three(r.position.col(n))));
@@ -171,13 +174,14 @@ std::string LoadFile::publish() {
 
 std::string balance_text(const Recovery& r, const LoadInstant& at, const BodyMotion& still) {
   std::string text = fmt::format(
-      "{:<29}residual {}{}, moment {}{}: {} of all sizes\n",
+      "{:<29}residual force {}{}, moment {}{}; relative to all loads: {}\n",
       fmt::format("loads at {:.6g}{}", at.time, after_number(unit_label(still.scene_units, 0, 0, 1))),
       three(at.balance.sum.head<3>()), after_number(unit_label(r.units, 1, 1, -2)), three(at.balance.sum.tail<3>()),
       after_number(unit_label(r.units, 2, 1, -2)), errors_text(at.balance));
   if (at.balance.compared)
-    text += fmt::format("{:<29}differ from those of the run by {:.3g} of {:.6g}{}\n", "  forces at boundary nodes",
-                        at.balance.differs, at.balance.largest, after_number(unit_label(r.units, 1, 1, -2)));
+    text += fmt::format("{0:<29}differ from those of the run by {1:.3g}{3}; the largest force is {2:.6g}{3}\n",
+                        "  forces at boundary nodes", at.balance.differs, at.balance.largest,
+                        after_number(unit_label(r.units, 1, 1, -2)));
   return text;
 }
 

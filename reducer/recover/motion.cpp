@@ -30,18 +30,19 @@ BodyRow find_body(const formats::ResultsReader& results, const std::string& body
     return BodyRow{is_modal ? k - layout.superelements.size() : k, is_modal, names[k]};
   };
   if (body.empty() && names.size() == 1) return at(0);
-  const std::string remedy = names.empty() ? "give results of a scene with a flexible superelement, and store its "
-                                             "coordinates (channel superelements/y)"
-                                           : "give --body " + listed(names, " or --body ");
+  const std::string remedy =
+      names.empty()
+          ? "use results of a scene with a flexible superelement, and store its coordinates (channel superelements/y)"
+          : "give --body " + listed(names, " or --body ");
   if (body.empty())
-    throw Error(fmt::format("holds {} superelements and modal bodies, and none is chosen", names.size()),
+    throw Error(fmt::format("holds {} superelements and modal bodies, but none of them is chosen", names.size()),
                 results.path(), remedy);
   const auto found = std::find(names.begin(), names.end(), body);
   if (found != names.end()) return at(static_cast<std::size_t>(found - names.begin()));
   const std::string shown = printable_line(body, 60);
   for (const formats::SimulatedBody& simulated : layout.simulated.bodies)
     if (simulated.name == body)
-      throw Error(fmt::format("body '{}' was simulated as {}: it does not deform as a superelement does", shown,
+      throw Error(fmt::format("body '{}' was simulated as {}, which does not deform as a superelement does", shown,
                               printable_line(simulated.kind, 20)),
                   results.path(), remedy);
   throw Error(fmt::format("holds no superelement '{}'", shown), results.path(), remedy);
@@ -50,15 +51,15 @@ BodyRow find_body(const formats::ResultsReader& results, const std::string& body
 /// Nearest stored instants of the requested times, without repetition.
 std::vector<std::size_t> chosen_rows(const std::vector<double>& time, const RecoverRequest& request,
                                      const std::string& where) {
-  if (time.empty()) throw Error("holds no instants", where, "run the scene to its end, or store more often");
+  if (time.empty()) throw Error("holds no stored instants", where, "run the scene to its end, or store more often");
   std::vector<std::size_t> rows;
   if (request.times.empty())
     for (std::size_t row = 0; row < time.size(); ++row) rows.push_back(row);
   const double span = time.back() - time.front(), margin = 1e-9 * (1.0 + std::abs(span));
   for (const double wanted : request.times) {
     if (!(wanted >= time.front() - margin && wanted <= time.back() + margin))
-      throw Error(fmt::format("time {:g} is not within its instants {:g} to {:g}", wanted, time.front(), time.back()),
-                  where, "choose others with --times");
+      throw Error(fmt::format("time {:g} is outside the stored times {:g} to {:g}", wanted, time.front(), time.back()),
+                  where, "choose other times with --times");
     const auto after = std::lower_bound(time.begin(), time.end(), wanted);
     std::size_t row = after == time.end() ? time.size() - 1 : static_cast<std::size_t>(after - time.begin());
     if (row > 0 && wanted - time[row - 1] < time[row] - wanted) --row;
@@ -95,8 +96,8 @@ MatrixXd coordinates(const formats::ResultsReader& results, const std::string& d
                 results.path(), fmt::format("add {} to output.channels of the scene and run it again", dataset));
   const Index first = offset[found.row], own = offset[found.row + 1] - first;
   if ((found.is_modal ? own > n : own != n) || first < 0 || own < 0 || first + own > all.cols())
-    throw Error(fmt::format("body '{}' has {} coordinates, its recovery file {}", found.name, own, n), results.path(),
-                "the file is damaged; run the scene again");
+    throw Error(fmt::format("body '{}' has {} coordinates, but its recovery file has {}", found.name, own, n),
+                results.path(), "the file is damaged; run the scene again");
   MatrixXd y = MatrixXd::Zero(n, all.rows());
   y.topRows(own) = all.middleCols(first, own).transpose();
   if (!y.allFinite())
@@ -155,8 +156,8 @@ MotionReader::MotionReader(const formats::Recovery& recovery, const formats::Res
   has_strain_ = !body_.is_modal && layout.strained;
   if (!body_.is_modal && !layout.strained && !knows_strain(results.version()))
     notes_.push_back(
-        "the results were written before version 1.10: of a body with its companion file, stress holds the strain of "
-        "foreshortening, which is none; run the scene again");
+        "the results were written before version 1.10. If the body has a companion file, its stress contains a false "
+        "strain from foreshortening. Run the scene again.");
   has_loads_ = may_have_loads(recovery, notes_);
   for (std::string& note : applied_loads_notes(recovery, layout, body_)) notes_.push_back(std::move(note));
   look_at_all(request);
@@ -213,9 +214,9 @@ void MotionReader::look_at_all(const RecoverRequest& request) {
       if (recovery_.dof_node[k] < 0 && largest[k] == 0.0) zero_.push_back(k);
   if (has_loads_) dropped_ = moved_by_loads(reach, zero_);
   if (request.frame == RecoverFrame::world && !place_known)
-    throw Error(
-        fmt::format("where body '{}' is in the world is not stored", body_.name), results_.path(),
-        "give --frame part, or run the scene again with all channels of superelements, or of nodes for a modal body");
+    throw Error(fmt::format("the position of body '{}' in the world is not stored", body_.name), results_.path(),
+                "use --frame part, or run the scene again and store all channels of superelements (for a modal body: "
+                "of nodes)");
 }
 
 }  // namespace tisserand::reducer

@@ -45,21 +45,22 @@ Eigen::Matrix3Xd boundary_positions(const Recovery& r) {
 
 void require_nodal_loads(const formats::RecoveryReader& file, const MotionReader& motion) {
   if (motion.body().is_modal)
-    throw Error(fmt::format("body '{}' is modal: --loads is for superelements, whose boundary nodes bear the forces",
+    throw Error(fmt::format("body '{}' is a modal body, but --loads works only for superelements, because their forces "
+                            "act on boundary nodes",
                             motion.body().name),
-                "--loads", "use the superelement of the part in the scene");
+                "--loads", "use the superelement of the part in the scene instead");
   const Recovery& r = file.recovery();
   if (!r.loads)
-    throw Error("holds no forces of inertia loads, which --loads needs", file.path(),
-                "reduce the part again with `recovery: yes` (method macneal has none)");
+    throw Error("holds no inertia loads, but --loads needs them", file.path(),
+                "reduce the part again with `recovery: yes`, but not with method: macneal, which has no inertia loads");
   if (!r.loads->has_forces())
-    throw Error(
-        "holds no forces on nodes, which --loads needs", file.path(),
-        "reduce the part again with `recovery: yes`: the file was written before version 1.2, or the part has a "
-        "large averaging spider between elements that bears inertia, whose forces no node can bear");
+    throw Error("holds no nodal forces, but --loads needs them", file.path(),
+                "reduce the part again with `recovery: yes` if the file was written before version 1.2; else replace "
+                "the large averaging spider of the part, whose inertia forces cannot be put on nodes");
   if (motion.read(0, 1).load_factor.cols() == 0)
-    throw Error("do not hold the acceleration of the floating frame, which --loads needs", "--loads",
-                "run the scene again (results before version 1.10 and analyses without accelerations lack it)");
+    throw Error(
+        "the results do not hold the acceleration of the floating frame, but --loads needs it", "--loads",
+        "run the scene again as an analysis with accelerations; results of versions before 1.10 do not hold it");
 }
 
 NodalLoads nodal_loads(const formats::RecoveryReader& file, const BodyMotion& motion, Index t) {

@@ -69,8 +69,8 @@ int find_node(const formats::Recovery& r, const std::string& point, const std::s
     return static_cast<int>(nearest);
   }
   throw Error(fmt::format("has no node '{}'", printable_line(point, 60)), where,
-              "give the name of a boundary node, a label such as " + listed(nearest_names(point, r.boundary_name)) +
-                  ", or coordinates x,y,z in the part frame");
+              "give the name of a boundary node, a node label such as " +
+                  listed(nearest_names(point, r.boundary_name)) + ", or coordinates x,y,z in the part frame");
 }
 
 }  // namespace tisserand::reducer

@@ -44,7 +44,7 @@ Files make_folder(const RecoverRequest& request, const std::string& body) {
   std::error_code error;
   fs::create_directories(files.folder, error);
   if (error)
-    throw Error("cannot create the folder: " + error.message(), files.folder.string(), "choose another one with -o");
+    throw Error("cannot create the folder: " + error.message(), files.folder.string(), "choose another folder with -o");
   return files;
 }
 
@@ -74,8 +74,8 @@ std::string left_out_line(const Recovery& r, const LeftOutStress& stress, const 
   if (!stress.known) return "";
   const std::string after = after_number(labels_of(still.scene_units).stress);
   return fmt::format(
-      "{:<29}at most {:.3g}{} added by static answers to {}; what is still missing is estimated at {:.2g}{}\n",
-      "stress left out by modes", stress.added, after, answered_loads(r), stress.remaining, after);
+      "{:<29}at most {:.3g}{} added by static answers to {}; the remaining error is estimated at {:.2g}{}\n",
+      "stress omitted by modes", stress.added, after, answered_loads(r), stress.remaining, after);
 }
 
 /// Lines with the largest values over time: "largest ...   12 Pa at 0.1 s at tip (0.3, 0, 0)".
@@ -151,7 +151,7 @@ constexpr Index most_load_cases = 100;
 void require_few_load_cases(const MotionReader& motion) {
   if (motion.instants() <= most_load_cases) return;
   throw Error(
-      fmt::format("{} instants are chosen, and every one of them becomes a load case on all nodes", motion.instants()),
+      fmt::format("{} instants are chosen, and each of them becomes a load case on all nodes", motion.instants()),
       "--loads", fmt::format("choose at most {} with --times 0.1,0.2 or --every", most_load_cases));
 }
 
@@ -160,11 +160,10 @@ void require_some_load(const LoadInstant& instant, const MotionReader& motion) {
   const NodalLoads& loads = instant.loads;
   const bool is_zero = loads.boundary.isZero(0.0) && loads.frame.isZero(0.0) && loads.deformation.isZero(0.0);
   if (!is_zero || (instant.balance.compared && instant.balance.largest == 0.0)) return;
-  throw Error(
-      fmt::format("body '{}' does not deform at time {:g}: the run took it for rigid there (`flexibility: auto`), "
-                  "or nothing acts on it",
-                  motion.body().name, instant.time),
-      "--loads", "choose other instants with --times, or run the scene with `flexibility: on`");
+  throw Error(fmt::format("body '{}' does not deform at time {:g}: the run treated it as rigid (`flexibility: auto`), "
+                          "or no load acts on it",
+                          motion.body().name, instant.time),
+              "--loads", "choose other instants with --times, or run the scene with `flexibility: on`");
 }
 
 /// Writes load cases of all chosen instants. Returns the lines about them and adds the files to `written`.
@@ -231,7 +230,7 @@ std::string recover(const RecoverRequest& request) {
   write_envelope_csv(add("_envelope.csv"), r, motion, envelope);
   for (const std::string& path : histories.publish()) written.push_back(path);
   std::string text = fmt::format("body '{}', {} instants\n", motion.body().name, motion.instants());
-  text += "displacements count from the floating frame of the body\n" + peaks_text(r, motion, envelope);
+  text += "displacements are relative to the floating frame of the body\n" + peaks_text(r, motion, envelope);
   text += left_out_line(r, left_out_stress(file, motion), motion.still());
   text += write_loads(file, motion, request, files, written);
   for (const std::string& note : motion.notes()) text += fmt::format("{:<29}{}\n", "note", note);

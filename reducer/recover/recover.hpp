@@ -8,7 +8,8 @@
 
 namespace tisserand::reducer {
 
-/// Writes the series, its index, the envelope and the histories; returns the printed text. Throws Error.
+/// Writes the files that `request` asks for: the series of VTU files with its index, the envelope and the histories.
+/// Returns the text to print. Throws Error.
 std::string recover(const RecoverRequest& request);
 
 }  // namespace tisserand::reducer

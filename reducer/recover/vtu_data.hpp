@@ -12,7 +12,7 @@ namespace tisserand::reducer {
 std::vector<formats::VtuArray> vtu_cell_data(const formats::Recovery& recovery, const RecoveredFields& fields,
                                              const InstantValues& values, Eigen::Index instant);
 
-/// Arrays of points and cells. `axes`: axes of the displacements.
+/// Arrays of the nodes for a VTU file at one instant. `axes`: axes of the displacements in the file.
 std::vector<formats::VtuArray> vtu_point_data(const formats::Recovery& recovery, const RecoveredFields& fields,
                                               const InstantValues& values, const Eigen::Matrix3d& axes,
                                               Eigen::Index instant);

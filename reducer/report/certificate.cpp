@@ -131,12 +131,12 @@ FileCertificate certify(const formats::Superelement& element, const formats::Sup
   }
   const auto free = (S.eigenvalues().array() < unresisted_limit * S.eigenvalues().maxCoeff()).count();
   if (free > rigid) {
-    c.free_frequency_note =
-        fmt::format("{} motions meet no stiffness where a rigid body has six: something in it is loose", free);
+    c.free_frequency_note = fmt::format(
+        "{} motions have no stiffness, but a rigid body has only six such motions: a piece of the part is loose", free);
     return c;
   }
   if (rigid_motion_without_mass(element, report)) {
-    c.free_frequency_note = "some rigid motion moves no mass";
+    c.free_frequency_note = "the mass or inertia of a rigid motion is zero";
     return c;
   }
   try {

@@ -206,7 +206,8 @@ double clean(double value, double largest) { return std::abs(value) < 1e-12 * la
 std::string rigid_text(const char* source, const formats::RigidProperties& rigid, double length, const Units& units) {
   const Eigen::Vector3d c = shown_centre(rigid, length);
   std::string text = fmt::format("{:<19}mass {:.9g}{}, centre of mass ({:.9g}, {:.9g}, {:.9g}){}\n", source, rigid.mass,
-                                 after_number(unit_label(units, 0, 1, 0)), c.x(), c.y(), c.z(), after_number(unit_label(units, 1, 0, 0)));
+                                 after_number(unit_label(units, 0, 1, 0)), c.x(), c.y(), c.z(),
+                                 after_number(unit_label(units, 1, 0, 0)));
   const double largest = rigid.inertia.cwiseAbs().maxCoeff();
   for (int i = 0; i < 3; ++i)
     text += fmt::format("{:<19}{} {:>16.9g} {:>16.9g} {:>16.9g}{}\n", "", i == 0 ? "inertia" : "       ",
@@ -232,7 +233,9 @@ std::string frequency_table(const FileCertificate& file, const std::optional<Mod
   const std::vector<double>& estimate = model ? model->truncation_estimate : none;
   const std::string unit = frequency_unit(units);
   // Values after the modes with the boundary held are no modes of the part.
-  const std::size_t modes = !model ? count : model->free_modes ? 0 : static_cast<std::size_t>(model->mechanisms + model->modes_kept);
+  const std::size_t modes = !model              ? count
+                            : model->free_modes ? 0
+                                                : static_cast<std::size_t>(model->mechanisms + model->modes_kept);
   std::string text = fmt::format("frequencies [{}]\n  {:>4} {:>16} {:>16} {:>16} {:>10} {:>10}\n", unit, "mode",
                                  "boundary fixed", "free, reduced", full.empty() ? "" : "free, full",
                                  full.empty() ? "" : "error", estimate.empty() ? "" : "estimate");
@@ -249,8 +252,8 @@ std::string frequency_table(const FileCertificate& file, const std::optional<Mod
                         k < estimate.size() ? estimate_text(*model, file, k) : "");
   }
   if (file.fixed_frequency.size() > modes)
-    text += fmt::format("  {:>4} of a {}: no mode of the part\n", "*",
-                        model && model->free_modes ? "vector that free modes leave inside" : "moment vector");
+    text += fmt::format("  {:>4} value of {}, which is not a mode of the part\n", "*",
+                        model && model->free_modes ? "an internal vector from free modes" : "a moment vector");
   if (count > most_rows) text += fmt::format("  {:>4} {} more in the certificate file\n", "...", count - most_rows);
   return text;
 }
@@ -270,18 +273,18 @@ std::string effective_mass_text(const FileCertificate& c) {
     text += "\n";
   };
   constexpr int most_rows = 10;
-  int told = 0;
-  for (std::size_t m = 0; m < c.participation.size() && told < most_rows; ++m) {
+  int reported = 0;
+  for (std::size_t m = 0; m < c.participation.size() && reported < most_rows; ++m) {
     const auto& row = c.participation[m];
     const auto square = [&row](std::size_t k) { return row[k] * row[k]; };
     bool matters = false;
     for (std::size_t k = 0; k < 6; ++k) matters = matters || square(k) > 0.01 * c.effective_mass_whole[k];
     if (!matters) continue;
     line(fmt::format("{}", m + 1), square);
-    ++told;
+    ++reported;
   }
-  line("all", [&c](std::size_t k) { return c.effective_mass_whole[k] - c.effective_mass_left[k]; });
-  line("left", [&c](std::size_t k) { return c.effective_mass_left[k]; });
+  line("sum", [&c](std::size_t k) { return c.effective_mass_whole[k] - c.effective_mass_left[k]; });
+  line("rest", [&c](std::size_t k) { return c.effective_mass_left[k]; });
   return text;
 }
 
@@ -309,15 +312,15 @@ std::string assurance_text(const FileCertificate& file, const ModelCertificate& 
   }
   if (least > 1.5) return "";
   return fmt::format(
-      "{:<19}at least {:.6f} with a free mode of the full model, below the first dropped one (mode {})\n",
+      "{:<19}at least {:.6f} with the free modes of the full model, below the first dropped frequency (mode {})\n",
       "modal assurance", least, worst + 1);
 }
 
 std::string modal_body_text(const ModalBodyCertificate& c, double length, const Units& units) {
   std::vector<std::string> frequencies;
   for (const double value : c.frequency) frequencies.push_back(fmt::format("{:.6g}", value));
-  return fmt::format("{:<19}{} modes, {}: {} {}\n", "modal body", c.frequency.size(), c.reference,
-                     listed(frequencies), frequency_unit(units)) +
+  return fmt::format("{:<19}{} modes, {}: {} {}\n", "modal body", c.frequency.size(), c.reference, listed(frequencies),
+                     frequency_unit(units)) +
          (c.eigenvalue_solver.empty() ? "" : fmt::format("{:<19}its eigenvalues by {}\n", "", c.eigenvalue_solver)) +
          rigid_text("lumped masses", c.rigid, length, units);
 }
@@ -346,14 +349,16 @@ std::string modes_text(const ModelCertificate& c, const std::string& unit) {
   const std::string first =
       c.first_dropped_frequency ? fmt::format(" at {:.8g} {}", *c.first_dropped_frequency, unit) : std::string();
   if (c.free_modes)
-    return fmt::format("{:<19}{} of the free part, {} internal vectors; first with the boundary held{}\n", "modes",
-                       *c.free_modes, c.modes_kept, first);
+    return fmt::format("{:<19}{} of the free part, {} internal vectors{}\n", "modes", *c.free_modes, c.modes_kept,
+                       first.empty() ? "" : "; first mode with the boundary held" + first);
   std::string text = fmt::format("{:<19}{} kept ({} asked for, {} exist)", "internal modes", c.modes_kept,
                                  c.modes_requested, c.modes_available);
   if (!first.empty()) text += ", first dropped" + first;
-  text += fmt::format("\n{:<19}{}", "count by inertia",
-                      c.modes_counted ? fmt::format("{} below the cut", *c.modes_counted) : "not counted");
-  if (c.mechanisms > 0) text += fmt::format("\n{:<19}{} without stiffness, before the modes", "mechanisms", c.mechanisms);
+  text += fmt::format(
+      "\n{:<19}{}", "count by inertia",
+      c.modes_counted ? fmt::format("{} modes up to the highest kept one", *c.modes_counted) : "not counted");
+  if (c.mechanisms > 0)
+    text += fmt::format("\n{:<19}{} motions without stiffness, listed before the modes", "mechanisms", c.mechanisms);
   if (c.moment_vectors > 0) text += fmt::format("\n{:<19}{}", "moment vectors", c.moment_vectors);
   return text + "\n";
 }
@@ -364,8 +369,8 @@ std::string mesh_text(const MeshCertificate& c) {
   std::vector<std::string> words;
   for (const double error : c.error)
     words.push_back(std::isfinite(error) ? fmt::format("{:+.3g} %", 100.0 * error) : "unknown");
-  std::string text = fmt::format("{:<19}{} of the lowest {} frequencies (estimate; +: too high)\n",
-                                 "error of the mesh", listed(words), c.boundary_held ? "fixed" : "free");
+  std::string text = fmt::format("{:<19}{} of the lowest {} frequencies (estimate; +: too high)\n", "error of the mesh",
+                                 listed(words), c.boundary_held ? "fixed" : "free");
   std::map<std::string, std::vector<std::string>> modes;  // key: reason
   for (std::size_t k = 0; k < c.unknown.size(); ++k)
     if (!c.unknown[k].empty()) modes[c.unknown[k]].push_back(fmt::format("{}", k + 1));
@@ -381,7 +386,7 @@ std::string model_text(const ModelCertificate& c, const Units& units) {
   text += modes_text(c, frequency_unit(units));
   if (!c.eigenvalue_solver.empty())
     text += fmt::format("{:<19}{}, largest residual {:.1e}\n", "eigenvalues by", c.eigenvalue_solver, c.mode_residual);
-  text += fmt::format("{:<19}rigid motion {:.1e} of boundary modes, {:.1e} of S; S_BI {:.1e}; M_II - 1 {:.1e}\n",
+  text += fmt::format("{:<19}rigid motions of boundary modes: {:.1e}, of S: {:.1e}; S_BI: {:.1e}; M_II - 1: {:.1e}\n",
                       "round-off removed", c.boundary_rigid_defect, c.rigid_residual_before_projection,
                       c.stiffness_coupling, c.orthonormality);
   text += mesh_text(c.mesh_error);

@@ -64,7 +64,7 @@ std::string picture(int width, int height, const std::string& script) {
                         "certificate");
     return text.substr(std::min(text.find("<svg"), text.size())) + "\n";
   } catch (const Error& error) {
-    return fmt::format("<p class=warned>no picture: {}</p>\n", safe(error.message()));
+    return fmt::format("<p class=warned>There is no picture: {}</p>\n", safe(error.message()));
   }
 }
 
@@ -97,8 +97,8 @@ std::string frequencies(const FileCertificate& file, const ModelCertificate& mod
     most = std::max(most, file.fixed_frequency[k]);
   }
   if (rows.empty() || held.empty()) return "";
-  return "<h2>Frequencies</h2>\n<p>Of the free reduced part; bars: what the full part and a finer mesh may "
-         "have.</p>\n" +
+  return "<h2>Frequencies</h2>\n<p>Frequencies of the free reduced part. A bar is the range in which the frequency of "
+         "the full part with a finer mesh may lie.</p>\n" +
          picture(620, 420,
                  data_block("free", rows) + data_block("held", held) +
                      fmt::format("set key top left\nset xlabel 'mode'\nset ylabel 'frequency [{}]'\n"
@@ -137,8 +137,8 @@ std::string errors(const ModelCertificate& model) {
   }
   if (plots.empty()) return "";
   return fmt::format(
-             "<h2>Errors of the {} frequencies</h2>\n<p>Estimates: what a finer mesh, and what more internal modes, "
-             "would change. Errors that are unknown have no point; the certificate below says why.</p>\n",
+             "<h2>Errors of the {} frequencies</h2>\n<p>Estimates of the change by a finer mesh, and of the change by "
+             "more internal modes. Unknown errors have no point; the certificate below gives the reason.</p>\n",
              model.mesh_error.boundary_held ? "fixed" : "free") +
          picture(620, 420,
                  blocks + "set logscale y\nset xlabel 'mode'\nset ylabel 'error [%]'\nset key above left\n" +
@@ -151,7 +151,7 @@ std::string effective_masses(const FileCertificate& c) {
   if (c.participation.empty()) return "";
   constexpr std::size_t most_drawn = 100;
   std::string pictures = "<div class=panels>\n";
-  std::string sums = "<table><tr><th>direction<th>carried by modes [%]<th>left out [%]</tr>\n";
+  std::string sums = "<table><tr><th>direction<th>carried by modes [%]<th>not carried by modes [%]</tr>\n";
   for (std::size_t k = 0; k < directions.size(); ++k) {
     const double whole = c.effective_mass_whole[k];
     std::vector<std::string> rows;
@@ -165,16 +165,16 @@ std::string effective_masses(const FileCertificate& c) {
     pictures +=
         picture(400, 300,
                 data_block("mass", rows) + mode_axis(rows.size()) +
-                    fmt::format("set yrange [0:105]\nset style fill solid 0.8 noborder\nunset key\nset title '{}'\n"
-                                "set xlabel 'mode'\nset ylabel '%'\nplot $mass using 1:2 with boxes lc rgb "
-                                "'#0060ad', $mass using 1:3 with steps lw 2 lc rgb '#d95319'\n",
+                    fmt::format("set yrange [0:105]\nset style fill solid 0.8 noborder\nunset key\nset title '{}'\nset "
+                                "xlabel 'mode'\nset ylabel 'effective mass [%]'\nplot $mass using 1:2 with boxes lc "
+                                "rgb '#0060ad', $mass using 1:3 with steps lw 2 lc rgb '#d95319'\n",
                                 directions[k]));
     sums += fmt::format("<tr><td>{}<td>{:.2f}<td>{:.2f}</tr>\n", directions[k], sum,
                         whole > 0.0 ? 100.0 * c.effective_mass_left[k] / whole : 0.0);
   }
-  return "<h2>Effective mass</h2>\n<p>Of the internal modes in rigid motions of the boundary about the centre of mass "
-         "(bars), "
-         "and their sum; the rest moves with the boundary or belongs to dropped modes.</p>\n" +
+  return "<h2>Effective mass</h2>\n<p>Bars: effective mass of each internal mode in rigid motions of the boundary "
+         "about the centre of mass. Line: their sum. The rest moves with the boundary or belongs to dropped "
+         "modes.</p>\n" +
          pictures + "</div>\n" + sums + "</table>\n";
 }
 
@@ -186,15 +186,14 @@ std::string assurance(const ModelCertificate& model) {
     for (const double value : row) values.push_back(fmt::format("{:.6g}", value));
     rows.push_back(join(values, " "));
   }
-  return "<h2>Modal assurance</h2>\n<p>Free modes of the full model (up) and of the reduced part (right): 1 (dark) "
-         "where they "
-         "agree.</p>\n" +
+  return "<h2>Modal assurance criterion (MAC)</h2>\n<p>Free modes of the full model (vertical axis) and of the reduced "
+         "part (horizontal axis). Modes that agree have the value 1 (dark).</p>\n" +
          picture(620, 620,
                  data_block("mac", rows) +
                      "set size square\nset palette defined (0 'white', 1 '#0060ad')\nset cbrange [0:1]\nset xlabel "
-                     "'reduced part'\nset ylabel 'full model'\nunset grid\nunset key\n"
-                     "set xrange [0.5:*]\nset yrange [0.5:*]\nset autoscale fix\n"
-                     "plot $mac matrix using ($1+1):($2+1):3 with image pixels\n");
+                     "'mode of the reduced part'\nset ylabel 'mode of the full model'\nunset grid\nunset key\nset "
+                     "xrange [0.5:*]\nset yrange [0.5:*]\nset autoscale fix\nplot $mac matrix using ($1+1):($2+1):3 "
+                     "with image pixels\n");
 }
 
 std::string warnings_of(const FileCertificate& file, const std::optional<ModelCertificate>& model) {

@@ -10,8 +10,9 @@
 
 namespace tisserand::reducer {
 
-/// Self-contained HTML: frequencies with their enclosures, discretisation and truncation errors, effective masses,
-/// modal assurance, and the text of the certificate. gnuplot draws the pictures; if it is missing, the page says so.
+/// Certificate as a self-contained HTML page. It has frequencies with their enclosures, discretisation and truncation
+/// errors, effective masses, modal assurance, and the text of the certificate. gnuplot draws the pictures. If gnuplot
+/// is missing, the page says so.
 std::string certificate_page(const formats::Superelement& element, const FileCertificate& file,
                              const std::optional<ModelCertificate>& model);
 

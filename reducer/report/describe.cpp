@@ -17,6 +17,7 @@
 #include "reducer/mesh_error/mesh_error.hpp"
 #include "reducer/modes/full_model.hpp"
 #include "reducer/modes/truncation.hpp"
+#include "reducer/report/verdict.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -47,16 +48,16 @@ void describe_truncation(const formats::Superelement& element, const InternalMod
   }
 }
 
-/// Remedy that refines the mesh of a kind of element, in the words of part.yaml: "give it a smaller `size`". A mesh
+/// Remedy that refines the mesh of a kind of element, in the words of part.yaml: "use a smaller `size`". A mesh
 /// from another program is refined there.
 std::string remedy_for(const formats::Part& part, Eigen::Index kind) {
   if (!part.mesh.file.empty() && !is_geometry(mesh_file_kind(part.mesh.file, part.mesh.where)))
     return fmt::format("refine {} in the program that made it{}",
                        std::filesystem::path(part.mesh.file).filename().string(),
                        kind == 2 ? ", or use elements of second order" : "");
-  if (kind == 0) return "give it more `elements` per beam";
-  if (kind == 1) return "give it a smaller `size`";
-  return "give it a smaller `size`, or `order: 2`";
+  if (kind == 0) return "use more `elements` per beam";
+  if (kind == 1) return "use a smaller `size`";
+  return "use a smaller `size`, or `order: 2`";
 }
 
 constexpr double usual_limit = 0.05;
@@ -74,10 +75,10 @@ void warn_of_unknown(const formats::Part& part, const MeshErrors& errors, ModelC
   }
   for (const auto& [doubt, list] : modes)
     c.warnings.push_back(fmt::format(
-        "the error of the mesh of the {} {} {} is unknown and may exceed {:.3g} %: {}; "
-        "{}",
+        "the error of the mesh is unknown for the {} {} {} {} and may exceed {:.3g} %: {}; {}",
         errors.boundary_held ? "fixed" : "free", list.size() > 1 ? "frequencies" : "frequency", listed(list),
-        100.0 * limit, explain(doubt), remedy_for(part, doubt == MeshDoubt::free_faces ? 2 : 1)));
+        frequency_unit(part.units), 100.0 * limit, explain(doubt),
+        remedy_for(part, doubt == MeshDoubt::free_faces ? 2 : 1)));
 }
 
 /// Warns once, about the worst of the relevant modes.
@@ -96,11 +97,11 @@ void warn_of_mesh(const formats::Part& part, const MeshErrors& errors, ModelCert
   errors.by_kind.col(worst).cwiseAbs().maxCoeff(&kind);
   const double share = std::abs(errors.relative[worst]);
   c.warnings.push_back(fmt::format(
-      "the mesh is too coarse: it makes the {} frequency {:.4g} some {:.3g} %{} too {}, {:.3g} % are {}, most of it in "
-      "'{}': {}",
-      errors.boundary_held ? "fixed" : "free", frequency(errors.lambda[worst]), 100.0 * share,
-      share < 1.0 ? "" : " or more", errors.relative[worst] > 0.0 ? "high" : "low", 100.0 * limit,
-      accuracy ? "asked for" : "usual", errors.place[worst], remedy_for(part, kind)));
+      "the mesh is too coarse: the {} frequency {:.4g} {} is about {:.3g} %{} too {} ({}: {:.3g} %), mostly because of "
+      "'{}'; {}",
+      errors.boundary_held ? "fixed" : "free", frequency(errors.lambda[worst]), frequency_unit(part.units),
+      100.0 * share, share < 1.0 ? "" : " or more", errors.relative[worst] > 0.0 ? "high" : "low",
+      accuracy ? "requested" : "usual limit", 100.0 * limit, errors.place[worst], remedy_for(part, kind)));
 }
 
 void describe_mesh_errors(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c) {
@@ -170,12 +171,13 @@ ModelCertificate describe(const formats::Part& part, const ReducedPart& reduced,
   c.stiffness_coupling = defects.stiffness_coupling;
   c.orthonormality = defects.orthonormality;
   if (part.modes.method == formats::ReductionMethod::craig_bampton && c.modes_kept > c.modes_requested)
-    c.notes.push_back(fmt::format("The cut after {} modes would have split a group of equal frequencies; {} are kept.",
-                                  c.modes_requested, c.modes_kept));
+    c.notes.push_back(
+        fmt::format("A cut after {} modes would split a group of equal frequencies, so {} modes are kept.",
+                    c.modes_requested, c.modes_kept));
   if (internal.boundary_mass.size() > 0)
     c.notes.push_back(
-        "MacNeal's mass is that of rigid motions and kept modes: the directions below move without mass, and what they "
-        "do in dynamics rests on round-off; method: rubin gives them their mass.");
+        "With method: macneal, only rigid motions and kept modes have mass. The directions under 'without mass' have "
+        "none, so their motion in dynamics depends on round-off. Use method: rubin to give them mass.");
   describe_truncation(reduced.element, internal, c);
   return c;
 }
@@ -206,7 +208,7 @@ formats::RigidProperties require_mass(const System& system, const std::string& w
   const formats::RigidProperties rigid = full_rigid_properties(system);
   if (!(rigid.mass > 0.0))
     throw Error(fmt::format("the part has a mass of {:g}", rigid.mass), where,
-                "give its materials a density, or add point masses");
+                "give its materials a `density`, or add `point_masses`");
   return rigid;
 }
 

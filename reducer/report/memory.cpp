@@ -62,7 +62,7 @@ int pairs_of(int shapes) { return shapes * (shapes + 1) / 2; }
 
 /// Text ", about 12 s" for a number of operations, by the rate of a dense matrix product; empty below 2 s.
 std::string time_text(double operations) {
-  constexpr double quick = 1e10, told = 2.0;
+  constexpr double quick = 1e10, reported = 2.0;
   if (operations < quick) return "";
   constexpr Eigen::Index n = 384;
   constexpr double share_of_rate = 0.65;  // as measured for supernodal factorisations
@@ -75,7 +75,7 @@ std::string time_text(double operations) {
     best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   const double seconds = operations * best / (share_of_rate * 2.0 * n * n * n);
-  return seconds < told ? "" : fmt::format(", about {:.0f} s", seconds);
+  return seconds < reported ? "" : fmt::format(", about {:.0f} s", seconds);
 }
 
 constexpr double number = 8.0;  ///< bytes
@@ -101,8 +101,9 @@ double available_memory() { return std::min({of_machine(), of_control_group(), o
 void require_memory(double need, double available, const Partition& p, const std::string& where) {
   if (need <= available) return;
   throw Error(
-      fmt::format("the reduction of {} internal coordinates needs {:.3g} GB of memory more, but {:.3g} GB are free",
-                  p.n_I(), need / gigabyte, available / gigabyte),
+      fmt::format(
+          "the reduction of {} internal coordinates needs another {:.3g} GB of memory, but only {:.3g} GB are free",
+          p.n_I(), need / gigabyte, available / gigabyte),
       where, "use fewer elements or modes, or a machine with more memory");
 }
 
@@ -111,7 +112,7 @@ void require_memory_of_modes(int modes, const Partition& p, const std::string& w
 }
 
 Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Part& part, const PhaseListener& begin) {
-  constexpr double told = 0.5 * gigabyte;
+  constexpr double reported = 0.5 * gigabyte;
   begin("ordering");
   if (p.n_I() == 0) return {};
   Factor factor(blocks.S_II, [&](const FactorCost& cost) {
@@ -121,13 +122,13 @@ Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Pa
                                     std::max(ritz_vectors(part.modes, p), pairs_of(part.double_curvature)));
     const double available = available_memory();
     require_memory(need, available, p, part.file);
-    if (need >= told)
-      begin.tell(
-          fmt::format("{} internal coordinates: factor and modes need about {:.2g} GB of memory, {:.3g} GB are free",
-                      p.n_I(), need / gigabyte, available / gigabyte));
+    if (need >= reported)
+      begin.tell(fmt::format(
+          "{} internal coordinates: factorisation and modes need about {:.2g} GB of memory, {:.3g} GB are free",
+          p.n_I(), need / gigabyte, available / gigabyte));
     begin(fmt::format("factorisation ({:.2g} GB{})", need / gigabyte, time_text(cost.operations)));
   });
-  factor.tell_solutions(begin.solve);
+  factor.report_solutions(begin.solve);
   return factor;
 }
 

@@ -11,8 +11,9 @@
 
 namespace tisserand::reducer {
 
-/// Phases of a reduction. A phase ends when the next begins, and continues when one of its name begins. A watching
-/// thread reports a phase after its first second, then less and less often.
+/// Clock of the phases of a reduction: time and memory of each phase. A phase ends when the next one begins. It
+/// continues when a phase of its name begins again. A thread reports a phase on stderr after its first second, then
+/// less and less often.
 class Phases {
  public:
   Phases();
@@ -21,20 +22,21 @@ class Phases {
   Phases& operator=(const Phases&) = delete;
 
   void begin(const std::string& name);
-  /// Sets the share of the phase that is done, 0 to 1, from which the progress line estimates the remaining time.
+  /// Sets the completed share of the phase, 0 to 1. The progress line estimates the remaining time from it.
   void share(double done);
-  /// `columns` > 0: begin of the solution for so many columns with the factor of the inside; 0: its end.
+  /// Receives begin and end of a solution with the factor of the interior. `columns`: number of right-hand sides at
+  /// its begin, 0 at its end.
   void solve(int columns);
   void end();
-  /// Wall-clock times: "mesh 0.010 s, assembly 0.021 s, ..., total 0.310 s".
+  /// Wall-clock time of each phase as text: "mesh 0.010 s, assembly 0.021 s, ..., total 0.310 s".
   std::string text() const;
-  /// Processor times, summed over all threads, in the same form.
+  /// Processor time of each phase, summed over all threads, in the format of text().
   std::string processor_text() const;
-  /// Peak memory of the process up to the end of each phase: "mesh 61 MB, assembly 102 MB, ...".
+  /// Peak memory of the process up to the end of each phase, as text: "mesh 61 MB, assembly 102 MB, ...".
   std::string memory_text() const;
-  /// Total number of solved columns.
+  /// Total number of right-hand sides that solve() has received.
   int columns() const;
-  /// Processor time of solutions in all phases: "126 columns 0.512 s".
+  /// Number of right-hand sides and processor time of their solutions in all phases, as text: "126 columns 0.512 s".
   std::string solutions_text() const;
 
  private:

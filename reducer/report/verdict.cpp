@@ -33,14 +33,14 @@ std::string parts_text(const FrequencyError& error) {
 }
 
 std::string unknown_text(const FrequencyError& error, const std::string& unit) {
-  return fmt::format("the error {} of the frequency {:.4g} {} is unknown",
+  return fmt::format("the error {} is unknown for the frequency {:.4g} {}",
                      std::isfinite(error.mesh) ? "by dropped modes" : "of the mesh", error.frequency, unit);
 }
 
 /// Verdict by the accuracy that the part requests.
 std::string asked_text(const std::vector<FrequencyError>& errors, const formats::Accuracy& asked,
                        const std::string& unit) {
-  const std::string aim = fmt::format("{} up to {:.4g} {} are asked for", percent(asked.error), asked.up_to, unit);
+  const std::string aim = fmt::format("requested: {} up to {:.4g} {}", percent(asked.error), asked.up_to, unit);
   const FrequencyError* worst = nullptr;
   double known_to = 0.0;
   for (const FrequencyError& error : errors) {
@@ -54,12 +54,12 @@ std::string asked_text(const std::vector<FrequencyError>& errors, const formats:
                           : fmt::format("good enough: no frequency of the free part lies below {:.4g} {} ({})",
                                         asked.up_to, unit, aim);
   if (worst->whole() > asked.error)
-    return fmt::format("not good enough: {:.4g} {} errs by some {} ({}); {}", worst->frequency, unit,
-                       percent(worst->whole()), parts_text(*worst), aim);
-  const std::string text = fmt::format("errors of at most some {} ({})", percent(worst->whole()), parts_text(*worst));
+    return fmt::format("not good enough: the frequency {:.4g} {} has an error of about {} ({}); {}", worst->frequency,
+                       unit, percent(worst->whole()), parts_text(*worst), aim);
+  const std::string text = fmt::format("errors of at most about {} ({})", percent(worst->whole()), parts_text(*worst));
   if (known_to < asked.up_to)
-    return fmt::format("good enough up to {:.4g} {}, the highest frequency whose mesh was looked at: {}; {}", known_to,
-                       unit, text, aim);
+    return fmt::format("good enough up to {:.4g} {}, the highest frequency with an estimated error of the mesh: {}; {}",
+                       known_to, unit, text, aim);
   return fmt::format("good enough: frequencies have {}; {}", text, aim);
 }
 
@@ -75,15 +75,16 @@ std::string usual_text(const std::vector<FrequencyError>& errors, const std::str
   }
   const std::string beyond = next == nullptr ? ""
                              : std::isfinite(next->whole())
-                                 ? fmt::format("{:.4g} {} errs by some {} ({})", next->frequency, unit,
-                                               percent(next->whole()), parts_text(*next))
+                                 ? fmt::format("the frequency {:.4g} {} has an error of about {} ({})", next->frequency,
+                                               unit, percent(next->whole()), parts_text(*next))
                                  : unknown_text(*next, unit);
   if (last == nullptr && next == nullptr) return "not known: no frequency was compared with the full part";
   if (last == nullptr)
     return fmt::format("{}: {}", std::isfinite(next->whole()) ? "not good enough" : "not known", beyond);
-  return fmt::format("good enough for vibrations up to {:.4g} {}: {} frequencies err by at most some {} ({}){}",
-                     last->frequency, unit, kind, percent(worst->whole()), parts_text(*worst),
-                     beyond.empty() ? "" : "; above, " + beyond);
+  return fmt::format(
+      "good enough for vibrations up to {:.4g} {}: frequencies of the {} part have errors of at most about {} ({}){}",
+      last->frequency, unit, kind, percent(worst->whole()), parts_text(*worst),
+      beyond.empty() ? "" : "; above, " + beyond);
 }
 
 }  // namespace
@@ -106,7 +107,7 @@ std::vector<FrequencyError> frequency_errors(const FileCertificate& file, const 
 
 std::string verdict(const FileCertificate& file, const std::optional<ModelCertificate>& model, const Units& units) {
   if (!file.free_frequency_note.empty()) return "not known for vibrations: " + file.free_frequency_note;
-  if (!model) return "not known: nothing is stored of the full part, so that errors have no measure";
+  if (!model) return "not known: no data of the full part are stored, so the errors cannot be estimated";
   const std::vector<FrequencyError> errors = frequency_errors(file, *model);
   const std::string unit = frequency_unit(units);
   const std::string text = model->accuracy

@@ -33,8 +33,8 @@ using Eigen::MatrixXd;
 constexpr int batch_rows = 1024;  ///< approximate number of stresses in a batch; a multiple of eight elements
 constexpr int largest_batch = 64;
 
-constexpr double told_left_out = 0.01;  ///< share of the second-order displacement above which a note reports it
-constexpr double large_file = 20e6;     ///< bytes above which a companion is written on request only
+constexpr double reported_omissions = 0.01;  ///< share of the second-order displacement above which a note reports it
+constexpr double large_file = 20e6;          ///< bytes above which a companion is written on request only
 
 /// Size of the arrays in bytes before compression, for n coordinates.
 double companion_bytes(Index coordinates) {
@@ -207,9 +207,11 @@ formats::Companion companion_head(const formats::Superelement& element, const Ei
 std::string trapped_text(const formats::Companion& companion, int shapes) {
   const Index all = companion.S1.cols() - 6;
   return fmt::format(
-      "Membrane stress that bending traps has {} rows in the companion file{}.", companion.Lambda.size(),
+      "The companion file holds {} rows of membrane stress that is trapped by bending{}.", companion.Lambda.size(),
       shapes < all
-          ? fmt::format(", of the {} lowest of {} shapes: what bending in others traps is left out", shapes, all)
+          ? fmt::format(
+                ", from the {} lowest of {} shapes. Stress that is trapped by bending in other shapes is omitted",
+                shapes, all)
           : "");
 }
 
@@ -223,9 +225,10 @@ bool wants_second_order(const formats::Part& part, const formats::Superelement& 
       return false;
     case formats::SecondOrder::yes:
       if (fits) return true;
-      throw Error(fmt::format("second_order: the superelement has {} coordinates, companions have at most {}",
-                              element.size(), formats::max_companion_size),
-                  part.file, "keep fewer nodes or modes, or say second_order: no");
+      throw Error(
+          fmt::format("second_order: the superelement has {} coordinates, but a companion file holds at most {}",
+                      element.size(), formats::max_companion_size),
+          part.file, "keep fewer nodes or modes, or write second_order: no");
     case formats::SecondOrder::unless_large:
       break;
   }
@@ -236,24 +239,23 @@ void describe_companion(const Mesh& mesh, const formats::Part& part, const forma
                         ModelCertificate& model) {
   if (!wants_second_order(part, element)) {
     if (!deforms(element) && part.second_order == formats::SecondOrder::yes)
-      model.notes.push_back("No companion file: with one boundary node and no modes the part cannot deform.");
+      model.notes.push_back(
+          "No companion file was written: with one boundary node and no modes the part cannot deform.");
     if (deforms(element) && part.second_order == formats::SecondOrder::unless_large)
       model.notes.push_back(
-          fmt::format("No companion file (stiffening, exact inertia): it would hold {:.0f} MB; "
-                      "second_order: yes in the part file writes it.",
+          fmt::format("No companion file (stiffening, exact inertia) was written, because it would hold {:.0f} MB. To "
+                      "write it, set second_order: yes in the part file.",
                       1e-6 * companion_bytes(element.size())));
     return;
   }
   if (const std::vector<std::string> names = without_second_order(mesh); !names.empty())
-    model.warnings.push_back(
-        fmt::format("The second order of {} is left out of the companion file: what they mean for "
-                    "finite rotations is not known.",
-                    listed(names)));
+    model.warnings.push_back(fmt::format(
+        "The companion file omits the second order of {}, because their meaning for finite rotations is not known.",
+        listed(names)));
   if (const std::vector<std::string> names = springs_that_do_not_turn(mesh); !names.empty())
     model.warnings.push_back(fmt::format(
-        "The axes of {} stay as they are when the part turns, because nothing defines a rotation of their "
-        "nodes: at large motion the companion file is wrong there. Tie these nodes to a node with rotations "
-        "by a rigid spider.",
+        "The axes of {} do not turn with the part, because nothing defines a rotation of their nodes. At large motion "
+        "the companion file is wrong there. Tie these nodes to a node with rotations by a rigid spider.",
         listed(names)));
   if (const std::string text = monosymmetry_note(mesh); !text.empty()) model.notes.push_back(text);
   if (mesh.shells.empty() || part.double_curvature > 0) return;
@@ -261,11 +263,12 @@ void describe_companion(const Mesh& mesh, const formats::Part& part, const forma
   for (const ShellElement& shell : mesh.shells)
     thickness = std::min(thickness, mesh.shell_properties[shell.property].section.thickness);
   const std::string unit = unit_label(part.units, 1, 0, 0);
-  model.notes.push_back(fmt::format(
-      "Second order of shells leaves out membrane stress that bending into double curvature traps: a plate that bends "
-      "by its thickness ({:.3g}{}{}) has forces 7 % (edges held in their plane) to 25 % too small, by twice that 11 to "
-      "58 %. `double_curvature: 20` in the part file holds it; or cut such a plate into several parts.",
-      thickness, unit.empty() ? "" : " ", unit));
+  model.notes.push_back(
+      fmt::format("The second order of shells omits membrane stress that is trapped by bending into double curvature. "
+                  "If a plate bends by its thickness ({:.3g}{}{}), its forces are 7 % (edges held in their plane) to "
+                  "25 % too small. If it bends by twice its thickness, they are 11 to 58 % too small. To include this "
+                  "stress, set `double_curvature: 20` in the part file, or cut such a plate into several parts.",
+                  thickness, unit.empty() ? "" : " ", unit));
 }
 
 Eigen::VectorXd default_weights(const formats::Superelement& element) {
@@ -343,8 +346,8 @@ std::optional<formats::Companion> companion_if_asked(const formats::Part& part, 
   const bool loose = reduced.internal.loose() > 0;  // no stress follows from the turns of a mechanism
   if (!loose && wanted && has_own_mass)
     model.notes.push_back(
-        "No second order in a companion file (stiffening, exact inertia): method macneal leaves out the mass that its "
-        "coordinates move; take method craig_bampton or rubin.");
+        "No second order (stiffening, exact inertia) was written to a companion file, because method: macneal omits "
+        "the mass that its coordinates move. Use method: craig_bampton or method: rubin.");
   else if (!loose)
     describe_companion(reduced.mesh, part, element, model);
   const bool second_order = wanted && !has_own_mass && !loose;
@@ -352,16 +355,15 @@ std::optional<formats::Companion> companion_if_asked(const formats::Part& part, 
   const Eigen::VectorXd weights = default_weights(element);
   if (!second_order) return make_load_companion(reduced, weights);
   formats::Companion companion = make_companion(reduced, weights, part.double_curvature, displacement);
-  if (displacement != nullptr && *displacement && (*displacement)->left_out > told_left_out)
+  if (displacement != nullptr && *displacement && (*displacement)->left_out > reported_omissions)
     model.notes.push_back(
-        fmt::format("The {} shapes of second-order displacement in the recovery file leave out {:.2g} % of it, root "
-                    "mean square over "
-                    "mixed deformations.",
+        fmt::format("The {} shapes of second-order displacement in the recovery file omit {:.2g} % of it (root mean "
+                    "square over mixed deformations).",
                     (*displacement)->forms.shapes(), 100.0 * (*displacement)->left_out));
   if (part.double_curvature > 0)
     model.notes.push_back(
         companion.Lambda.empty()
-            ? std::string("No membrane stress is trapped by bending: the companion file has no Lambda.")
+            ? std::string("No membrane stress is trapped by bending, so the companion file has no Lambda.")
             : trapped_text(companion, part.double_curvature));
   return companion;
 }

@@ -11,30 +11,37 @@
 
 namespace tisserand::reducer {
 
-/// Whether a second order of this superelement is written. The superelement must deform, and either the part requests
-/// it (`second_order` or `double_curvature`) or its arrays stay below 20 MB. Throws Error if the part requests it for
-/// more coordinates than companion files hold.
+/// Whether second-order arrays of this superelement are written. The superelement must deform. In addition, either the
+/// part requests the arrays (`second_order` or `double_curvature`), or they stay below 20 MB. Throws Error if the part
+/// requests them for more coordinates than companion files hold.
 bool wants_second_order(const formats::Part& part, const formats::Superelement& element);
 
-/// Adds notes and warnings for the user: an omitted companion, ties without second order.
+/// Adds notes and warnings for the user to `model`, about an omitted companion file and about ties without
+/// second-order terms.
 void describe_companion(const Mesh& mesh, const formats::Part& part, const formats::Superelement& element,
                         ModelCertificate& model);
 
-/// H, C, E, N, T of THEORY (81), (82), and S0, S1. Cost: one pass over the masses, 12 + cases solutions with the factor
-/// of S_II, and one pass over the stresses of n + 12 + cases displacements. Memory: copies of all displacements
-/// (coordinates of the mesh x their number) and blocks of elements. `weights`: one per boundary node. `shapes`: for
-/// trapped_stress(), 0: no Λ. `displacement`: if given, receives the second-order part of the recovery file, which
-/// costs more solutions and one more pass (displacement.hpp).
+/// Makes the companion of a superelement with n coordinates: the arrays H, C, E, N, T of THEORY (81), (82), first
+/// moment of mass S0, momentum S1 of each coordinate, and load cases. `weights`: weight of each boundary node in the
+/// floating frame. `shapes`: number of shapes for trapped_stress(), whose Λ the companion then has; 0: none.
+/// `displacement`: if not null, receives the second-order part of the recovery file (displacement.hpp), which costs
+/// more solutions and one more pass.
+///
+/// With c load cases it costs one pass over the masses, 12 + c solutions with the factor of S_II, and one pass over
+/// the stresses of n + 12 + c displacements. The memory holds copies of these displacements for all coordinates of the
+/// mesh, and blocks of elements.
 formats::Companion make_companion(const ReducedPart& part, const Eigen::VectorXd& weights, int shapes = 0,
                                   std::optional<SecondOrderDisplacement>* displacement = nullptr);
 
-/// Companion with the forces of the load cases only.
+/// Companion that holds only the forces of the load cases. `weights`: weight of each boundary node in the floating
+/// frame.
 formats::Companion make_load_companion(const ReducedPart& part, const Eigen::VectorXd& weights);
 
-/// Default weights of the nodes in mechanisms, THEORY (10).
+/// Default weights of the boundary nodes in the floating frame of a mechanism, THEORY (10).
 Eigen::VectorXd default_weights(const formats::Superelement& element);
 
-/// Calls describe_companion(). Returns the companion if second order is wanted or there are load cases.
+/// Calls describe_companion(), then makes the companion. Returns nothing if second order is not wanted and there are
+/// no load cases. `displacement`: receives the second-order part of the recovery file, see make_companion().
 std::optional<formats::Companion> companion_if_asked(const formats::Part& part, const ReducedPart& reduced,
                                                      ModelCertificate& model,
                                                      std::optional<SecondOrderDisplacement>* displacement);

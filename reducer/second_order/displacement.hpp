@@ -21,29 +21,32 @@
 namespace tisserand::reducer {
 
 struct SecondOrderShapes {
-  Eigen::MatrixXd x;        ///< coordinates of the mesh x r: shapes, whose translations are orthonormal
-  Eigen::MatrixXd load;     ///< x without rotations: forces whose work on u₂ is the amplitude of a shape
+  Eigen::MatrixXd x;  ///< coordinates of the mesh x r: shapes, whose translations are orthonormal
+  /// Coordinates of the mesh x r: `x` without rotations, as forces whose work on u₂ is the amplitude of a shape.
+  Eigen::MatrixXd load;
   Eigen::MatrixXd samples;  ///< n x p: sample deformations y
-  Eigen::VectorXd largest;  ///< p: largest translation of u₂ of each sample
-  double left_out = 0.0;    ///< root mean square of u₂ of the samples without the shapes, relative to u₂
+  Eigen::VectorXd largest;  ///< p: largest translation of the second-order displacement u₂ of each sample
+  double left_out = 0.0;    ///< root mean square of the part of u₂ that the shapes omit, relative to u₂
 };
 
-/// Shapes of second-order displacement. `Phi`: displacements of all x for the coordinates of `element`. Samples mix all
-/// deformations of the reduced body, scaled by equal forces on its free modes, and rigid turns of similar displacement.
-/// At most 32 shapes; fewer if they omit at most 2e-4. No columns if no sample moves anything. Cost: one pass over the
-/// elements and 48 solutions with the factor of S_II. Amplitudes add 32 solutions, and as many displacements to the
-/// companion's pass.
+/// Computes shapes for the second-order displacement u₂ of THEORY (97). They are the singular vectors of u₂ of sample
+/// deformations. The samples mix all deformations of the reduced body, scaled by equal forces on its free modes, with
+/// rigid turns of similar displacement. There are at most 32 shapes, and fewer if these omit at most 2e-4 of u₂. There
+/// are none if no sample causes u₂. `Phi`: displacements of all coordinates of the mesh for those of the superelement.
+/// The cost is one pass over the elements and 48 solutions with the factor of S_II. The amplitudes of the shapes cost
+/// 32 solutions more, and as many displacements in the pass of make_companion().
 SecondOrderShapes second_order_shapes(const ReducedPart& part, const TieForces& ties, const Eigen::MatrixXd& Phi);
 
-/// Second-order part of the recovery file.
+/// Second-order displacement for the recovery file: shapes, and the forms that give their amplitudes.
 struct SecondOrderDisplacement {
   Eigen::MatrixXd x;  ///< coordinates of the mesh x shapes
   formats::SecondOrderForms forms;
   double left_out = 0.0;  ///< SecondOrderShapes::left_out
 };
 
-/// Second-order part from the shapes. `work`: Φᵀ K_G[w] Φ of the static answer w to each shape's load. `H`: of the
-/// companion. It has forms of internal coordinates that second order moves by over 1e-3 of the samples' largest u₂.
+/// Makes the second-order part of the recovery file from `shapes`. `work`: Φᵀ K_G[w] Φ of the static answer w to the
+/// load of each shape. `H`: those of the companion. The result also has forms of the internal coordinates that second
+/// order moves by more than 1e-3 of the largest u₂ of the samples.
 SecondOrderDisplacement second_order_displacement(SecondOrderShapes shapes, const std::vector<Eigen::MatrixXd>& work,
                                                   const std::vector<Eigen::MatrixXd>& H, const InternalModes& internal);
 

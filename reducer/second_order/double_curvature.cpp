@@ -251,11 +251,10 @@ TrappedEnergy trapped_energy(const InternalProblem& problem, const BoundaryModes
   const MatrixXd shared = shared_energy(problem, boundary, pairs.force);
   for (Index pair = 0; pair < shared.rows(); ++pair)
     if (!(shared(pair, pair) <= (1.0 + shared_accepted) * energy.own[pair] + round_off * energy.own.sum()))
-      throw Error(
-          fmt::format("double_curvature: displacements take up {:.3g} of the energy of a pair of shapes, of which "
-                      "the elements have {:.3g}: round-off",
-                      shared(pair, pair), energy.own[pair]),
-          problem.where, "leave out `double_curvature`, or ask for fewer shapes");
+      throw Error(fmt::format("double_curvature: round-off is too large: displacements take an energy of {:.3g} from a "
+                              "pair of shapes, but its elements have only {:.3g}",
+                              shared(pair, pair), energy.own[pair]),
+                  problem.where, "remove `double_curvature`, or give it a smaller number of shapes");
   energy.gram -= shared;
   return energy;
 }

@@ -17,20 +17,24 @@
 
 namespace tisserand::reducer {
 
-/// Gram matrix of the stress that pairs k ≤ l of shapes trap, ordered by pairs [energy per product of four amplitudes].
-/// d = Σ z_k d_k has the energy ⅛ Σ m_kl z_k z_l gram(kl, mn) m_mn z_m z_n, m = 1 for k = l, else 2.
+/// Energy of the membrane stress that pairs k ≤ l of shapes trap, as a Gram matrix with a row and a column per pair
+/// [energy per product of four amplitudes]. A deformation d = Σ z_k d_k has the energy ⅛ Σ m_kl z_k z_l gram(kl, mn)
+/// m_mn z_m z_n over pairs kl and mn, with m = 1 for equal indices, else 2.
 struct TrappedEnergy {
   Eigen::MatrixXd gram;
-  Eigen::VectorXd own;  ///< diagonal if every element relaxed on its own: the scale of round-off
+  /// Diagonal of the Gram matrix if every element relaxed on its own, which is the scale of round-off.
+  Eigen::VectorXd own;
 };
 
-/// Gram matrix for `shapes`: displacements of all x. Memory: coordinates x pairs. Rigid motions trap nothing.
+/// Computes the energy that pairs of `shapes` trap, THEORY (83). `shapes`: displacements of all coordinates of the
+/// mesh (coordinates x shapes). Rigid motions trap nothing. The memory is one column of all coordinates per pair.
 TrappedEnergy trapped_energy(const InternalProblem& problem, const BoundaryModes& boundary, const TieForces& ties,
                              const Eigen::MatrixXd& shapes);
 
-/// Λ_b (n x n, symmetric, Λ_b R = 0) [√energy / (y_k y_l)], largest first, of all pairs of the `shapes` lowest elastic
-/// modes of the free reduced body. `Phi`: displacements of all x for the coordinates of the superelement. Memory:
-/// coordinates of the mesh x shapes (shapes + 1)/2.
+/// Matrices Λ_b (n x n, symmetric, Λ_b R = 0 for rigid motions R) of the trapped membrane stress, THEORY (83) [√energy
+/// per product of two coordinates]. They come from all pairs of the `shapes` lowest elastic modes of the free reduced
+/// body, largest first. `Phi`: displacements of all coordinates of the mesh for the n of the superelement. The memory
+/// is shapes (shapes + 1)/2 columns of all coordinates of the mesh.
 std::vector<Eigen::MatrixXd> trapped_stress(const ReducedPart& part, const TieForces& ties, const Eigen::MatrixXd& Phi,
                                             int shapes);
 

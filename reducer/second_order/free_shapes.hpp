@@ -8,15 +8,16 @@
 
 namespace tisserand::reducer {
 
-/// Shapes with the strain energy ½ zᵀz, the lowest last: z = P y, y = Z z.
+/// The p lowest elastic modes of the free reduced body, scaled to the strain energy ½ zᵀz of their amplitudes z. The
+/// lowest is the last. z = P y gives amplitudes of coordinates y, and y = Z z the reverse.
 struct FreeShapes {
-  Eigen::MatrixXd Z;      ///< n x p
-  Eigen::MatrixXd P;      ///< p x n, P R = 0
-  Eigen::VectorXd lower;  ///< p, ascending to 1: ω₁/ω of each shape; 0 for shapes without mass
+  Eigen::MatrixXd Z;      ///< n x p: shapes; y = Z z
+  Eigen::MatrixXd P;      ///< p x n; P R = 0 for rigid motions R
+  Eigen::VectorXd lower;  ///< p, ascending to 1: ω₁/ω of each shape, ω₁ of the lowest; 0 for shapes without mass
 };
 
-/// The p lowest elastic modes of the free reduced body, or all if there are fewer. A rigid motion may lack mass, unlike
-/// in free_modes().
+/// Computes the `p` lowest elastic modes of the free reduced body, or all if there are fewer. Rigid motions without
+/// mass are allowed, unlike in free_modes().
 FreeShapes lowest_shapes(const formats::Superelement& element, int p);
 
 }  // namespace tisserand::reducer

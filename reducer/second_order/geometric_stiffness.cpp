@@ -159,9 +159,9 @@ std::vector<FreeBlock> tie_blocks(const StressedPart& part, const FreeBlocks& fr
   const MatrixXd residual = tie_residual(part.mesh, part.system.coordinates, part.ties, w, g);
   for (const TieForm& form : tie_forms(part.mesh, part.system, part.ties, multipliers(part.ties, residual))) {
     if (form.x.size() > most_averaged)
-      throw Error(fmt::format("spider '{}' averages {} coordinates; buckling takes at most {}",
+      throw Error(fmt::format("spider '{}' averages {} coordinates, but buckling allows at most {}",
                               part.mesh.spiders[form.spider].name, form.x.size(), most_averaged),
-                  part.where, "let the spider grab fewer nodes, or make it rigid");
+                  part.where, "connect the spider to fewer nodes, or make it rigid");
     blocks.push_back(free.block(form.x, form.batch.sections, form.batch.gradient, form.batch.stress.col(0)));
   }
   return blocks;
@@ -216,9 +216,8 @@ std::string monosymmetry_note(const Mesh& mesh) {
   }
   if (names.empty()) return "";
   return fmt::format(
-      "Wagner's beta of {} is taken from the shear centre alone, for the outline is not known: in bending they turn "
-      "over "
-      "at other loads. Give the section as a named shape, polygon or walls, without taper.",
+      "Wagner's beta of {} is computed from the shear centre alone, because the outline is not known. In bending, the "
+      "true loads of lateral buckling differ. Define the section as a named shape, polygon or walls, without taper.",
       listed(names));
 }
 

@@ -12,18 +12,20 @@
 
 namespace tisserand::reducer {
 
-/// Elements of one layout. Row s · count + e contains stress (gradient) s of element e.
+/// Stresses and gradients of some elements that have equal `sections`. Row s · count + e is stress or gradient number
+/// s of element e.
 struct StrainBatch {
   std::vector<StrainSection> sections;
   int count = 0;
-  Eigen::MatrixXd stress;    ///< a column per displacement w
-  Eigen::MatrixXd gradient;  ///< a column per displacement Φ of a coordinate
+  Eigen::MatrixXd stress;    ///< one column per displacement w that causes stress
+  Eigen::MatrixXd gradient;  ///< one column per reduced coordinate, with its displacement Φ
 };
 
-/// Number of stress rows of one element.
+/// Number of stresses of one element that has the sections `sections`.
 int stress_rows(const std::vector<StrainSection>& sections);
 
-/// Calls use(stress, first, second, coefficient) for all products of the sections, with rows of stress and gradients.
+/// Calls use(stress, first, second, coefficient) for every product in the second-order strains of the sections.
+/// `stress`, `first` and `second` are rows of the stress and of both gradients of one element.
 template <class Use>
 void for_each_product(const std::vector<StrainSection>& sections, const Use& use) {
   int stress = 0, gradient = 0;
@@ -36,21 +38,21 @@ void for_each_product(const std::vector<StrainSection>& sections, const Use& use
     }
 }
 
-/// Accumulates Φᵀ K_G[w_j] Φ of THEORY (82) for all w_j: per batch one matrix product (stresses of w)ᵀ (E2 of pairs
-/// Φ_k, Φ_l), about 2 · stresses · (number of w) · n²/2 operations. Columns have fixed pieces, so sums are the same for
-/// any number of threads.
+/// Sum over all elements of Φᵀ K_G[w_j] Φ of THEORY (82), for all displacements w_j. A batch costs one matrix product
+/// of the stresses of w_j with E2 of the pairs Φ_k, Φ_l: about 2 · stresses · (number of w) · n²/2 operations. The
+/// pairs are divided into fixed pieces, so the sums are equal for any number of threads.
 class QuadraticForms {
  public:
   QuadraticForms(int coordinates, int displacements, int threads);
 
-  /// Adds the batches one after the other; each thread computes pieces of the pairs.
+  /// Adds the batches one after the other. Each thread computes pieces of the pairs.
   void add(std::span<const StrainBatch> batches);
 
-  /// Φᵀ K_G[w_j] Φ, n x n, symmetric.
+  /// Sum Φᵀ K_G[w_j] Φ for the displacement j = `displacement` (n x n, symmetric).
   Eigen::MatrixXd matrix(int displacement) const;
 
  private:
-  /// Pairs k, l ≥ k for some k: columns from `column` on.
+  /// Range of columns of `sum_` for the pairs k, l ≥ k of some k: first ≤ k < end.
   struct Piece {
     int first = 0;
     int end = 0;
@@ -62,8 +64,8 @@ class QuadraticForms {
   int n_ = 0;
   int threads_ = 1;
   std::vector<Piece> pieces_;
-  std::vector<Eigen::VectorXd> forms_;  ///< one per thread: E2 of the pairs of a piece
-  Eigen::MatrixXd sum_;                 ///< displacements x pairs
+  std::vector<Eigen::VectorXd> forms_;  ///< for each thread: E2 of the pairs of a piece
+  Eigen::MatrixXd sum_;                 ///< sums so far: displacements x pairs
 };
 
 }  // namespace tisserand::reducer

@@ -23,51 +23,57 @@
 
 namespace tisserand::reducer {
 
-/// Ties of a mesh with their equations and dependent coordinates.
+/// Equations of the ties of a mesh and their dependent coordinates, from which the forces of the ties follow.
 struct TieForces {
   TieSystem ties;
-  std::vector<int> equation;   ///< numbers of the equations that are not redundant
-  std::vector<int> dependent;  ///< dependent coordinates x, one per equation
-  std::vector<int> row_of;     ///< row of each x in `dependent`; −1: none
+  std::vector<int> equation;   ///< indices in TieSystem::equations of those that are not redundant
+  std::vector<int> dependent;  ///< dependent coordinates of the mesh, one per equation
+  std::vector<int> row_of;     ///< row of each coordinate of the mesh in `dependent`; −1: independent
 
   bool empty() const { return equation.empty(); }
 };
 
-/// Ties of a mesh. `independent`: coordinates x that ties leave independent, with which `system` was built.
+/// Finds the equations and dependent coordinates of the ties of a mesh. `independent`: coordinates of the mesh that
+/// ties leave independent, with which `system` was built. `where`: place for messages.
 TieForces find_tie_forces(const Mesh& mesh, const System& system, const std::vector<int>& independent,
                           const std::string& where);
-/// Ties for a system that was built with its boundary independent.
+/// Finds the ties of a mesh for a `system` that was built with its boundary coordinates independent.
 TieForces find_tie_forces(const Mesh& mesh, const System& system, const std::string& where);
 
-/// Residual g − S w of the elements at the dependent coordinates (rows of TieForces::dependent, a column per
-/// displacement). `displacements`: w on all x. `g`: loads on x of the last columns; the others have none.
+/// Residual g − S w of the elements at the dependent coordinates (rows of TieForces::dependent x displacements), with
+/// the stiffness S before ties. `displacements`: w on all coordinates of the mesh. `g`: loads that belong to the last
+/// columns of `displacements`; the other columns have no loads.
 Eigen::MatrixXd tie_residual(const Mesh& mesh, const Coordinates& coordinates, const TieForces& forces,
                              const Eigen::MatrixXd& displacements, const Eigen::MatrixXd& g);
 
-/// λ of every equation (rows; redundant ones zero) from residuals g − S w at the dependent coordinates (rows of
-/// TieForces::dependent): C_Dᵀ λ = g − S w.
+/// Multipliers λ of all tie equations (equations x columns) from the force residuals g − S w at the dependent
+/// coordinates: C_Dᵀ λ = g − S w. C_D is the part of the equations at the dependent coordinates. Redundant equations
+/// get zero. `residual`: tie_residual() (rows of TieForces::dependent).
 Eigen::MatrixXd multipliers(const TieForces& forces, const Eigen::MatrixXd& residual);
 
-/// Dependent coordinates (rows of TieForces::dependent) that solve c(x) = −constant with all others zero. `constant`
-/// has a row per equation.
+/// Values of the dependent coordinates (rows of TieForces::dependent) that solve the tie equations c(x) = −constant
+/// while all other coordinates are zero. `constant`: one row per equation.
 Eigen::MatrixXd dependents(const TieForces& forces, const Eigen::MatrixXd& constant);
 
-/// Stresses and gradients of all spiders. `lambda`: multipliers(); `Phi`: displacements of all x for the coordinates.
+/// Stresses and gradients of the second-order terms of all spiders. `lambda`: multipliers() of the displacements w,
+/// which are the columns of stress. `Phi`: displacements of all coordinates of the mesh, whose columns are those of
+/// the gradients.
 std::vector<StrainBatch> tie_batches(const Mesh& mesh, const System& system, const TieForces& forces,
                                      const Eigen::MatrixXd& lambda, const Eigen::MatrixXd& Phi);
 
-/// Second order of one leg of a rigid spider, or of one average, on the coordinates of its own nodes.
+/// Second-order term of one leg of a rigid spider, or of one averaging spider, on the coordinates of its own nodes.
 struct TieForm {
   int spider = 0;      ///< index in Mesh::spiders
-  std::vector<int> x;  ///< coordinates of the mesh: columns of the gradients
-  StrainBatch batch;   ///< a column of stress per column of `lambda`
+  std::vector<int> x;  ///< coordinates of the mesh that are the columns of the gradients
+  StrainBatch batch;   ///< stresses, one column per column of the multipliers, and gradients
 };
 
-/// Terms of tie_batches() for unit displacements of the mesh's coordinates.
+/// Second-order terms of all spiders, as tie_batches() gives them, for unit displacements of the coordinates of their
+/// nodes.
 std::vector<TieForm> tie_forms(const Mesh& mesh, const System& system, const TieForces& forces,
                                const Eigen::MatrixXd& lambda);
 
-/// Names of ties without second order: equations, and spiders that average some directions only.
+/// Names of ties without second-order terms: equations, and spiders that average only some directions.
 std::vector<std::string> without_second_order(const Mesh& mesh);
 
 }  // namespace tisserand::reducer

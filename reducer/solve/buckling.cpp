@@ -55,7 +55,7 @@ CaseBuckling case_buckling(const BucklingProblem& problem, const StressedPart& p
   const LoadFactors factors = load_factors({pair.stiffness, pair.mass, s.factor, begin.share}, problem.count);
   if (!(factors.limit > 0.0))
     throw Error(fmt::format("load case '{}' causes no stress, so nothing can buckle", load.name), load.where,
-                "give it loads that the part carries to its supports, or leave the load case out");
+                "give it loads that the part carries to its supports, or remove the load case");
   CaseBuckling result{problem.count,    factors.factor,    {}, factors.reversed, factors.limit,
                       factors.residual, factors.more_equal};
   result.q.setZero(s.system.size(), factors.factor.size());
@@ -68,18 +68,18 @@ CaseBuckling case_buckling(const BucklingProblem& problem, const StressedPart& p
 
 void require_buckling_load(const formats::Part& part) {
   if (part.load_cases.empty())
-    throw Error("buckling needs a load, and the part has no load cases", part.file,
-                "give it load_cases: {axial: {forces: {tip: [-1, 0, 0]}}}");
+    throw Error("buckling needs a load, but the part has no load cases", part.file,
+                "add load cases, for example load_cases: {axial: {forces: {tip: [-1, 0, 0]}}}");
   if (part.supports.empty())
-    throw Error("buckling needs a part that is held, and this one has no supports", part.file,
-                "give it supports: loads that keep their direction turn a free part over");
+    throw Error("buckling needs supports, but the part has none", part.file,
+                "add supports, because loads that keep their direction turn a free part over");
 }
 
 std::vector<std::string> buckling_warnings(const Mesh& mesh) {
   std::vector<std::string> warnings;
   if (const std::vector<std::string> names = without_second_order(mesh); !names.empty())
     warnings.push_back(
-        fmt::format("Buckling leaves out the second order of {}: what they mean for finite rotations is not known.",
+        fmt::format("Buckling omits the second order of {}, because their meaning for finite rotations is not known.",
                     listed(names)));
   if (const std::string text = monosymmetry_note(mesh); !text.empty()) warnings.push_back(text);
   return warnings;

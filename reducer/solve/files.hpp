@@ -9,23 +9,24 @@
 
 namespace tisserand::reducer {
 
-/// Paths of the files: stem.csv, stem.CASE.vtu for each load case, stem-modes.vtu if modes are requested; for buckling
-/// stem-buckling.csv, stem-buckling.html, and stem-buckling.CASE.vtu for each load case.
+/// Paths of the files of a solution: stem.csv, stem.CASE.vtu for each load case, and stem-modes.vtu if modes are
+/// requested. Buckling adds stem-buckling.csv, stem-buckling.html, and stem-buckling.CASE.vtu for each load case.
 std::vector<std::string> solution_files(const std::string& stem, const formats::Part& part,
                                         const SolveRequest& request);
 
-/// Table with lines `case,point,ux,uy,uz,rx,ry,rz` for every load case, mode (mode_1, ...) and buckling shape
-/// (CASE-buckling_1, ...), part axes. Points: boundary nodes, points and spiders that are nodes, and requested points.
-/// Throws Error for requested points that do not exist.
+/// Table of displacements at named points, with lines `case,point,ux,uy,uz,rx,ry,rz` in part axes. It has every load
+/// case, mode (mode_1, ...) and buckling shape (CASE-buckling_1, ...). The points are boundary nodes, points and
+/// spiders that are nodes, and requested points. Throws Error for requested points that do not exist.
 std::string solution_table(const Solution& solution, const formats::Part& part, const SolveRequest& request);
 
-/// Table with lines `case,mode,load_factor`; the factor of the reversed load is negative, its mode `reversed`.
+/// Table of buckling factors with lines `case,mode,load_factor`. The line of the reversed load has a negative factor
+/// and the mode `reversed`.
 std::string buckling_table(const Solution& solution);
 
-/// HTML page on which the part moves in every buckling shape.
+/// HTML page that shows the motion of the part in every buckling shape.
 std::string buckling_page(const Solution& solution, const formats::Part& part);
 
-/// Writes the files of solution_files(). Shapes of modes are scaled to a largest displacement of 1.
+/// Writes the files that solution_files() names. Shapes of modes are scaled to a largest displacement of 1.
 void write_solution(const Solution& solution, const formats::Part& part, const SolveRequest& request,
                     const std::string& stem);
 

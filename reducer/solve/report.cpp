@@ -121,7 +121,7 @@ std::string case_text(const Solution& s, Index c, const Labels& labels) {
                                     vector_text(point, s.system.length)));
   }
   text += fmt::format(line_form, "equilibrium",
-                      fmt::format("load and reactions cancel to {:.1e} of the load", imbalance(s, c)));
+                      fmt::format("load and reactions are in equilibrium to {:.1e} of the load", imbalance(s, c)));
   return text + fmt::format(line_form, "residual", fmt::format("{:.1e}, after refinement", s.statics.residual[c]));
 }
 
@@ -132,7 +132,7 @@ std::string modes_text(const Solution& s, const Units& units) {
                   !s.is_free ? "supported" : fmt::format("free: {} rigid motions at frequency 0, then", modes.rigid));
   const std::string unit = frequency_unit(units);
   text += fmt::format("  {:>4} {:>16}{}\n", "mode", "frequency [" + unit + "]",
-                      s.is_free ? "" : "   effective mass and inertia [% of the part's] x, y, z, rx, ry, rz");
+                      s.is_free ? "" : "   effective mass and inertia [% of the whole part]: x, y, z, rx, ry, rz");
   Vector6 whole;
   whole << s.rigid.mass, s.rigid.mass, s.rigid.mass, s.rigid.inertia.diagonal();
   Vector6 sum = Vector6::Zero();
@@ -146,7 +146,7 @@ std::string modes_text(const Solution& s, const Units& units) {
     text += fmt::format("  {:>4} {:>16.8g}{}\n", k + 1, frequency(modes.lambda[k]),
                         s.is_free ? "" : "  " + percent(modes.effective.col(k)));
   }
-  if (!s.is_free) text += fmt::format("  {:>4} {:>16}  {}\n", "all", "", percent(sum));
+  if (!s.is_free) text += fmt::format("  {:>4} {:>16}  {}\n", "sum", "", percent(sum));
   text += fmt::format("eigenvalues by {}, largest residual {:.1e}\n", modes.solver.text, modes.solver.residual);
   for (const std::string& note : modes.solver.notes) text += note + "\n";
   return text;
@@ -171,17 +171,20 @@ std::string count_text(const CaseBuckling& b) {
   const auto found = count_of(b.factor);
   if (found == 0) return fmt::format("no load factor up to {:.3g}: this load does not buckle the part", b.limit);
   if (found < b.asked)
-    return fmt::format("only {} of the {} load factors exist: no other up to {:.3g}", found, b.asked, b.limit);
+    return fmt::format("only {} of the {} requested load factors exist up to {:.3g}", found, b.asked, b.limit);
   if (b.more_equal > 0)
-    return fmt::format("none below the last is missing, by inertia; {} more equal the last one", b.more_equal);
-  return "none below the last is missing, by inertia";
+    return fmt::format(
+        "no load factor below the last one is missing (count by inertia); {} more are equal to the last one",
+        b.more_equal);
+  return "no load factor below the last one is missing (count by inertia)";
 }
 
 std::string buckling_text(const Solution& s, Index c) {
   const CaseBuckling& b = s.buckling[c];
   const Eigen::MatrixXd motion = node_motions(s.system, b.q);
   std::string text = fmt::format("\nbuckling, load case '{}'\n", s.mesh.load_cases[c].name);
-  if (b.factor.size() > 0) text += fmt::format("  {:>4} {:>16}   shape, largest 1\n", "mode", "load factor");
+  if (b.factor.size() > 0)
+    text += fmt::format("  {:>4} {:>16}   largest motion of the shape, scaled to 1\n", "mode", "load factor");
   for (Index k = 0; k < b.factor.size(); ++k)
     text += fmt::format("  {:>4} {:>16.8g}   {}\n", k + 1, b.factor[k], shape_text(s, motion, k));
   text += fmt::format(line_form, "count", count_text(b));
@@ -189,7 +192,7 @@ std::string buckling_text(const Solution& s, Index c) {
     text += fmt::format(line_form, "reversed load", fmt::format("buckles at a load factor of {:.8g}", -*b.reversed));
   if (b.factor.size() > 0)
     text += fmt::format(line_form, "residual",
-                        fmt::format("{:.1e} of the shape, in the norm of the stiffness", b.residual));
+                        fmt::format("{:.1e} of the shape, both in the norm of the stiffness matrix", b.residual));
   return text;
 }
 

@@ -8,14 +8,16 @@
 
 namespace tisserand::reducer {
 
-/// [force; moment about `point`] of the supports `support` on the part (index in Mesh::supports; −1: all).
+/// Resultant [force; moment about `point`] that the support `support` exerts on the part. `support`: index in
+/// Mesh::supports; −1 means all supports.
 Eigen::Matrix<double, 6, 1> reaction_of(const Solution& solution, int support, Eigen::Index load_case,
                                         const Eigen::Vector3d& point);
 
-/// Largest of |applied + reactions|, forces and moments, relative to the size of the load.
+/// Largest imbalance |applied + reactions| of forces and moments, relative to the size of the load.
 double imbalance(const Solution& solution, Eigen::Index load_case);
 
-/// Report: the part, its supports, every load case with its largest values, reactions and equilibrium, the modes.
+/// Report on a solution for the terminal: the part, its supports, every load case with its largest values, reactions
+/// and equilibrium, and the modes.
 std::string solution_text(const Solution& solution, const formats::Part& part);
 
 }  // namespace tisserand::reducer

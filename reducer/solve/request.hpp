@@ -8,9 +8,9 @@
 namespace tisserand::reducer {
 
 struct SolveRequest {
-  int modes = 0;                    ///< number of modes of the supported part, lowest first
+  int modes = 0;                    ///< number of requested modes of the supported part, lowest first
   std::vector<std::string> points;  ///< further nodes of the table: labels, or "x,y,z" of the part frame
-  int buckling = 0;                 ///< number of load factors per load case, lowest first
+  int buckling = 0;                 ///< number of requested load factors per load case, lowest first
 };
 
 }  // namespace tisserand::reducer

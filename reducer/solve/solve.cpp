@@ -30,8 +30,8 @@ Eigen::Index first_longest(const Eigen::Matrix3Xd& columns, double round_off) {
 
 Solution solve(const formats::Part& part, const SolveRequest& request, const PhaseListener& begin) {
   if (part.load_cases.empty() && request.modes == 0)
-    throw Error("there is nothing to solve: the part has no load cases", part.file,
-                "give it load_cases, or ask for modes: --modes 10");
+    throw Error("there is nothing to compute: the part has no load cases, and no modes are requested", part.file,
+                "add load_cases to the part, or request modes: --modes 10");
   if (request.buckling > 0) require_buckling_load(part);
   begin("mesh");
   return solve_mesh(build_mesh_to_solve(part), part, request, begin);

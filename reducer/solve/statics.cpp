@@ -49,9 +49,9 @@ void check_balanced(const Mesh& mesh, const System& system, const LoadVectors& l
     if (force + moment / system.length <= balanced * loads.size[c]) continue;
     const MeshLoadCase& load = mesh.load_cases[c];
     throw Error(fmt::format("the part has no supports, and load case '{}' is not in equilibrium: its resultant is a "
-                            "force of {:.6g} and a moment of {:.6g} about the middle, {:.1e} of its forces",
+                            "force of {:.6g} and a moment of {:.6g} about the middle, which is {:.1e} of its forces",
                             load.name, force, moment, (force + moment / system.length) / loads.size[c]),
-                load.where, "give supports, or loads whose forces and moments cancel");
+                load.where, "add supports, or use loads in equilibrium");
   }
 }
 
@@ -81,7 +81,7 @@ Statics statics(const Supported& s, const LoadVectors& loads) {
   }
   if (!u.allFinite())
     throw Error("the displacements are not finite numbers", s.where,
-                "check the sizes of loads and the materials: the numbers overflow");
+                "check the loads and the materials: their numbers are too large");
   result.q.setZero(system.size(), f.cols());
   result.q(s.partition.internal, Eigen::all) = u;
   const MatrixXd Sq = multiply(symmetric_rows(system.matrices, system.matrices.S), result.q);

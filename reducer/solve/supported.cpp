@@ -31,7 +31,7 @@ void check_rigid(const HeldPart& part) {
   std::vector<std::string> names;
   for (const MeshSupport& support : part.mesh.supports) names.push_back(support.name);
   throw Error(fmt::format("the supports {} do not hold the part; still free: {}", listed(names), join(motions, "; ")),
-              part.where, "hold more directions or places");
+              part.where, "support more directions or nodes");
 }
 
 void check_stiff(const Supported& s) {

@@ -12,25 +12,28 @@
 
 namespace tisserand::reducer {
 
-/// Part with its held coordinates.
+/// Mesh and system of a part with the coordinates that its supports hold.
 struct HeldPart {
   const Mesh& mesh;
   const System& system;
   const std::vector<OwnedCoordinate>& held;  ///< coordinates of the mesh with which the system was built
-  const std::string& where;                  ///< for messages
+  const std::string& where;                  ///< place of the part for messages
 };
 
 struct Supported : HeldPart {
   explicit Supported(const HeldPart& part) : HeldPart(part) {}
 
-  Partition partition;   ///< boundary: held coordinates q (boundary_node: their supports); internal: free ones
-  Matrix S, M;           ///< for the free coordinates
-  Factor factor;         ///< factor of S
-  bool is_free = false;  ///< no supports: six coordinates are held, which leave no rigid motion and carry no force
+  /// Boundary: held coordinates q (boundary_node: index of the support); internal: free coordinates q.
+  Partition partition;
+  Matrix S, M;    ///< stiffness and mass of the free coordinates
+  Factor factor;  ///< factor of S
+  /// true: no supports; six coordinates are held, which leave no rigid motion and carry no force.
+  bool is_free = false;
 };
 
-/// Factors the stiffness of the supported part. Throws Error if supports leave a rigid motion (named), if something
-/// inside moves without stiffness, or if the memory does not suffice for the factor and `modes` modes.
+/// Factors the stiffness of the supported part. Throws Error if supports leave a rigid motion, which the message
+/// names. It also throws if something in the part moves without stiffness, or if the memory does not suffice for the
+/// factor and `modes` modes.
 Supported support(const HeldPart& part, int modes, const PhaseListener& begin);
 
 }  // namespace tisserand::reducer

@@ -15,7 +15,7 @@ namespace {
 
 [[noreturn]] void fail_count(int asked, int available, const std::string& where) {
   throw Error(fmt::format("{} modes asked for, but only {} exist", asked, available), where,
-              "ask for fewer, or use more elements");
+              "ask for fewer modes, or use more elements");
 }
 
 Spectrum lowest(const Supported& s, int count, int available, const formats::ModeSelection& asked,
@@ -31,8 +31,8 @@ SupportedModes free_modes(const Supported& s, int count, int available, const fo
   const std::optional<FreeModes> pairs =
       full_free_modes(s.system, {.scale = scale, .count = count, .finite = available}, asked, Count::if_cheap, share);
   if (!pairs)
-    throw Error("some rigid motion of the part moves no mass, so it has no free modes", s.where,
-                "give supports, or inertia about every axis");
+    throw Error("the mass or inertia of a rigid motion is zero, so the part has no free modes", s.where,
+                "add supports, or give the part inertia about every axis");
   if (pairs->value.size() < count) fail_count(count, count_of(pairs->value), s.where);
   return {6, pairs->value, pairs->vector, {}, {}, pairs->solver};
 }

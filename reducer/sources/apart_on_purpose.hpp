@@ -12,11 +12,11 @@ namespace tisserand::reducer {
 
 using NodePairs = std::set<std::pair<int, int>>;
 
-/// Pairs of nodes that a spring or a spider ties; they may be at one place on purpose.
+/// Pairs of nodes that a spring or a spider ties to each other. Such nodes may be at one place on purpose.
 NodePairs tied_pairs(const Mesh& mesh);
 
-/// Whether nodes at one place are separate on purpose: a spring or an equation has both, they follow one rigid spider,
-/// or both are boundary nodes, which a joint may connect.
+/// Test whether two nodes at one place are separate on purpose. They are if a spring, a spider or an equation ties
+/// them to each other, if they follow one rigid spider, or if both are boundary nodes, which a joint may connect.
 class ApartOnPurpose {
  public:
   explicit ApartOnPurpose(const Mesh& mesh);
@@ -26,7 +26,7 @@ class ApartOnPurpose {
   bool have_one_leader(int a, int b) const;
 
   NodePairs tied_;
-  std::map<int, std::set<int>> leads_;  ///< references of the rigid spiders that each node follows
+  std::map<int, std::set<int>> leads_;  ///< for each node: references of the rigid spiders that it follows
   std::set<int> stays_;
 };
 

@@ -28,7 +28,7 @@ std::map<int, double> legs_of(const MeshBuilder& builder, const formats::SpiderL
     for (const auto& [node, weight] : node_weights(builder, numbered)) legs[node] += weight;
   std::erase_if(legs, [&](const auto& leg) { return builder.used[leg.first] == 0; });
   if (legs.empty())
-    throw Error(user.name + " grabs nothing: no element has a node there", user.where,
+    throw Error(user.name + " connects no nodes: no element has a node there", user.where,
                 "name a group of faces or edges that carry elements; `reducer groups` lists them");
   if (line.weights == formats::SpiderWeights::equal)
     for (auto& [node, weight] : legs) weight = 1.0;
@@ -72,7 +72,7 @@ void add_spider(MeshBuilder& builder, const formats::SpiderLine& line) {
     if (spider.kind == SpiderKind::averaging) spider.weight.push_back(weight);
   }
   if (spider.nodes.empty())
-    throw Error(fmt::format("spider '{}' grabs nothing but its own node", line.name), line.where,
+    throw Error(fmt::format("spider '{}' connects no other node than its own", line.name), line.where,
                 "name a larger group");
   builder.spider_node[line.name] = spider.reference;
   builder.mesh.spiders.push_back(std::move(spider));
@@ -86,8 +86,7 @@ void add_springs(MeshBuilder& builder) {
     spring.first = find_place(builder, line.from, user);
     spring.second = find_place(builder, line.to, user);
     if (spring.first == spring.second)
-      throw Error(user.name + " begins and ends at the same node", line.where,
-                  "name two places with nodes of their own");
+      throw Error(user.name + " begins and ends at the same node", line.where, "name two places with different nodes");
     BushingPlace place;  // in the middle between the nodes
     place.first_arm = 0.5 * (builder.position(spring.second) - builder.position(spring.first));
     place.second_arm = -place.first_arm;

@@ -22,16 +22,16 @@ namespace tisserand::reducer {
 namespace {
 
 /// Warns of removed nodes of a deck, which may be there by mistake; a geometry always has unused points.
-void tell_left_out(MeshBuilder& builder, const std::vector<int>& row) {
-  constexpr int most_told = 10;
-  std::vector<std::string> told;
+void report_omissions(MeshBuilder& builder, const std::vector<int>& row) {
+  constexpr int most_listed = 10;
+  std::vector<std::string> reported;
   int count = 0;
   for (int n = builder.first_file_node; n < builder.last_file_node; ++n)
-    if (row[n] < 0 && !builder.merged.contains(n) && count++ < most_told) told.push_back(builder.label[n]);
+    if (row[n] < 0 && !builder.merged.contains(n) && count++ < most_listed) reported.push_back(builder.label[n]);
   if (count > 0)
-    builder.mesh.warnings.push_back(fmt::format("{} nodes of {} without elements, masses and ties are left out: {}",
+    builder.mesh.warnings.push_back(fmt::format("{} nodes of {} have no element, mass or tie and are omitted: {}",
                                                 count, builder.part.mesh.file,
-                                                listed(told, ", ", static_cast<std::size_t>(count))));
+                                                listed(reported, ", ", static_cast<std::size_t>(count))));
 }
 
 FacePlace place_of(const CellMesh& cells, const Entity& face) {
@@ -79,7 +79,7 @@ formats::Part with_skin(formats::Part part) {
 void build(MeshBuilder& builder) {
   const formats::Part& part = builder.part;
   if (part.beams.empty() && part.patches.empty() && part.mesh.file.empty())
-    throw Error("the part has no elements", part.file, "give beams, plates, ..., or a mesh file");
+    throw Error("the part has no elements", part.file, "give beams, plates or a mesh file");
   add_patches(builder);
   add_points(builder);
   add_mesh_file(builder);
@@ -89,11 +89,11 @@ void build(MeshBuilder& builder) {
   add_attachments(builder);
   if (builder.mesh.elements() == 0)
     throw Error("the mesh has no elements with a property", part.file,
-                "say what the groups of the mesh file are: under shells, solids or beams");
+                "give properties to the groups of the mesh file under shells, solids or beams");
   add_loads(builder);
-  tell_unjoined_beams(builder);
+  report_unjoined_beams(builder);
   join_coincident_nodes(builder);
-  tell_hanging_nodes(builder);
+  report_hanging_nodes(builder);
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ void finish(MeshBuilder& builder) {
   Mesh& mesh = builder.mesh;
   std::vector<int> row(builder.cells.position.size(), -1);
   for_nodes(mesh, [&row](int& node) { row[node] = 0; });
-  if (builder.file_is_deck) tell_left_out(builder, row);
+  if (builder.file_is_deck) report_omissions(builder, row);
   int count = 0;
   for (int& r : row)
     if (r == 0) r = count++;

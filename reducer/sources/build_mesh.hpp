@@ -7,22 +7,22 @@
 
 namespace tisserand::reducer {
 
-/// Nodes are patches, named points, mesh file, references of spiders, and inner nodes of beams. Points and nodes of
-/// patches at the same place are one node; those of the mesh file are joined only by name. Throws Error for names that
-/// do not exist, groups without property, spiders without nodes, boundary places without a node, files that cannot be
-/// read.
+/// Builds the mesh of a part from the drawing in the part file and from its mesh file. Nodes come from patches, named
+/// points, the mesh file, references of spiders, and the interior of beams. Points and nodes of patches at the same
+/// place become one node. Nodes of the mesh file are joined only by name. Throws Error for names that do not exist,
+/// groups without property, spiders without nodes, boundary places without a node, and files that cannot be read.
 Mesh build_mesh(const formats::Part& part);
 
-/// Mesh of a part that is solved in full and may have no boundary nodes.
+/// Builds the mesh of a part that is solved in full, as build_mesh() does. It may have no boundary nodes.
 Mesh build_mesh_to_solve(const formats::Part& part);
 
-/// Place of the number of a face, of a geometry or a mesh file with faces.
+/// Name and place of the number of a face, for faces of a geometry or of a mesh file with faces.
 struct FacePlace {
   std::string name;          ///< "face 12", "face 12 ('top')", or the name of a patch
-  Eigen::Vector3d position;  ///< middle of its element nearest to the mean of all its elements
+  Eigen::Vector3d position;  ///< middle of that element of the face which is nearest to the mean of all of them
 };
-/// Mesh for viewing: boundary nodes may be missing. `faces` receives the places of at most `most` faces, those with
-/// most elements first.
+/// Builds the mesh of a part for viewing; boundary nodes may be missing. `faces` receives the places of at most `most`
+/// faces, those with most elements first.
 Mesh build_mesh(const formats::Part& part, std::size_t most, std::vector<FacePlace>& faces);
 
 }  // namespace tisserand::reducer

@@ -54,11 +54,9 @@ FaceEdges face_edges(const CellMesh& patches) {
   const auto label = [&lines](int n) { return lines.label[n]; };
   const bool patch = segment.owner >= 0;
   const std::string where = patch ? part.patches[segment.owner].where : part.file;
-  throw Error(fmt::format("node {} lies on the edge from {} to {} without being one of its nodes", label(node),
+  throw Error(fmt::format("node {} lies on the edge from {} to {}, but is not one of its nodes", label(node),
                           label(segment.first), label(segment.second)),
-              where,
-              "edges that touch need the same divisions: give both the same number of elements, or cut one where "
-              "the other ends");
+              where, "give both edges the same number of elements, or divide one edge where the other ends");
 }
 
 /// Throws Error if one of the nodes in the grid lies inside the segment.

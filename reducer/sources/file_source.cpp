@@ -87,7 +87,7 @@ void refuse_settings(const formats::Part& part, const char* kind) {
                     : mesh.cells.has_value() ? "cells"
                                              : nullptr;
   if (key != nullptr)
-    throw Error(fmt::format("mesh: '{}' has no effect on {}, which is meshed already", key, kind), mesh.where,
+    throw Error(fmt::format("mesh: '{}' has no effect on {}, which is already meshed", key, kind), mesh.where,
                 "remove it, or give the geometry (.geo, .step, .iges, .brep)");
 }
 
@@ -140,7 +140,7 @@ void add_deck(MeshBuilder& builder, MeshFileKind kind) {
   const formats::MeshFile& settings = builder.part.mesh;
   refuse_settings(builder.part, "a deck");
   if (settings.scale != 1.0)
-    throw Error("mesh: 'scale' has no effect on a deck: its properties and materials are in its own units",
+    throw Error("mesh: 'scale' has no effect on a deck, whose properties and materials are in its own units",
                 settings.where, "give the units of the deck under units");
   const DeckOptions options{
       settings.unknown == formats::UnknownContent::ignore ? UnknownCards::ignore : UnknownCards::refuse,
@@ -149,7 +149,7 @@ void add_deck(MeshBuilder& builder, MeshFileKind kind) {
       kind == MeshFileKind::nastran ? read_nastran(settings.file, options) : read_abaqus(settings.file, options);
   if (deck.mesh.elements() == 0 && deck.mesh.masses.empty())
     throw Error("the deck has no elements", settings.file,
-                "name a whole deck: nodes and elements with their properties; is the end of the file cut off?");
+                "give a complete deck with nodes, elements and their properties; is the file truncated?");
   append_deck(builder, deck);
 }
 

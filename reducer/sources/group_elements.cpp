@@ -21,8 +21,8 @@ namespace {
   throw Error(
       fmt::format("{}: element {} is of second order ({} nodes)", user.name, cell.id, form_of(cell.shape).nodes),
       user.where,
-      builder.part.mesh.order == 2 ? "shells and beams are of first order: mesh: {order: 1}"
-                                   : "shells and beams are of first order: write the mesh with order 1");
+      builder.part.mesh.order == 2 ? "shells and beams must be of first order: write mesh: {order: 1}"
+                                   : "shells and beams must be of first order: write the mesh with order 1");
 }
 
 /// Marks an entity as used; two properties for one entity are an error.
@@ -41,8 +41,8 @@ std::vector<int> entities_for(MeshBuilder& builder, const std::vector<std::strin
   for (const std::string& name : on) {
     const Selection selection = select(builder, name, dimension, user);
     if (selection.entities.empty())
-      throw Error(fmt::format("{}: '{}' is a set of a deck, whose elements bring their properties", user.name, name),
-                  user.where, "change the deck");
+      throw Error(fmt::format("{}: '{}' is a set of a deck, whose elements already have properties", user.name, name),
+                  user.where, "change the properties in the deck");
     for (const int entity : selection.entities) {
       take(builder, entity, user);
       result.push_back(entity);
@@ -185,8 +185,8 @@ void check_groups_have_properties(const MeshBuilder& builder) {
     constexpr std::array<const char*, 4> lists{"", "beams", "shells", "solids"};
     errors.emplace_back(fmt::format("group '{}' has {} elements without a property", group.name, forgotten),
                         builder.part.mesh.file,
-                        fmt::format("give it one under {} (on: {}), or mesh: {{ignore: [{}]}}", lists[group.dimension],
-                                    group.name, group.name));
+                        fmt::format("give it one under {} (on: {}), or ignore it with mesh: {{ignore: [{}]}}",
+                                    lists[group.dimension], group.name, group.name));
   }
   if (!errors.empty()) throw merge_errors(errors);
 }
@@ -202,12 +202,13 @@ void check_nothing_is_left(const MeshBuilder& builder) {
     if (entity.dimension == 2 && entity.number == 0 && patch != builder.part.patches.end())
       errors.emplace_back(
           fmt::format("'{}' has no thickness and material", patch->name), patch->where,
-          fmt::format("give them there, or a shell on it (shells: {{skin: {{on: {}, ...}}}})", patch->name));
+          fmt::format("give them there, or define a shell on it (shells: {{skin: {{on: {}, ...}}}})", patch->name));
     if (entity.dimension == 3 && builder.cells.groups.empty() &&
         !ignored.contains(fmt::format("volume {}", entity.number)))
-      errors.emplace_back(fmt::format("{} has no material", name_of(entity)), builder.part.mesh.file,
-                          fmt::format("give it one under solids (on: volume {}), or mesh: {{ignore: [volume {}]}}",
-                                      entity.number, entity.number));
+      errors.emplace_back(
+          fmt::format("{} has no material", name_of(entity)), builder.part.mesh.file,
+          fmt::format("give it one under solids (on: volume {}), or ignore it with mesh: {{ignore: [volume {}]}}",
+                      entity.number, entity.number));
   }
   if (!errors.empty()) throw merge_errors(errors);
 }

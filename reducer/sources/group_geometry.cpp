@@ -119,7 +119,7 @@ int nearest_entity(const MeshBuilder& builder, const formats::GroupDefinition& g
                 user.where, "correct the position, or give a larger tolerance");
   if (found.is_ambiguous(size))
     throw Error(fmt::format("{}: {} and {} are equally near", user.name, name(found.best), name(found.second)),
-                user.where, "move the position into the one that is meant, or give its number");
+                user.where, "move the position into one of them, or give its number");
   return found.best;
 }
 

@@ -183,7 +183,7 @@ std::string name_of_element(const Mesh& mesh, const TouchedFace& face) {
 
 }  // namespace
 
-void tell_hanging_nodes(MeshBuilder& builder) {
+void report_hanging_nodes(MeshBuilder& builder) {
   const Mesh& mesh = builder.mesh;
   const std::vector<TouchedFace> faces = touched_faces(mesh);
   std::vector<int> nodes;
@@ -214,10 +214,9 @@ void tell_hanging_nodes(MeshBuilder& builder) {
   if (!first) return;
   const Vector3d& x = builder.position(first->first);
   builder.mesh.warnings.push_back(fmt::format(
-      "hanging nodes, which lie on an edge or face of an element that they do not belong to and are not connected to "
-      "it: "
-      "{}, first {} at ({:.6g}, {:.6g}, {:.6g}) on {}. Divide the elements on both sides alike, or tie each to the "
-      "nodes beside it by an equation or a spider",
+      "hanging nodes: {}, first {} at ({:.6g}, {:.6g}, {:.6g}) on {}. A hanging node lies on an edge or face of an "
+      "element without being connected to it. Divide the elements on both sides in the same way, or connect each "
+      "hanging node to the adjacent nodes by an equation or a spider",
       hanging.size(), builder.label[first->first], x.x(), x.y(), x.z(), name_of_element(mesh, faces[first->second])));
 }
 

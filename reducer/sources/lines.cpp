@@ -21,7 +21,8 @@ Curve circle_arc(const Eigen::Vector3d& from, const Eigen::Vector3d& through, co
   const Eigen::Vector3d n = a.cross(b);
   if (!(n.norm() > 1e-9 * a.norm() * b.norm()))
     throw Error(fmt::format("beam '{}': the points of the arc are on a straight line or coincide", line.name),
-                line.where, "move `through` off the line between `from` and `to`, or leave it out for a straight beam");
+                line.where,
+                "move `through` away from the line between `from` and `to`, or remove it for a straight beam");
   Curve curve{from, to};
   curve.center = from + (b.squaredNorm() * n.cross(a) - a.squaredNorm() * n.cross(b)) / (2.0 * n.squaredNorm());
   curve.radius = (from - curve.center).norm();
@@ -63,7 +64,7 @@ int element_count(const Curve& curve, const formats::BeamLine& line) {
   }
   const int least = static_cast<int>(curve.angle / 2.0) + 1;
   if (count < least)
-    throw Error(fmt::format("beam '{}': {} elements for an arc of {:.0f} degrees", line.name, count,
+    throw Error(fmt::format("beam '{}': {} elements are too few for an arc of {:.0f} degrees", line.name, count,
                             curve.angle * 180.0 / std::numbers::pi),
                 line.where, fmt::format("use at least {} elements", least));
   return count;

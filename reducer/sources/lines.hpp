@@ -10,11 +10,11 @@
 
 namespace tisserand::reducer {
 
-/// Curve X(s), s in [0, 1] at constant speed: a straight line, or an arc center + r (cos(s angle) e1 + sin(s angle)
-/// e2).
+/// Curve X(s) of a line of part.yaml, with s in [0, 1] at constant speed. It is a straight line, or the arc center + r
+/// (cos(s angle) e1 + sin(s angle) e2) with the radius r.
 struct Curve {
   Eigen::Vector3d from, to;
-  double angle = 0.0;  ///< 0: straight
+  double angle = 0.0;  ///< angle of the arc [rad]; 0: straight
   double radius = 0.0;
   Eigen::Vector3d center = Eigen::Vector3d::Zero(), e1 = Eigen::Vector3d::Zero(), e2 = Eigen::Vector3d::Zero();
 
@@ -22,14 +22,16 @@ struct Curve {
   Eigen::Vector3d at(double s) const;
 };
 
-/// Curve of a beam between the positions of its ends. Throws Error for zero length and collinear points of an arc.
+/// Curve of a beam between the positions `from` and `to` of its ends. Throws Error for zero length and for collinear
+/// points of an arc.
 Curve curve_of(const formats::BeamLine& line, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
-/// Number of equal elements, given or by the size. Throws Error if there are too many, or too few for an arc.
+/// Number of equal elements of a beam line, which the part file gives directly or by an element size. Throws Error if
+/// there are too many, or too few for an arc.
 int element_count(const Curve& curve, const formats::BeamLine& line);
 
-/// Global axis that is most nearly normal to all of the unit vectors, by the rule of PART.md (ties: y before z before
-/// x).
+/// Axis x, y or z of the part that is most nearly normal to all of the unit vectors `tangents`, by the rule of PART.md
+/// (ties: y before z before x).
 Eigen::Vector3d default_orientation(const std::vector<Eigen::Vector3d>& tangents);
 
 }  // namespace tisserand::reducer

@@ -42,7 +42,7 @@ int node_there(MeshBuilder& builder, const NodeSet& connected, const formats::Pl
   const int node = find_place(builder, place, user);
   if (!connected.contains(node))
     throw Error(fmt::format("{}: no element of the part has a node there", user.name), user.where,
-                "name a point, spider or boundary node of the part; a spider brings a node to any place");
+                "name a point, spider or boundary node of the part; a spider gives any place a node");
   return node;
 }
 
@@ -53,7 +53,7 @@ std::vector<int> nodes_on(const MeshBuilder& builder, const NodeSet& connected, 
     for (const auto& [node, weight] : node_weights(builder, select(builder, name, -1, user)))
       if (connected.contains(node)) nodes.insert(node);
   if (nodes.empty())
-    throw Error(user.name + " holds nothing: no element has a node there", user.where,
+    throw Error(user.name + " holds no nodes: no element has a node there", user.where,
                 "name a group that carries elements; `reducer groups` lists them");
   return {nodes.begin(), nodes.end()};
 }
@@ -66,9 +66,10 @@ void check_plane(const MeshBuilder& builder, const std::vector<int>& nodes, int 
   const double first = builder.position(nodes[0])[axis];
   for (const int node : nodes)
     if (const double x = builder.position(node)[axis]; std::abs(x - first) > flat * (high - low).norm())
-      throw Error(fmt::format("{}: {} at {} = {:.9g} and {} at {:.9g} lie in no plane with the normal {}", user.name,
-                              builder.label[nodes[0]], "xyz"[axis], first, builder.label[node], x, "xyz"[axis]),
-                  user.where, "name the group of a plane, or the axis that is normal to it");
+      throw Error(
+          fmt::format("{}: {} at {} = {:.9g} and {} at {:.9g} are not in one plane with the normal {}", user.name,
+                      builder.label[nodes[0]], "xyz"[axis], first, builder.label[node], x, "xyz"[axis]),
+          user.where, "name a group in one plane, or the axis normal to its plane");
 }
 
 void add_support(MeshBuilder& builder, const NodeSet& connected, const formats::Support& line) {
@@ -138,9 +139,9 @@ void add_pressure_on_cells(const MeshBuilder& builder, const std::vector<Cell>& 
     else if (const auto face = faces.solids.find(corners); face != faces.solids.end())
       load.faces.push_back(on_face(face->second, line.pressure));
     else
-      throw Error(fmt::format("{}: '{}' has a face that is no shell and no outer face of a solid (at {})", user.name,
-                              line.on, builder.label[cell.nodes[0]]),
-                  user.where, "name faces that carry shells or bound solids");
+      throw Error(fmt::format("{}: '{}' has a face that is neither a shell nor an outer face of a solid (at {})",
+                              user.name, line.on, builder.label[cell.nodes[0]]),
+                  user.where, "name faces of shells or outer faces of solids");
   }
 }
 
@@ -166,8 +167,8 @@ void judge_normals(MeshBuilder& builder, const std::vector<ShellPressure>& loade
   if (count == 0) return;
   const auto first = std::ranges::find_if(edges, is_pair);
   builder.mesh.warnings.push_back(fmt::format(
-      "{}: pairs of neighbouring shells with normals to opposite sides: {}, first at {} and {}. Pressure acts "
-      "along each normal, so that it cancels there: turn the elements to one side",
+      "{}: pairs of neighbouring shells with opposite normals: {}, first at {} and {}. Pressure acts along each normal "
+      "and cancels there: give all shells normals to the same side",
       user.name, count, builder.label[first->first.first], builder.label[first->first.second]));
 }
 
@@ -240,7 +241,7 @@ void add_line_load(const MeshBuilder& builder, const formats::LineLoad& line, co
     std::copy_n(cell.nodes.begin(), edge.count, edge.nodes.begin());
     edge.force = line.force;
     if (!edges.others.contains(ends))
-      throw Error(fmt::format("{}: '{}' has an edge that no element has (at {})", user.name, line.on,
+      throw Error(fmt::format("{}: '{}' has an edge that belongs to no element (at {})", user.name, line.on,
                               builder.label[cell.nodes[0]]),
                   user.where, "name edges of beams, shells or solids");
     load.edges.push_back(edge);

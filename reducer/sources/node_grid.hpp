@@ -10,18 +10,20 @@
 
 namespace tisserand::reducer {
 
-/// Hash table of cubes of edge `step`; each contains the numbers of the points inside.
+/// Search grid for points: a hash table of cubes of edge `step`, each with the numbers of the points inside.
 class NodeGrid {
  public:
   explicit NodeGrid(double step) : step_(step) {}
 
   void add(const Eigen::Vector3d& x, int number);
-  /// Calls visit(number) for every point that can be within `step` of x.
+  /// Calls visit(number) for every added point within the distance `step` of `x`. It may also call it for farther
+  /// points.
   template <class Visit>
   void near(const Eigen::Vector3d& x, Visit visit) const {
     near(x, step_, visit);
   }
-  /// Calls visit(number) for points within `distance`. For distances far below the step, it mostly searches one cube.
+  /// Calls visit(number) for every added point within `distance` of `x`. It may also call it for farther points. For
+  /// distances far below the step it mostly searches one cube.
   template <class Visit>
   void near(const Eigen::Vector3d& x, double distance, Visit visit) const {
     const Cube low = cube(x.array() - distance), high = cube(x.array() + distance);
@@ -48,14 +50,14 @@ class NodeGrid {
   std::unordered_map<Cube, std::vector<int>, Hash> cubes_;
 };
 
-/// Nodes, no two of which are at the same place within `tolerance`.
+/// Collection of nodes, of which no two are at the same place within `tolerance`.
 class MergedNodes {
  public:
   explicit MergedNodes(double tolerance) : tolerance_(tolerance), grid_(tolerance) {}
 
-  /// The node at x, or -1.
+  /// Node at the place `x`, or -1 if there is none.
   int find(const Eigen::Vector3d& x) const;
-  /// Node at x, or a new one if there is none.
+  /// Node at the place `x`, or a new one if there is none.
   int at(const Eigen::Vector3d& x);
   const std::vector<Eigen::Vector3d>& position() const { return position_; }
 

@@ -26,7 +26,7 @@ const Named& find_named(const std::vector<Named>& all, const std::string& name, 
   }
   const std::optional<std::string> guess = nearest(name, known);
   throw Error(fmt::format("beam '{}': {} '{}' does not exist", line.name, kind, name), line.where,
-              guess ? fmt::format("did you mean '{}'?", *guess) : fmt::format("{}s: {}", kind, listed(known)));
+              guess ? fmt::format("did you mean '{}'?", *guess) : "known are " + listed(known));
 }
 
 /// Names of points at which beams, springs and spiders end; only these become nodes.
@@ -127,7 +127,7 @@ BeamElement beam_element(const MeshBuilder& builder, const formats::BeamLine& li
                                   line.name, orientation.x(), orientation.y(), orientation.z(), place.number)
                     : fmt::format("beam '{}': element {} has zero length", line.name, place.number),
                 line.where,
-                "give an orientation that is nowhere parallel to the beam, and offsets that leave it a length");
+                "give an orientation that is nowhere parallel to the beam, and offsets that keep its length above 0");
   beam.R_PE = *R_PE * Eigen::AngleAxisd(line.angle, Eigen::Vector3d::UnitX());
   return beam;
 }

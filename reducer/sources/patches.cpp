@@ -277,9 +277,9 @@ PatchMesh mesh_patches(const formats::Part& part) {
       cells += static_cast<double>(grid.n) * grid.m;
     }
     if (cells > most_elements)
-      throw Error(
-          fmt::format("'{}': {:.3g} elements with those before it, more than {:g}", patch.name, cells, most_elements),
-          patch.where, "use larger elements");
+      throw Error(fmt::format("'{}': the part has {:.3g} elements up to this one, more than {:g}", patch.name, cells,
+                              most_elements),
+                  patch.where, "use larger elements");
   }
   PatchMesh mesh;
   mesh.nodes = MergedNodes(std::isfinite(shortest) ? 1e-6 * shortest : 1.0);

@@ -12,22 +12,25 @@
 namespace tisserand::reducer {
 
 struct PatchMesh {
-  CellMesh cells;                  ///< entities: each patch as a face with its name, then its edges ("deck/edge1")
-  MergedNodes nodes{1.0};          ///< nodes at the same place (within 1e-6 of the shortest edge) are merged
-  std::vector<std::string> label;  ///< label of each node: "deck[2,5]"
+  /// Cells; its entities are the patches as faces with their names, then the edges ("deck/edge1").
+  CellMesh cells;
+  MergedNodes nodes{1.0};          ///< nodes, merged if they are at the same place (within 1e-6 of the shortest edge)
+  std::vector<std::string> label;  ///< label of each node, such as "deck[2,5]"
 };
 
 PatchMesh mesh_patches(const formats::Part& part);
 
-/// Input of check_conformity: the nodes of all patches and beams, and the node sequences of beams.
+/// Positions and labels of the nodes of all patches and beams, and the sequences of nodes of beams: input of
+/// check_conformity().
 struct OwnLines {
   const std::vector<Eigen::Vector3d>& position;
   const std::vector<std::string>& label;
   const std::vector<std::vector<int>>& beams;
 };
 
-/// Throws Error if a node lies on a foreign edge without being its node: a node of a patch or beam on another patch's
-/// element, or one of a patch on a beam. Objects that touch need equal divisions. Cells' nodes are rows of `lines`.
+/// Throws Error if a node lies on an edge of another object without being a node of this edge. It may be a node of a
+/// patch or beam on an element of another patch, or a node of a patch on a beam. Objects that touch need equal
+/// divisions. The nodes of `patches` are rows of `lines.position`.
 void check_conformity(const formats::Part& part, const CellMesh& patches, const OwnLines& lines);
 
 }  // namespace tisserand::reducer

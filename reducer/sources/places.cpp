@@ -42,7 +42,7 @@ int node_of_name(MeshBuilder& builder, const std::string& name, const User& user
   std::vector<std::string> known = place_names(builder);
   const std::optional<std::string> guess = nearest(name, known);
   throw Error(fmt::format("{}: point '{}' does not exist", user.name, name), user.where,
-              guess ? fmt::format("did you mean '{}'?", *guess) : "points: " + listed(known));
+              guess ? fmt::format("did you mean '{}'?", *guess) : "known are " + listed(known));
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ int nearest_file_node(const MeshBuilder& builder, const Eigen::Vector3d& x, std:
   if (found.is_ambiguous(extent))
     throw Error(
         fmt::format("{}: {} and {} are equally near to {}", user.name, label(found.best), label(found.second), text(x)),
-        user.where, "move the position to the node that is meant, or give its number");
+        user.where, "move the position to one of them, or give its number");
   return found.best;
 }
 

@@ -10,24 +10,26 @@
 
 namespace tisserand::reducer {
 
-/// User of a place, for messages: "boundary node 'tip'" at file:line.
+/// Object that refers to a place, for messages: its name, such as "boundary node 'tip'", and file:line.
 struct User {
   std::string name;
   std::string where;
 };
 
-/// Node of a place; positions and centroids make a new one. Throws Error naming the user.
+/// Finds the node at a place of part.yaml. Positions and centroids make a new node. Throws Error that names `user` if
+/// there is none.
 int find_place(MeshBuilder& builder, const formats::Place& place, const User& user);
 
-/// Node with this number in the mesh file. Throws Error with the range of numbers.
+/// Finds the node with this number in the mesh file. Throws Error with the range of numbers if there is none.
 int find_file_node(const MeshBuilder& builder, long number, const User& user);
 
-/// Node of the mesh file nearest to x among those of elements. Throws Error if it is farther than the tolerance
-/// (absent: 1e-3 of the extent of the file's nodes), or if two are equally near.
+/// Finds the node of the mesh file that is nearest to `x`, among those of elements. Throws Error if it is farther than
+/// `tolerance` (absent: 1e-3 of the extent of the nodes of the file), or if two are equally near.
 int nearest_file_node(const MeshBuilder& builder, const Eigen::Vector3d& x, std::optional<double> tolerance,
                       const User& user);
 
-/// The nearest of some things, and the next one; a choice between two that are equally near would be arbitrary.
+/// Search for the nearest of some things, which also keeps the second nearest. A choice between two that are equally
+/// near would be arbitrary.
 struct NearestTwo {
   int best = -1, second = -1;
   double distance = std::numeric_limits<double>::infinity(), next = distance;

@@ -93,7 +93,7 @@ Selection by_label(const MeshBuilder& builder, const std::string& name, int dime
   if (found.entities.size() < 2) return found;
   std::vector<std::string> names;
   for (const int e : found.entities) names.push_back(name_of(builder.cells.entities[e]));
-  throw Error(fmt::format("{}: the label '{}' is that of {}", user.name, name, listed(names)), user.where,
+  throw Error(fmt::format("{}: the label '{}' belongs to {}", user.name, name, listed(names)), user.where,
               "name one of them by its number");
 }
 
@@ -135,7 +135,8 @@ Selection by_name(const MeshBuilder& builder, const std::string& name, int dimen
 /// Union of the selections by the definition's keys.
 Selection by_definition(const MeshBuilder& builder, const formats::GroupDefinition& group, int depth) {
   const User user{fmt::format("group '{}'", group.name), group.where};
-  if (depth > 20) throw Error(user.name + " contains itself", group.where, "remove the circle of groups");
+  if (depth > 20)
+    throw Error(user.name + " contains itself", group.where, "remove the circular reference between groups");
   const int dimension = static_cast<int>(group.of);
   Selection selection;
   for (const long number : group.numbers) {
@@ -161,7 +162,7 @@ Selection by_definition(const MeshBuilder& builder, const formats::GroupDefiniti
   }
   if (is_empty(selection))
     throw Error(user.name + " selects nothing", group.where,
-                "`reducer groups` lists what there is, with bounding boxes; a tolerance widens boxes");
+                "`reducer groups` lists all entities with bounding boxes; a tolerance enlarges boxes");
   return selection;
 }
 
@@ -179,7 +180,7 @@ Selection by_name(const MeshBuilder& builder, const std::string& name, int dimen
 [[noreturn]] void refuse_name(const MeshBuilder& builder, const std::string& name, int dimension, const User& user) {
   if (name == "all" && dimension > 0)
     throw Error(fmt::format("{}: there are no {}s", user.name, dimension_word(dimension)), user.where,
-                "`reducer groups` lists what there is");
+                "`reducer groups` lists all entities");
   std::vector<std::string> known = group_names(builder);
   const std::optional<std::string> guess = nearest(name, known);
   throw Error(fmt::format("{}: there is no group '{}'", user.name, name), user.where,
@@ -228,7 +229,7 @@ Eigen::Vector3d centroid(const MeshBuilder& builder, const std::vector<std::stri
       sum += weight * builder.position(node);
       total += weight;
     }
-  if (!(total > 0.0)) throw Error(user.name + ": the group has no size", user.where, "");
+  if (!(total > 0.0)) throw Error(user.name + ": the group has no length, area or volume", user.where, "");
   return sum / total;
 }
 

@@ -7,7 +7,7 @@
 
 namespace tisserand::reducer {
 
-/// Property of a shell from its layout. `user` ("shell 'skin'") and `where` are for messages.
+/// Property of a shell from its layout in part.yaml. `user` ("shell 'skin'") and `where` are for messages.
 ShellProperty shell_property(const formats::Part& part, const formats::ShellLayout& layout, const std::string& user,
                              const std::string& where);
 

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double touching = 1e-6;  ///< relative to an element's length
-constexpr std::size_t most_told = 10;
+constexpr std::size_t most_listed = 10;
 
 double longest_element(const MeshBuilder& builder) {
   double longest = 0.0;
@@ -85,7 +85,7 @@ double extent(const MeshBuilder& builder, const std::vector<char>& counts) {
 
 }  // namespace
 
-void tell_unjoined_beams(MeshBuilder& builder) {
+void report_unjoined_beams(MeshBuilder& builder) {
   const double step = longest_element(builder);
   if (!(step > 0.0)) return;
   NodeGrid grid(step);
@@ -103,16 +103,16 @@ void tell_unjoined_beams(MeshBuilder& builder) {
                                              [&](int n) { return (builder.position(n) - x).norm() < touching * step; });
       if (twin != builder.beam_nodes[b].end() && !met.insert(std::minmax(node, *twin)).second) continue;
       texts.push_back(fmt::format(
-          "node {} lies on beam '{}' and is not joined to it: beams join only where they end, at points of one name; "
-          "end '{}' there, or tie the two by a spring or spider",
+          "node {} lies on beam '{}' but is not connected to it. Beams are connected only at their ends, by points of "
+          "the same name: end beam '{}' there, or connect both by a spring or spider",
           builder.label[node], builder.part.beams[b].name, builder.part.beams[b].name));
     }
-  const std::size_t told = std::min(texts.size(), most_told);
+  const std::size_t reported = std::min(texts.size(), most_listed);
   builder.mesh.warnings.insert(builder.mesh.warnings.end(), texts.begin(),
-                               texts.begin() + static_cast<std::ptrdiff_t>(told));
-  if (told < texts.size())
+                               texts.begin() + static_cast<std::ptrdiff_t>(reported));
+  if (reported < texts.size())
     builder.mesh.warnings.push_back(
-        fmt::format("... and {} more nodes on beams to which they are not joined", texts.size() - told));
+        fmt::format("... and {} more nodes lie on beams to which they are not connected", texts.size() - reported));
 }
 
 void join_coincident_nodes(MeshBuilder& builder) {
@@ -147,11 +147,11 @@ void join_coincident_nodes(MeshBuilder& builder) {
       if (twin[node] >= 0) node = twin[node];
     });
     builder.mesh.warnings.push_back(
-        fmt::format("nodes that were merged with others at their places: {}, {}", count, place));
+        fmt::format("nodes merged with other nodes at the same place: {}, {}", count, place));
   } else {
     builder.mesh.warnings.push_back(
-        fmt::format("nodes that lie where others do and are not connected to them: {}, {}. If the part is whole there, "
-                    "write `coincident: merge` under mesh",
+        fmt::format("nodes at the same place as other nodes, but not connected to them: {}, {}. To connect them, write "
+                    "`coincident: merge` under mesh",
                     count, place));
   }
 }

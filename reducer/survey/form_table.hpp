@@ -9,11 +9,11 @@
 
 namespace tisserand::reducer {
 
-/// Point as text, "[1, 2.5, 0]": four digits, zero for round-off.
+/// Text of a point, such as "[1, 2.5, 0]", with four digits and zero for round-off.
 std::string point_text(const Eigen::Vector3d& x);
 
-/// Table with one row per face: form, side, radius, normal or axis, point of the axis (apex of a cone, centre of a
-/// sphere or torus). Empty without faces.
+/// Text table with one row per face: form, side, radius, normal or axis, and a point of the axis (apex of a cone,
+/// centre of a sphere or torus). It is empty without faces.
 std::string form_table(const std::vector<SurveyedFace>& faces, const std::string& title, const Units& units);
 
 }  // namespace tisserand::reducer

@@ -14,18 +14,18 @@ namespace tisserand::reducer {
 struct PictureLabel {
   std::string text;
   Eigen::Vector2d at = Eigen::Vector2d::Zero();     ///< middle of the text
-  Eigen::Vector2d point = Eigen::Vector2d::Zero();  ///< on the surface
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();  ///< point on the surface that the label names
   bool is_led = false;                              ///< a line joins `at` and `point`
 };
 
 /// Size of a text in pixels.
 Eigen::Vector2d text_size(const std::string& text);
 
-/// Whether the text fits on the surface.
+/// Whether the text fits on the visible surface at `seen`.
 bool fits_inside(const SeenPlace& seen, const std::string& text);
 
-/// Places the labels of one picture: first those that fit on their surface, then the others at the nearest free place,
-/// preferably on the background. A label without a free place is omitted.
+/// Placer of the labels of one picture. It first places those that fit on their surface, then the others at the
+/// nearest free place, preferably on the background. A label without a free place is omitted.
 class LabelPlacer {
  public:
   explicit LabelPlacer(const Projection& projection) : projection_(projection) {}

@@ -9,7 +9,7 @@
 
 namespace tisserand::reducer {
 
-/// Page of `reducer view` with each face as a body with its form, colour and name.
+/// HTML page of `reducer view` on which each face is a body with its form, colour and name.
 std::string faces_page(const Survey& survey, const std::vector<FacePiece>& pieces, const std::string& title,
                        const std::string& source);
 

@@ -172,7 +172,7 @@ void draw_picture(const Survey& survey, const std::vector<FacePiece>& pieces, co
   const std::vector<std::string> missing = place_labels(pieces, panels);
   const std::array<std::string, 4> texts{
       title, "from the front, right and above", "from behind, left and below",
-      missing.empty() ? "" : "hidden in both views, or too small: " + listed(missing)};
+      missing.empty() ? "" : "not shown, because they are hidden in both views or too small: " + listed(missing)};
   write_text_file(output,
                   formats::with_producer(gnuplot_picture(faces_script(panels, texts, output.ends_with(".svg")), output),
                                          producer("reducer")));
@@ -184,16 +184,17 @@ void check_faces_output(const std::string& output) {
   if (is_stream(output)) return;
   for (const char* ending : {".html", ".png", ".svg"})
     if (output.ends_with(ending)) return;
-  throw Error("the picture of the faces is no .html, .png or .svg file", output,
-              "give -o a name with one of these endings: a page to turn, or two views");
+  throw Error(
+      "the picture of the faces must be a .html, .png or .svg file", output,
+      "give -o a name with one of these endings: .html is a page that can be turned, the others show two views");
 }
 
 void draw_faces(const Survey& survey, const std::string& source, const std::string& output) {
   check_faces_output(output);
   const std::vector<FacePiece> pieces = face_pieces(survey);
   if (std::ranges::none_of(pieces, [](const FacePiece& piece) { return !piece.label.empty(); }))
-    throw Error("there are no faces, and no sets of shells or of nodes on faces, to draw", source,
-                "`reducer view` shows a part of beams; without -o, `reducer groups` lists what there is");
+    throw Error("there is nothing to draw: no faces, and no sets of shells or of nodes on faces", source,
+                "use `reducer view` for a part of beams; without -o, `reducer groups` lists all groups and sets");
   const std::string title = std::filesystem::path(source).filename().string();
   if (output.ends_with(".html"))
     write_text_file(output, faces_page(survey, pieces, title, source));

@@ -12,14 +12,15 @@ namespace tisserand::reducer {
 
 struct FacePiece {
   std::string name;
-  std::string label;  ///< empty: cells of a deck that are in no set
-  std::string form;   ///< in words
+  std::string label;  ///< label of the face; empty: cells of a deck that are in no set
+  std::string form;   ///< form of the face in words
   bool is_flat = false;
   std::array<double, 3> colour{0.82, 0.82, 0.82};
   std::vector<Cell> cells;
 };
 
-/// Faces with numbers, or the sets of a deck and then the rest. A cell in several sets belongs to the first.
+/// Faces of a survey as they are drawn, each in its own colour: faces with numbers, or the sets of a deck and then the
+/// rest. A cell in several sets belongs to the first.
 std::vector<FacePiece> face_pieces(const Survey& survey);
 
 }  // namespace tisserand::reducer

@@ -12,18 +12,20 @@
 namespace tisserand::reducer {
 
 struct ColouredSurface {
-  std::vector<Cell> cells;                ///< of dimension 2
+  std::vector<Cell> cells;                ///< cells of dimension 2
   std::array<double, 3> colour{1, 1, 1};  ///< red, green, blue, 0 to 1
 };
 
-/// Parallel projection; rows: right, up, and towards the eye.
+/// View of a parallel projection. The rows of R_VW are the directions to the right, up, and towards the eye.
 struct PictureView {
   Eigen::Matrix3d R_VW = Eigen::Matrix3d::Identity();
-  Eigen::Vector2d low = Eigen::Vector2d::Zero();  ///< right and up at the lower left corner of the picture
-  double pixel = 1.0;                             ///< length of one pixel
+  /// Coordinates to the right and up of the lower left corner of the picture.
+  Eigen::Vector2d low = Eigen::Vector2d::Zero();
+  double pixel = 1.0;  ///< length of one pixel
 };
 
-/// View from `eye` (any length) with z upwards. All positions are inside with a margin of 6 %.
+/// View from the direction `eye` (any length) with z upwards. All positions are inside the picture with a margin of 6
+/// %.
 PictureView view_from(const Eigen::Vector3d& eye, const std::vector<Eigen::Vector3d>& position, int width, int height);
 
 struct PaintedPolygon {
@@ -31,10 +33,11 @@ struct PaintedPolygon {
   std::array<double, 3> colour{0, 0, 0};
 };
 
-/// Visible place of a surface.
+/// Place at which a surface is visible, for its label.
 struct SeenPlace {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< pixels to the right and down
-  double radius = 0.0;                              ///< pixels to the nearest place off the surface; 0: not visible
+  /// Distance in pixels to the nearest place off the surface; 0: not visible.
+  double radius = 0.0;
 };
 
 class Projection {
@@ -44,13 +47,14 @@ class Projection {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Polygons from back to front by their middles. They are small, so this is the order in which they hide one another.
-  /// Facets are lit by mean normals; edges of surfaces are dark.
+  /// Polygons of the surfaces in the order of painting, from back to front by their middles. The polygons are small,
+  /// so this is the order in which they hide one another. Facets are lit by mean normals, and edges of surfaces are
+  /// dark.
   std::vector<PaintedPolygon> polygons() const;
-  /// Place on each surface for its label: the middle of a visible cell, as far as possible from the edges and from
-  /// hidden places of the surface.
+  /// Place on each surface for its label. It is the middle of a visible cell, as far as possible from the edges and
+  /// from hidden places of the surface.
   std::vector<SeenPlace> seen_places() const;
-  /// Whether a surface is visible at this place.
+  /// Whether any surface is visible at the place `at` (pixels to the right and down).
   bool covers(const Eigen::Vector2d& at) const;
 
  private:
@@ -66,7 +70,7 @@ class Projection {
 
   void add(const ColouredSurface& surface, int number, const std::vector<Eigen::Vector3d>& position,
            const PictureView& view);
-  /// Triangles that may cover a point.
+  /// Numbers of the triangles that may cover a point.
   const std::vector<int>& near(const Eigen::Vector2d& at) const;
   bool is_hidden(const Eigen::Vector3d& place) const;
 
@@ -75,7 +79,7 @@ class Projection {
   std::vector<Triangle> triangles_;
   std::vector<Segment> rims_;
   std::vector<std::vector<Eigen::Vector3d>> middles_;  ///< middles of the cells of each surface
-  std::vector<std::vector<int>> buckets_;              ///< squares of the picture
+  std::vector<std::vector<int>> buckets_;              ///< for each square of the picture: triangles that may cover it
 };
 
 }  // namespace tisserand::reducer

@@ -186,7 +186,7 @@ std::string unit_of_lengths(const formats::Part& part) {
   const MeshFileKind kind = mesh_file_kind(part.mesh.file, part.mesh.where);
   // OpenCASCADE converts to this unit
   if (kind == MeshFileKind::step || kind == MeshFileKind::iges) return "mm";
-  return "units of the file, which does not name them";
+  return "units of the file (it does not name them)";
 }
 
 }  // namespace

@@ -11,10 +11,10 @@
 
 namespace tisserand::reducer {
 
-/// Face of a geometry, mesh or patch, or a group or set that has faces.
+/// Face of a geometry, mesh or patch, or a group or set that has faces, with its cells and its form.
 struct SurveyedFace {
   std::string name;   ///< "face 12", "face 12 ('top')", or the name of the group, set or patch
-  std::string label;  ///< "12", or the name
+  std::string label;  ///< label in pictures: "12", or the name
   FaceCells cells;
   FaceFacts facts;
 };
@@ -28,17 +28,19 @@ struct Survey {
   Mesh deck;                              ///< elements of a deck, whose nodes are rows of `position`
 };
 
-/// Surveys a part. Geometry is meshed coarsely unless the part defines the sizes. Areas and middles of faces are
-/// OpenCASCADE's if it made the geometry, otherwise those of the mesh.
+/// Surveys a part or mesh file: the names and numbers by which part.yaml can refer to its contents, and the forms of
+/// its faces. Geometry is meshed coarsely unless the part defines the sizes. Areas and middles of faces come from
+/// OpenCASCADE if it made the geometry, otherwise from the mesh.
 Survey survey(const formats::Part& part);
 
-/// Part that consists of a mesh or geometry file only, in its own units.
+/// Makes a part that consists of a mesh or geometry file only, in its own units.
 formats::Part part_of_file(const std::string& file);
 
-/// Part with a mesh of its geometry that follows curved faces, unless it defines the sizes itself.
+/// Makes a copy of the part in which a geometry is meshed finely enough to follow curved faces. Sizes that the part
+/// defines stay.
 formats::Part finely_meshed(const formats::Part& part);
 
-/// Form of a face in words: "cylinder, concave, radius 4 mm".
+/// Form of a face in words, such as "cylinder, concave, radius 4 mm".
 std::string form_text(const FaceFacts& facts, const Units& units);
 
 }  // namespace tisserand::reducer

@@ -244,8 +244,8 @@ SymmetricPair assemble(const Mesh& mesh, const Coordinates& coordinates, int thr
 
 void help_to_assemble(const Mesh& mesh, int leaders_fingerprint) {
   if (fingerprint(mesh) != leaders_fingerprint)
-    throw Error("this process made another mesh of the part than the first one", "assembly",
-                "start all processes on like machines, with the same files and programs");
+    throw Error("this process made a mesh that differs from the mesh of the first process", "assembly",
+                "start all processes on machines of the same kind, with the same files and programs");
   const Coordinates coordinates = number_coordinates(mesh);
   const Share nodes = share_of(mesh.nodes(), rank_number(), rank_count());
   Rows rows{mesh, coordinates, nodes, core_count()};

@@ -77,11 +77,11 @@ Eigen::MatrixXd null_directions(const Eigen::MatrixXd& A) {
 [[noreturn]] void fail_boundary(const Mesh& mesh, const Block& block, const System& system, const std::string& where) {
   const int x = system.T.source[block.q[0]];
   const bool turns = system.coordinates.component[x] >= 3;
-  throw Error(fmt::format("the boundary retains {} of {}, some of which have neither stiffness nor mass",
+  throw Error(fmt::format("the boundary keeps {} of {}, but some of them have neither stiffness nor mass",
                           turns ? "rotations" : "translations", mesh.node_label[block.node]),
               where,
-              turns ? "retain its translations only, or connect something there that resists turning"
-                    : "connect something to the node");
+              turns ? "keep only its translations, or connect an element there that has rotational stiffness"
+                    : "connect an element to the node");
 }
 
 /// Treatment of each coordinate q.

@@ -147,7 +147,7 @@ std::string rigid_words(const Mesh& mesh, const Movement& m, const RigidFit& fit
   const double along = std::abs(direction.dot(fit.t));
   std::string words =
       fmt::format("{} {} about {}", who, one ? "turns" : "turn", axis_words(mesh, point, upright(direction), m.length));
-  if (along > fits * std::max(slide, turn * reach)) words += " and move along it";
+  if (along > fits * std::max(slide, turn * reach)) words += one ? " and moves along it" : " and move along it";
   return words;
 }
 
@@ -201,17 +201,19 @@ void require_stiffness(const NullSpace& null, const Factor& factor, const Partit
     throw Error(fmt::format("the stiffness of {} {} has {} negative eigenvalues", state.who, state.how, null.negative),
                 where, "check the sections, materials and springs: some stiffness is negative");
   if (factor.null() > 0 || factor.negative() > 0)
-    throw Error(fmt::format("{} has a motion {} whose stiffness is {:.1e} of that around it, which round-off hides: {}",
-                            state.who, state.how, null.least_share,
-                            null.softest.size() > 0 ? motion_words(part, null.softest) : std::string()),
-                where, "make what is soft stiffer, or what is stiff softer or rigid (a spider)");
+    throw Error(
+        fmt::format(
+            "{} has a motion {} whose stiffness is only {:.1e} of the stiffness around it, so round-off hides it: {}",
+            state.who, state.how, null.least_share,
+            null.softest.size() > 0 ? motion_words(part, null.softest) : std::string()),
+        where, "make the soft elements stiffer, or the stiff ones softer or rigid (a spider)");
 }
 
 std::string softness_doubt(const NullSpace& null, const PartitionedPart& part) {
   if (null.softest.size() == 0 || null.least_share > doubtful_share) return {};
   return fmt::format(
-      "a motion has {:.1e} of the stiffness around it, of which round-off changes {:.1g} %: {}; make what is soft "
-      "stiffer, or what is stiff softer or rigid (a spider)",
+      "the stiffness of a motion is only {:.1e} of the stiffness around it, so round-off changes it by {:.1g} %: {}; "
+      "make the soft elements stiffer, or the stiff ones softer or rigid (a spider)",
       null.least_share, 100.0 * std::numeric_limits<double>::epsilon() / null.least_share,
       motion_words(part, null.softest));
 }

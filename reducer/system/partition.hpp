@@ -12,19 +12,21 @@
 
 namespace tisserand::reducer {
 
-/// Numbers of the system's coordinates q. Boundary: in the order of the boundary nodes, translations before rotations.
-/// Internal: ascending, including coordinates that a boundary node does not retain.
+/// Partition of the coordinates q of a system into boundary and interior. Boundary: in the order of the boundary
+/// nodes, translations before rotations. Interior: ascending, with the coordinates that a boundary node does not
+/// retain.
 struct Partition {
   std::vector<int> boundary;
-  std::vector<int> boundary_node;       ///< row of Mesh::boundary (::held, ::supports)
-  std::vector<int> boundary_component;  ///< 0-5
+  /// Node of each boundary coordinate, as index in Mesh::boundary (or ::held, ::supports).
+  std::vector<int> boundary_node;
+  std::vector<int> boundary_component;  ///< component of each boundary coordinate, 0 to 5
   std::vector<int> internal;
 
   Eigen::Index n_B() const { return static_cast<Eigen::Index>(boundary.size()); }
   Eigen::Index n_I() const { return static_cast<Eigen::Index>(internal.size()); }
 };
 
-/// A part with its partitioned coordinates.
+/// Mesh, system and partition of a part.
 struct PartitionedPart {
   const Mesh& mesh;
   const System& system;
@@ -33,26 +35,29 @@ struct PartitionedPart {
 
 Partition partition(const Mesh& mesh, const System& system);
 
-/// Partition with `boundary` in place of Mesh::boundary; coordinates without stiffness and mass are omitted.
+/// Makes a partition with the coordinates `boundary` in place of Mesh::boundary. Coordinates without stiffness and
+/// mass are omitted.
 Partition partition(const System& system, const std::vector<OwnedCoordinate>& boundary);
 
-/// Six coordinates whose rigid motions are as independent as possible: the pivots of R.
+/// Six coordinates q whose rigid motions are as independent as possible: the pivots of R.
 std::vector<int> six_coordinates(const System& system);
 
-/// Blocks S_II, M_II symmetric sparse; S_IB, M_IB (n_I x n_B); S_BB, M_BB.
+/// Blocks of S and M for boundary B and interior I. S_II and M_II are symmetric and sparse, S_IB and M_IB are sparse
+/// (n_I x n_B), S_BB and M_BB are dense.
 struct Blocks {
   Matrix S_II, M_II;
   Eigen::SparseMatrix<double> S_IB, M_IB;
   Eigen::MatrixXd S_BB, M_BB;
 };
 
-/// S_II and M_II, in the arrays of `matrices`.
+/// Blocks S_II and M_II of `matrices`, stored in its arrays.
 SymmetricPair internal_matrices(SymmetricPair matrices, const Partition& p);
 
-/// Blocks of `matrices`, whose memory is reused if it is moved in, so that large blocks are not held twice.
+/// Blocks of `matrices` for the partition `p`. If `matrices` is moved in, its memory is reused, so that large blocks
+/// are not held twice.
 Blocks split(SymmetricPair matrices, const Partition& p);
 
-/// The rows `which` of a matrix over all coordinates.
+/// Rows `which` of a matrix over all coordinates.
 Eigen::MatrixXd rows(const Eigen::MatrixXd& all, const std::vector<int>& which);
 
 }  // namespace tisserand::reducer

@@ -180,8 +180,8 @@ Inverse invert(const Matrix6& matrix) {
       fmt::format("{}: its {} nodes do not define {} of its reference {}", name, spider.nodes.size(), join(words, ", "),
                   mesh.node_label[spider.reference]),
       where,
-      "take nodes that are not on one line, or make it a rigid spider; in a deck also average rotations, or leave "
-      "these components of the reference out");
+      "use nodes that are not on one line, or a rigid spider; in a deck you can also average rotations, or remove "
+      "these components of the reference node");
 }
 
 }  // namespace

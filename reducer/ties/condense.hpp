@@ -7,8 +7,9 @@
 
 namespace tisserand::reducer {
 
-/// Condensed matrices of `full`, which has rows for the first coordinates x of T. Later (auxiliary) ones have neither
-/// stiffness nor mass. Rows without ties are copied. The result is the same for any number of threads.
+/// Matrices Tᵀ S T and Tᵀ M T of the independent coordinates. `full`: S and M of the first coordinates x of T; later
+/// (auxiliary) ones have neither stiffness nor mass. Rows without ties are copied. The result is equal for any number
+/// of threads.
 SymmetricPair condense(SymmetricPair full, const Transformation& T, int threads);
 
 }  // namespace tisserand::reducer

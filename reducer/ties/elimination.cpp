@@ -208,8 +208,8 @@ class Eliminator {
       if (scaled(term) > redundant * largest) coordinates.push_back(name_(term.coordinate));
     for (const int tie : row.ties) ties.push_back(ties_.name[tie]);
     throw Error(
-        fmt::format("{} {} {}", listed(ties), coordinates.size() == 1 ? "fix" : "tie together rigidly",
-                    listed(coordinates) + ", which the boundary retains"),
+        fmt::format("the boundary retains {}, but {} by {}", listed(coordinates),
+                    coordinates.size() == 1 ? "it is fixed" : "they are connected rigidly", listed(ties)),
         where_,
         "boundary coordinates must be free to move: keep only one boundary node per rigid piece, or retain fewer "
         "components");

@@ -79,11 +79,11 @@ void check_rigid(const Mesh& mesh, const Coordinates& coordinates, const TieSyst
   for (int k = 0; k < 6; ++k)
     if (std::abs(sum[k]) > 1e-6 * size) motions.push_back(component_text(k));
   throw Error(
-      fmt::format("{} between {} stops the part as a whole from moving: {}", ties.name[equation.tie], listed(words),
+      fmt::format("{} between {} prevents rigid-body motion of the part: {}", ties.name[equation.tie], listed(words),
                   join(motions, ", ")),
       where,
-      "a superelement floats: use a spider, which allows for the distance between the nodes, or put the support "
-      "into the scene");
+      "use a spider, which takes account of the distance between the nodes; if it is a support, define it in the "
+      "scene");
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ TieSystem collect_ties(const Mesh& mesh, const Coordinates& coordinates, const s
   for (const Spider& spider : mesh.spiders) {
     ties.name.push_back(fmt::format("spider '{}'", spider.name));
     if (spider.nodes.empty())
-      throw Error(ties.name.back() + " grabs no node", where, "name a set of nodes that is not empty");
+      throw Error(ties.name.back() + " connects no nodes", where, "name a set of nodes that is not empty");
     if (spider.kind == SpiderKind::rigid)
       append_rigid(mesh, coordinates, spider, ties);
     else

@@ -18,30 +18,32 @@ struct Term {
   double coefficient = 0.0;
 };
 
-/// Equation Σ coefficient x(coordinate) = 0.
+/// Equation Σ coefficient x(coordinate) = 0 of a tie.
 struct LinearEquation {
   std::vector<Term> terms;
-  int preferred = -1;    ///< made dependent unless its coefficient is small relative to another one
+  int preferred = -1;    ///< coordinate that becomes dependent unless its coefficient is small relative to another one
   int last_resort = -1;  ///< coordinates from this number on become dependent only if no other can; −1: none
   int tie = 0;           ///< index in TieSystem::name
 };
 
-/// Coordinates of the mesh, followed by auxiliary ones: weighted sums over groups of an averaging spider's nodes, which
-/// keep the equations of large spiders short.
+/// Equations of all ties of a mesh. Their coordinates are those of the mesh, followed by auxiliary ones. Auxiliary
+/// coordinates are weighted sums over groups of nodes of an averaging spider, which keep the equations of large
+/// spiders short.
 struct TieSystem {
   int mesh_coordinates = 0;
-  int coordinates = 0;  ///< number of coordinates with auxiliary ones
+  int coordinates = 0;  ///< number of all coordinates, auxiliary ones included
   std::vector<LinearEquation> equations;
   std::vector<std::string> name;   ///< name of each spider and equation: "spider 'hub'"
   std::vector<int> auxiliary_tie;  ///< index in `name` of each auxiliary coordinate
-  /// Rigid motions of all coordinates about the mean of the nodes, rotations divided by the characteristic length l.
+  /// Six rigid motions of each coordinate about the mean of the nodes, with rotations divided by the characteristic
+  /// length l.
   std::vector<Eigen::Matrix<double, 6, 1>> rigid;
-  /// Factor of each coordinate to a length: l for rotations, 1 otherwise.
+  /// Factor that scales each coordinate to a length: l for rotations, 1 otherwise.
   std::vector<double> scale;
 
-  /// Index of the latest name, of a spider or equation.
+  /// Index of the last entry of `name`.
   int last_tie() const { return count_of(name) - 1; }
-  /// Adds an equation of the latest tie.
+  /// Adds an equation of the tie whose name is the last entry of `name`.
   void add(LinearEquation equation) {
     equation.tie = last_tie();
     equations.push_back(std::move(equation));
@@ -49,10 +51,10 @@ struct TieSystem {
 };
 
 /// Collects the equations of all spiders and of Mesh::equations. Throws Error for spiders that hold no node or cannot
-/// define a component of their reference, and for equations that stop a rigid motion of the whole part.
+/// define a component of their reference. It also throws for equations that stop a rigid motion of the whole part.
 TieSystem collect_ties(const Mesh& mesh, const Coordinates& coordinates, const std::string& where);
 
-/// Node and component, or the group of a spider, for messages.
+/// Name of a coordinate for messages: node and component, or the group of a spider.
 std::string coordinate_text(const Mesh& mesh, const Coordinates& coordinates, const TieSystem& ties, int coordinate);
 
 }  // namespace tisserand::reducer

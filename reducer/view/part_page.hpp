@@ -11,13 +11,13 @@
 
 namespace tisserand::reducer {
 
-/// Kind and colour of a group.
+/// Kind and colour with which the page shows a group.
 struct GroupLook {
   std::string kind;
-  std::string colour;  ///< "#rrggbb"
+  std::string colour;  ///< colour "#rrggbb"
 };
 
-/// One motion of the mesh that the page shows as a mode.
+/// Motion of the mesh that the page shows as a mode.
 struct ViewedShape {
   std::string name;
   Eigen::VectorXd motion;  ///< [translation; rotation] of every node, part axes
@@ -25,27 +25,29 @@ struct ViewedShape {
 
 struct ViewedPart {
   std::string title;
-  std::string file;          ///< its name on the page
-  Units units;               ///< of the part
+  std::string file;          ///< name of the file on the page
+  Units units;               ///< units of the part
   formats::Recovery tables;  ///< mesh_tables(), or those of a recovery file
   std::vector<int> faulty;   ///< elements shown in red
   std::vector<Spider> spiders;
-  std::vector<GroupLook> looks;  ///< of the groups in order; empty: from their elements, in colours of the page
-  std::vector<FacePlace> faces;  ///< faces of the geometry: named in addition to the boundary nodes
+  std::vector<GroupLook> looks;  ///< look of each group; empty: by the elements of the group, in colours of the page
+  std::vector<FacePlace> faces;  ///< faces of the geometry that are named in addition to the boundary nodes
   std::vector<std::string> notes;
-  const formats::RecoveryReader* recovery = nullptr;  ///< source of the moving modes; null: none
-  std::vector<double> frequency;                      ///< per coordinate, 1/time; 0 for boundary coordinates
-  std::vector<ViewedShape> shapes;                    ///< modes of the page that replace those of a recovery file
-  int vertices = 20'000;                              ///< upper limit per group
+  const formats::RecoveryReader* recovery = nullptr;  ///< recovery file of the modes that the page shows; null: none
+  /// Frequency of each coordinate [1/time]; 0 for boundary coordinates.
+  std::vector<double> frequency;
+  /// Motions that the page shows in place of the modes of a recovery file.
+  std::vector<ViewedShape> shapes;
+  int vertices = 20'000;  ///< largest number of vertices of a group
 };
 
-/// Page with groups as bodies of one colour each, faulty elements in red, spiders as lines, and names of boundary
-/// nodes. Each coordinate of a recovery file is a mode: one node moved along one component, or an internal mode with
-/// its frequency. Otherwise each of the shapes is a mode, with its name.
+/// HTML page of a part: groups as bodies of one colour each, faulty elements in red, spiders as lines, and names of
+/// boundary nodes. If there is a recovery file, each of its coordinates is a mode of the page: one node moved along
+/// one component, or an internal mode with its frequency. Otherwise each of `shapes` is a mode with its name.
 std::string part_page(const ViewedPart& part);
 
-/// Frequencies of the coordinates of a recovery file [1/time], from the superelement or modal body next to it. Empty if
-/// that is missing or another one.
+/// Frequencies of the coordinates of a recovery file [1/time], read from the superelement or modal body next to it.
+/// The result is empty if this file is missing or belongs to another recovery file.
 std::vector<double> frequencies_beside(const formats::RecoveryReader& recovery);
 
 }  // namespace tisserand::reducer

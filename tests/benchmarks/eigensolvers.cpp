@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The internal modes of a plate by each type of SLEPc's EPS, with one factor: columns solved, time, residual. The table of
-// docs/PERFORMANCE.md, "Eigenvalue solvers".
+// The internal modes of a plate by each type of SLEPc's EPS, with one factor: columns solved, time, residual. The table
+// of docs/PERFORMANCE.md, "Eigenvalue solvers".
 #include <cstdlib>
 #include <ctime>
 #include <exception>
@@ -41,7 +41,8 @@ PetscErrorCode apply_factor(PC preconditioner, Vec b, Vec x) {
   return code == 0 ? VecRestoreArrayRead(b, &in) : code;
 }
 
-/// By a type that `reducer` does not use, with the factor: as S⁻¹ M, or as the preconditioner of one that takes S itself.
+/// By a type that `reducer` does not use, with the factor: as S⁻¹ M, or as the preconditioner of one that takes S
+/// itself.
 EigenPairs by_slepc(const reducer::Pencil& pencil, EPSType type, int count) {
   const bool preconditions = std::string(type) == EPSLOBPCG;
   EPS eps = nullptr;
@@ -104,7 +105,7 @@ void compare(int n, int count) {
   const reducer::SystemMatrices inside = reducer::to_petsc(reducer::internal_matrices(system.matrices, partition));
   reducer::Factor factor(inside.stiffness);
   int columns = 0;
-  factor.tell_solutions([&](int begun) { columns += begun; });
+  factor.report_solutions([&](int begun) { columns += begun; });
   const reducer::Pencil pencil{inside.stiffness, inside.mass, factor};
   fmt::print("{} modes of {} coordinates\n\n| solver | columns | CPU [s] | residual |\n| --- | --: | --: | --: |\n",
              count, inside.stiffness.size());

@@ -22,7 +22,7 @@ void PrintTo(const Fault& fault, std::ostream* stream) { *stream << fault.name; 
 
 class BadScene : public Folder, public ::testing::WithParamInterface<Fault> {};
 
-TEST_P(BadScene, IsToldByCheckAndRunAndLeavesNothing) {
+TEST_P(BadScene, IsReportedByCheckAndRunAndLeavesNothing) {
   const std::vector<std::string> before = names();
   expect_error(with("check", GetParam().settings), GetParam().words);
   expect_error(with("run", GetParam().settings), GetParam().words);
@@ -42,18 +42,18 @@ const Fault faults[] = {
     {"FolderAsFile", {"bodies.se.file=."}, {"is not an ordinary file"}},
     {"TextAsFile", {"bodies.se.file=arm.scene.yaml"}, {"arm.scene.yaml", "is not an HDF5 file"}},
     {"MissingTable", {"loads.push.value.2={file: none.csv}"}, {"none.csv", "No such file", "push"}},
-    {"UnnamedUnits", {"units=consistent"}, {"se.superelement.h5", "units", "name the units of both"}},
+    {"UnnamedUnits", {"units=consistent"}, {"se.superelement.h5", "units", "name the units in both files"}},
     {"UnknownBeamNode", {"joints.hinge.b=rod/strat"}, {"no node 'strat'", "did you mean 'start'?"}},
     {"UnknownBody", {"loads.push.at=rood/end"}, {"'rood'", "did you mean 'rod'?"}},
     {"UnknownBoundaryNode", {"joints.hinge.b=se/bse"}, {"there is no node 'se/bse'", "did you mean 'se/"}},
     {"SelfJoint", {"joints.hinge.a=rod/start"}, {"joins 'rod/start' to itself", "two different nodes"}},
-    {"SelfJointByTwoNames", {"joints.hinge.a=rod/0"}, {"'rod/0' and 'rod/start'", "one and the same node"}},
-    {"SelfJointOnOneBody", {"joints.weld.a=block"}, {"'block' and 'block/hook'", "one and the same node"}},
+    {"SelfJointByTwoNames", {"joints.hinge.a=rod/0"}, {"'rod/0' and 'rod/start'", "on the same node"}},
+    {"SelfJointOnOneBody", {"joints.weld.a=block"}, {"'block' and 'block/hook'", "on the same node"}},
     {"ZeroAxis", {"joints.hinge.axis=[0, 0, 0]"}, {"axis has zero length", "give a direction"}},
     {"NegativeMass", {"bodies.block.mass=-1"}, {"body 'block'", "mass -1", "must be positive"}},
     {"NegativeSection", {"sections.bar.radius=-0.01"}, {"radius -0.01 m must be positive"}},
     {"ZeroLengthElement", {"bodies.rod.to=[0, 0, 0]"}, {"body 'rod'", "zero length", "move one end"}},
-    {"TooManyModes", {"bodies.se.modes=7"}, {"7 modes asked for", "the superelement has 0"}},
+    {"TooManyModes", {"bodies.se.modes=7"}, {"7 modes are requested", "the superelement has 0"}},
     {"NegativeModes", {"bodies.se.modes=-1"}, {"modes -1 must not be negative"}},
     {"RigidWithModes",
      {"bodies.se.use=rigid", "bodies.se.modes=0"},
@@ -61,10 +61,10 @@ const Fault faults[] = {
     {"UnknownEffect", {"effects.frction=off"}, {"no effect 'frction'", "did you mean 'friction'?"}},
     {"EffectOnItsOwn",
      {"effects.gravity=auto"},
-     {"'gravity' cannot be 'auto'", "'auto' can be flexibility, stiffening"}},
+     {"'gravity' cannot be 'auto'", "auto is allowed for flexibility, stiffening"}},
     {"PlanarBesideAutomaticEffects",
      {"effects.planar=on", "effects.flexibility=auto"},
-     {"planar beside effects that are 'auto'", "or do without planar", "--set effects.planar=on"}},
+     {"planar cannot be combined with 'auto'", "or remove planar", "--set effects.planar=on"}},
     {"EffectOfNoBody", {"effects.rood.gravity=off"}, {"there is no body 'rood'", "did you mean 'rod'?"}},
     {"UnknownEffectOfABody", {"effects.rod.dampng=off"}, {"unknown key 'dampng'", "did you mean 'damping'?"}},
     {"EffectThatIsNotThere",
@@ -80,11 +80,11 @@ const Fault faults[] = {
     {"UnknownFrameNode", {"bodies.se.frame={node: bse}"}, {"has no node 'bse'", "its nodes are"}},
     {"InconsistentVelocity",
      {"bodies.block.velocity=[1, 0, 0]", "bodies.rod.velocity=[0, 0, 0]", "bodies.rod.angular_velocity=[0, 0, 0]"},
-     {"initial velocities violate joint 'weld", "initial_tolerance", "leave out those that should follow"}},
+     {"initial velocities violate joint 'weld", "initial_tolerance", "omit those that should follow"}},
     {"OpenJoint",
      {"joints.weld={type: fixed, a: {node: rod/end, position: [0, 0, 0]}, b: {node: block/hook, position: [0, 0.2, "
       "0]}}"},
-     {"joint 'weld", "not met at the start", "initial_tolerance"}},
+     {"joint 'weld", "not closed at the start", "initial_tolerance"}},
     {"Massless",
      {"bodies.block.inertia=[0, 0, 0]", "joints.weld.type=spherical"},
      {"block, rotation", "no mass, no stiffness"}},
@@ -95,7 +95,9 @@ const Fault faults[] = {
     {"NoRows", {"output.every=0"}, {"every 0 must be 1 or more"}},
     {"TwoRhythms", {"output={every: 2, interval: 0.1}"}, {"both 'every' and 'interval'"}},
     {"ExpressionSyntax", {"loads.push.value.2=\"sin(t\""}, {"'sin(t'", "arenthesis", "write a formula in t"}},
-    {"ExpressionName", {"loads.push.value.2=\"foo(t)\""}, {"there is no function 'foo'; known are abs, acos, ", "write a formula in t"}},
+    {"ExpressionName",
+     {"loads.push.value.2=\"foo(t)\""},
+     {"there is no function 'foo'; use one of abs, acos, ", "write a formula in t"}},
     {"ExpressionAtStart", {"loads.push.value.2=\"1/t\""}, {"load 'push', z component '1/t'", "t = 0 is inf"}},
     {"EndBeforeStart", {"integrator.end=-1"}, {"end -1 must be later than start 0"}},
 };
@@ -108,7 +110,7 @@ TEST_F(Scene, OfAnotherKindIsNamed) {
   write_text(file("beam.part.yaml"), "part: beam\npoints: {a: [0, 0, 0]}\n");
   expect_error(mechanism({"check", "beam.part.yaml"}), {"beam.part.yaml:1:", "a part, not a scene"});
   write_text(file("picture.png"), "\x89PNG\r\n\x1a\n0000");
-  expect_error(mechanism({"run", "picture.png"}), {"picture.png:1:1", "0x89", "another kind of file"});
+  expect_error(mechanism({"run", "picture.png"}), {"picture.png:1:1", "0x89", "check that this is a text file"});
   expect_error(mechanism({"run", "none.yaml"}), {"none.yaml", "No such file"});
   expect_error(mechanism({"run", "."}), {"is a folder"});
   write_text(file("open.yaml"), "scene: [1,\n");
@@ -126,7 +128,7 @@ TEST_F(Scene, CheckCountsAndWritesNothing) {
 TEST_F(Scene, CheckNamesRedundantEquations) {
   const Outcome outcome = with("check", {"joints.again={type: fixed, a: ground, b: rod/start}"});
   EXPECT_EQ(outcome.code, 0) << outcome.error;
-  EXPECT_THAT(outcome.out, HasSubstr("5 of 17 constraint equations repeat"));
+  EXPECT_THAT(outcome.out, HasSubstr("5 of 17 constraint equations are redundant"));
   EXPECT_THAT(outcome.out, HasSubstr("again, translation x"));
   EXPECT_THAT(outcome.out, HasSubstr("reactions of hinge, again are not unique"));
 }

@@ -39,14 +39,15 @@ TEST_F(Compatibility, CompanionFilesOfAllVersions) {
     return outcome.out + outcome.error;
   };
   for (const std::string version : {"1.0", "1.1"})
-    EXPECT_THAT(run(version), AllOf(HasSubstr("its companion file has version " + version),
-                                    HasSubstr("second order of rotary inertia"), HasSubstr("Reduce the part again")));
+    EXPECT_THAT(run(version),
+                AllOf(HasSubstr("its companion file has version " + version),
+                      HasSubstr("second-order terms of rotary inertia"), HasSubstr("Reduce the part again")));
   EXPECT_THAT(run("1.2"), Not(HasSubstr("companion file has version")));
   // The trial `stress_cantilever` without its companion file: one note.
   fs::remove(folder.file("disc.companion.h5"));
   const Outcome bare = call({program("mechanism"), "run", "disc.scene.yaml"}, where);
   EXPECT_EQ(bare.code, 0) << bare.error;
-  const std::string note = "there is no companion file, so it is linear";
+  const std::string note = "there is no companion file, so the body is linear";
   ASSERT_THAT(bare.out, HasSubstr(note));
   EXPECT_EQ(bare.out.find(note), bare.out.rfind(note));
 }
@@ -61,7 +62,7 @@ TEST_F(Compatibility, RecoveryAndResultsOfThePresent) {
   Outcome outcome =
       call({program("reducer"), "recover", "disc_1.1.recovery.h5", "disc_1.10.results.h5", "-o", "out"}, where);
   ASSERT_EQ(outcome.code, 0) << outcome.error;
-  const std::string note = "has no displacement of second order (it was written before version 1.3)";
+  const std::string note = "has no second-order displacement, because it was written before version 1.3";
   EXPECT_THAT(outcome.out, HasSubstr(note));
   outcome = call({program("reducer"), "recover", "disc_1.2.recovery.h5", "disc_1.10.results.h5", "-o", "out"}, where);
   ASSERT_EQ(outcome.code, 0) << outcome.error;

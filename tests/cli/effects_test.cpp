@@ -13,7 +13,7 @@ using ::testing::Not;
 
 class Effects : public Folder {};
 
-TEST_F(Effects, AreToldByCheckAndInTheReportOfARun) {
+TEST_F(Effects, AreReportedByCheckAndInTheReportOfARun) {
   EXPECT_THAT(with("check", {}).out, HasSubstr("effects          flexibility, rotary_inertia, gyroscopic, gravity\n"));
   const Outcome bare = with("run", {"effects.rod.gravity=off", "effects.rod.rotary_inertia=off"});
   ASSERT_EQ(bare.code, 0) << bare.error;
@@ -29,17 +29,18 @@ TEST_F(Effects, ARigidSuperelementHasNoDeformationInTheResults) {
 }
 
 TEST_F(Effects, ALedgerSizesThemLineByLine) {
-  const Outcome told = mechanism({"ledger", "arm.scene.yaml", "--windows", "2", "--share", "1", "--repeats", "1"});
-  ASSERT_EQ(told.code, 0) << told.error;
-  EXPECT_THAT(told.out, HasSubstr("arm.scene.yaml: arm: 2 windows of 0.05 s; "));
+  const Outcome reported = mechanism({"ledger", "arm.scene.yaml", "--windows", "2", "--share", "1", "--repeats", "1"});
+  ASSERT_EQ(reported.code, 0) << reported.error;
+  EXPECT_THAT(reported.out, HasSubstr("arm.scene.yaml: arm: 2 windows of 0.05 s; "));
   for (const char* subject : {"flexibility of 'se'", "rotary_inertia of 'rod'", "gyroscopic of 'block'",
                               "gravity of 'rod'", "gravity of 'block'", "gravity of 'se'"})
     EXPECT_TRUE(std::regex_search(
-        told.out, std::regex(std::string("  ") + subject +
-                             ": on; off would change .* by .* %( in the whole run)?, (cost|save) [0-9]+ % per step")))
+        reported.out,
+        std::regex(std::string("  ") + subject +
+                   ": on; off would change .* by .* %( in the whole run)?, (cost|save) [0-9]+ % per step")))
         << subject << "\n"
-        << told.out;
-  EXPECT_THAT(told.out, HasSubstr("inertia of 'se': B; A would change"));
+        << reported.out;
+  EXPECT_THAT(reported.out, HasSubstr("inertia of 'se': B; A would change"));
   EXPECT_THAT(names(), Not(::testing::Contains(HasSubstr("results"))));  // nothing is stored
 }
 
@@ -53,19 +54,19 @@ TEST_F(Effects, ALedgerTakesChosenOnesAndStoredStates) {
 }
 
 TEST_F(Effects, ALedgerSaysWhatIsWrong) {
-  const auto told = [this](std::vector<std::string> words) {
+  const auto reported = [this](std::vector<std::string> words) {
     words.insert(words.begin(), {"ledger", "arm.scene.yaml"});
     return mechanism(words);
   };
-  EXPECT_EQ(told({"--share", "2"}).code, 2);
-  EXPECT_EQ(told({"--windows", "0"}).code, 2);
-  expect_error(told({"--effect", "gravty"}), {"no effect 'gravty'", "did you mean 'gravity'?"});
-  expect_error(told({"--of", "blok"}), {"no body, joint or spring 'blok'", "did you mean 'block'?"});
-  expect_error(told({"-c", "nodes/position/rod/nd/z"}), {"there is no channel 'nodes/position/rod/nd/z'"});
-  expect_error(told({"--results", "none.results.h5"}), {"none.results.h5"});
-  expect_error(told({"--set", "analysis=statics"}), {"a dynamics analysis"});
-  expect_error(told({"--set", "integrator.max_iterations=1", "--set", "integrator.max_halvings=1"}),
-               {"the run that the ledger is made of ended early"});
+  EXPECT_EQ(reported({"--share", "2"}).code, 2);
+  EXPECT_EQ(reported({"--windows", "0"}).code, 2);
+  expect_error(reported({"--effect", "gravty"}), {"no effect 'gravty'", "did you mean 'gravity'?"});
+  expect_error(reported({"--of", "blok"}), {"no body, joint or spring 'blok'", "did you mean 'block'?"});
+  expect_error(reported({"-c", "nodes/position/rod/nd/z"}), {"there is no channel 'nodes/position/rod/nd/z'"});
+  expect_error(reported({"--results", "none.results.h5"}), {"none.results.h5"});
+  expect_error(reported({"--set", "analysis=statics"}), {"a dynamics analysis"});
+  expect_error(reported({"--set", "integrator.max_iterations=1", "--set", "integrator.max_halvings=1"}),
+               {"the reference run of the ledger ended early"});
 }
 
 }  // namespace

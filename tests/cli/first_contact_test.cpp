@@ -32,9 +32,10 @@ TEST_F(FirstContact, FilesThatAreNoPartFileSayWhichToWrite) {
   fetch("meshes/plate.bdf");
   const Outcome cad = reducer({"run", "bracket.step"}), deck = reducer({"solve", "plate.bdf"});
   EXPECT_EQ(cad.code, 1);
-  EXPECT_THAT(cad.error, AllOf(HasSubstr("bracket.step: this is a geometry, not a part file"),
-                               HasSubstr("write bracket.part.yaml beside it with `mesh: {file: bracket.step}`"),
-                               HasSubstr("`reducer groups` and `reducer view` take the file as it is")));
+  EXPECT_THAT(cad.error,
+              AllOf(HasSubstr("bracket.step: this is a geometry, not a part file"),
+                    HasSubstr("write a part file bracket.part.yaml in its folder, with `mesh: {file: bracket.step}`"),
+                    HasSubstr("`reducer groups` and `reducer view` read this file directly")));
   EXPECT_EQ(deck.code, 1);
   EXPECT_THAT(deck.error, AllOf(HasSubstr("this is a deck"), HasSubstr("`mesh: {file: plate.bdf}`")));
 }
@@ -44,7 +45,7 @@ TEST_F(FirstContact, UnitsOfAFileAreThoseThatItNames) {
   fetch("meshes/plate.bdf");
   EXPECT_THAT(reducer({"groups", "bracket.step"}).out, HasSubstr("lengths in mm; "));
   EXPECT_THAT(reducer({"groups", "plate.bdf"}).out,
-              HasSubstr("lengths in units of the file, which does not name them; "));
+              HasSubstr("lengths in units of the file (it does not name them); "));
 }
 
 // The trials' plate of one row of elements: its mesh is too coarse, and no `size` makes it finer.

@@ -49,7 +49,7 @@ class HeldModes : public ::testing::Test {
     EXPECT_EQ(outcome.code, 0) << outcome.error;
     return outcome.out;
   }
-  static double told(const std::string& text, const std::string& what) {
+  static double reported(const std::string& text, const std::string& what) {
     const std::size_t at = text.find(what);
     return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + what.size()));
   }
@@ -74,10 +74,10 @@ TEST_F(HeldModes, OfARotorWhoseSlopesTheSceneClampsAreTooFew) {
     reduce(std::string("modal_body={reference: {l: [x, y, z, rx], r: [y, z]}, modes: ") + modes + "}");
     const std::string text = run(clamped);
     EXPECT_THAT(text, AllOf(HasSubstr("modal body 'sh' is too stiff"),
-                            HasSubstr("at 'l' (rotations y, z), 'r' (rotations y, z), which the `reference`"),
-                            HasSubstr("Take more modes, a `reference`")));
-    EXPECT_NEAR(told(text, "static flexibility there it has"), bar, 0.01 * bar) << modes;
-    const double by_modes = told(text, "has its first frequency at");
+                            HasSubstr("at 'l' (rotations y, z), 'r' (rotations y, z), but the `reference`"),
+                            HasSubstr("Use more modes, a `reference`")));
+    EXPECT_NEAR(reported(text, "static flexibility there, its first frequency is"), bar, 0.01 * bar) << modes;
+    const double by_modes = reported(text, "has its first frequency at");
     EXPECT_GT(by_modes, 1.05 * bar);
     EXPECT_LT(by_modes, before);
     before = by_modes;

@@ -37,9 +37,9 @@ TEST_F(Histories, APlotShowsTheDifferenceFromAReferenceRun) {
   expect_error(mechanism({"plot", "arm.results.h5", "-c", "energy/total", "--difference", "-o", "e.svg"}),
                {"0 references for 'energy/total'"});
   expect_error(mechanism({"view", "arm.results.h5", "--reference", "fine.results.h5"}),
-               {"a reference of a page is a CSV file", "one more run"});
+               {"a page can have only CSV files as references", "another run"});
   expect_error(mechanism({"plot", "arm.results.h5", "-c", "energy/total", "--units", "mm", "-o", "e.svg"}),
-               {"nothing that is drawn can be shown in mm, a unit of length", "--units"});
+               {"no quantity in the plot can be shown in mm, a unit of length", "--units"});
 }
 
 TEST_F(Histories, ATitleMayHoldApostrophes) {

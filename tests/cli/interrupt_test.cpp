@@ -134,7 +134,7 @@ TEST_F(Interrupt, StepThatCannotConvergeIsExplained) {
               AllOf(HasSubstr("did not converge"), HasSubstr("worst at "), HasSubstr("the step is too long")));
   EXPECT_THAT(outcome.error,
               AllOf(HasSubstr("after 3 halvings"), ::testing::ContainsRegex("(translation|rotation|axis)")));
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("taken again"), HasSubstr("not converged: ")));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("rejected"), HasSubstr("not converged: ")));
   EXPECT_THAT(mechanism({"channels", "stuck.h5"}).out, HasSubstr("not completed: t = "));
   EXPECT_EQ(mechanism({"export", "stuck.h5", "-o", "stuck.csv"}).code, 0);
 }
@@ -164,10 +164,10 @@ TEST_F(Interrupt, OutputOfARunningProgramIsRefused) {
   other.folder = file("other");
   std::filesystem::create_directory(other.folder);  // streams of its own
   expect_error(call({program("mechanism"), "run", file("arm.scene.yaml"), "-o", file("long.h5")}, other),
-               {"long.h5", "a running program writes these results", "-o another name"});
+               {"long.h5", "another program is writing these results now", "another name with -o"});
   expect_error(
       call({program("mechanism"), "run", file("arm.scene.yaml"), "--restart", file("long.h5"), "--append"}, other),
-      {"long.h5", "a running program writes these results"});
+      {"long.h5", "another program is writing these results now"});
   ::kill(child, SIGKILL);
   finish(child, where);
   EXPECT_EQ(mechanism({"run", "arm.scene.yaml", "-o", "long.h5"}).code, 0);  // its end has freed the name

@@ -242,16 +242,12 @@ void expect_same(const std::map<std::pair<int, int>, double>& actual,
   EXPECT_LT(difference, tolerance * largest);
 }
 
-/// Ratio of the two numbers in a text "... by 2 of 100 N": 0.02.
+/// Ratio of the two numbers in a text "... by 2 N; the largest force is 100 N": 0.02.
 double difference_from_run(const std::string& text) {
-  const std::string what = "differ from those of the run by ";
-  const std::size_t at = text.find(what);
-  if (at == std::string::npos) return std::nan("");
-  std::stringstream words(text.substr(at + what.size()));
-  double difference = 0.0, largest = 0.0;
-  std::string of;
-  words >> difference >> of >> largest;
-  return difference / largest;
+  const std::string first = "differ from those of the run by ", second = "; the largest force is ";
+  const std::size_t at = text.find(first), then = text.find(second, at);
+  if (at == std::string::npos || then == std::string::npos) return std::nan("");
+  return std::stod(text.substr(at + first.size())) / std::stod(text.substr(then + second.size()));
 }
 
 constexpr const char* hub = R"yaml(scene: bar on a hub
@@ -422,10 +418,10 @@ TEST_F(Loads, WhatHasNoneIsRefusedByName) {
   refused(call({program("reducer"), "recover", before + "bar_1.0.recovery.h5", before + "bar_1.9.results.h5", "--frame",
                 "part", "--loads", "nastran", "-o", "out"},
                where),
-          {"bar_1.0.recovery.h5", "no forces of inertia loads", "recovery: yes"});
+          {"bar_1.0.recovery.h5", "holds no inertia loads", "recovery: yes"});
   reduce({"method=macneal"}, false);
   run(scene_of("second_order: off", at_rest));
-  refused(recover({"--body", "bar"}), {"bar.recovery.h5", "method macneal"});
+  refused(recover({"--body", "bar"}), {"bar.recovery.h5", "method: macneal"});
   reduce({}, false);
   run(scene_of("use: rigid", speeding));
   refused(recover({"--body", "bar", "--times", "0.01"}), {"'bar'", "rigid"});
@@ -448,7 +444,7 @@ integrator: {step: 1e-4, end: 0.001}
   refused(call({program("reducer"), "recover", "bar.modal.recovery.h5", "run.results.h5", "--loads", "calculix", "-o",
                 "out", "--times", "0.001"},
                where),
-          {"'bar' is modal", "superelement"});
+          {"'bar' is a modal body", "superelement"});
   const Outcome usage = call({program("reducer"), "recover", "a", "b", "--loads", "ansys"}, where);
   EXPECT_EQ(usage.code, 2);
   EXPECT_THAT(usage.error, HasSubstr("nastran"));

@@ -32,7 +32,7 @@ TEST_F(Outputs, InputsAndFilesOfOtherKindsAreNotReplaced) {
   expect_error(mechanism({"run", "arm.scene.yaml", "-o", "arm.scene.yaml"}), {"replace its own input", "another name"});
   expect_error(mechanism({"run", "arm.scene.yaml", "-o", "./se.superelement.h5"}), {"replace its own input"});
   write_text(file("letter.txt"), "dear reader");
-  expect_error(mechanism({"run", "arm.scene.yaml", "-o", "letter.txt"}), {"letter.txt", "another kind"});
+  expect_error(mechanism({"run", "arm.scene.yaml", "-o", "letter.txt"}), {"letter.txt", "other kinds of file"});
   EXPECT_EQ(read_text(file("arm.scene.yaml")), scene);
   EXPECT_EQ(read_text(file("se.superelement.h5")), element);
   EXPECT_EQ(read_text(file("letter.txt")), "dear reader");
@@ -46,7 +46,7 @@ TEST_F(Outputs, InputsAndFilesOfOtherKindsAreNotReplaced) {
   EXPECT_EQ(mechanism({"channels", "arm.results.h5"}).code, 0);
 }
 
-TEST_F(Outputs, FolderWithoutPermissionIsTold) {
+TEST_F(Outputs, FolderWithoutPermissionIsReported) {
   if (::geteuid() == 0) {  // root may write everywhere
     std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
     where.user = 65534;
@@ -61,7 +61,7 @@ TEST_F(Outputs, FolderWithoutPermissionIsTold) {
   expect_error(mechanism({"run", "secret.yaml"}), {"secret.yaml", "Permission denied"});
 }
 
-TEST_F(Outputs, FullDiskIsTold) {
+TEST_F(Outputs, FullDiskIsReported) {
   make_results();
   expect_error(mechanism({"export", "arm.results.h5", "-o", "/dev/full"}),
                {"/dev/full", "No space left", "free some space"});
@@ -162,7 +162,7 @@ TEST_F(Outputs, SingleNodesAreStoredUnderBothNames) {
   };
   EXPECT_EQ(column("nodes/position/rod/end/z"), column("nodes/position/rod/2/z"));
   expect_error(with("run", {"output.channels=[nodes/position/rod/edn]"}),
-               {"there is no node 'rod/edn'", "the nearest nodes are rod/end"});
+               {"there is no node 'rod/edn'", "nodes with similar names are rod/end"});
   expect_error(with("check", {"output.channels=[nodes/position/rod/edn]"}), {"there is no node 'rod/edn'"});
 }
 
@@ -201,7 +201,8 @@ TEST_F(Outputs, NamesOfPicturesAreNoCommands) {
   EXPECT_EQ(drawn.code, 0) << drawn.error;
   EXPECT_TRUE(std::filesystem::exists(file(name)));
   EXPECT_FALSE(std::filesystem::exists(file("EXECUTED")));
-  EXPECT_THAT(plot({"--range", "100", "200"}).error, HasSubstr("nothing between 100 and 200; the run has 0 to "));
+  EXPECT_THAT(plot({"--range", "100", "200"}).error,
+              HasSubstr("no values between 100 and 200; the run goes from 0 to "));
   for (const char* title : {"it's\na `touch EXECUTED`", "'90s", "''"})  // the trial: gnuplot ended the text there
     EXPECT_EQ(plot({"--title", title}).code, 0) << title;
   EXPECT_FALSE(std::filesystem::exists(file("EXECUTED")));
@@ -244,12 +245,13 @@ TEST_F(Outputs, HyphenIsStandardOutput) {
   EXPECT_FALSE(std::filesystem::exists(file("-")));
 }
 
-TEST_F(Outputs, RunTellsTheDoubtsOfCheckOnce) {
-  const std::string told = "2 groups that nothing connects: ";  // nothing holds the superelement
-  EXPECT_THAT(mechanism({"check", "arm.scene.yaml"}).out, HasSubstr(told));
+TEST_F(Outputs, RunReportsTheDoubtsOfCheckOnce) {
+  const std::string reported =
+      "2 groups of bodies without a connection between them: ";  // nothing holds the superelement
+  EXPECT_THAT(mechanism({"check", "arm.scene.yaml"}).out, HasSubstr(reported));
   const auto count = [&](const std::string& text) {
     int n = 0;
-    for (auto at = text.find(told); at != std::string::npos; at = text.find(told, at + 1)) ++n;
+    for (auto at = text.find(reported); at != std::string::npos; at = text.find(reported, at + 1)) ++n;
     return n;
   };
   EXPECT_EQ(count(mechanism({"run", "arm.scene.yaml"}).out), 1);
@@ -259,7 +261,7 @@ TEST_F(Outputs, RunTellsTheDoubtsOfCheckOnce) {
   EXPECT_EQ(two.code, 0) << two.error;
   EXPECT_EQ(count(two.out), 1);
   const Outcome heavy = mechanism({"run", "arm.scene.yaml", "--set", "bodies.block.mass=2e16"});
-  EXPECT_THAT(heavy.out, AllOf(HasSubstr("doubtful"), HasSubstr("differ by more than")));
+  EXPECT_THAT(heavy.out, AllOf(HasSubstr("warning"), HasSubstr("differ by more than")));
 }
 
 TEST_F(Outputs, UsageErrorsAreTwoAndHelpTeaches) {
@@ -298,7 +300,7 @@ TEST_F(Outputs, PictureThatIsCutShortIsAnError) {
   for (const char* picture : {"a.png", "a.svg"}) {
     where.file_size = 12'000;  // in place of a full disk; both pictures take more, the script less
     expect_error(mechanism({"plot", "arm.results.h5", "-c", "nodes/position/rod/*", "-o", picture}),
-                 {picture, "could not be written", "free some space"});
+                 {picture, "the picture is incomplete", "free some space"});
     where.file_size = RLIM_INFINITY;
     ASSERT_EQ(
         mechanism({"plot", "arm.results.h5", "-c", "nodes/position/rod/*", "-o", "whole_" + std::string(picture)}).code,
@@ -330,7 +332,7 @@ TEST_F(Outputs, NamesThatAreNoTextReachNeitherTerminalNorReport) {
   // The report (JSON) tells from which file the run goes on.
   const Outcome outcome = mechanism({"run", "arm.scene.yaml", "--restart", odd + ".checkpoint.h5", "-o", "rest.h5"});
   EXPECT_EQ(outcome.code, 0) << outcome.error;
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("goes on from odd\\xff\\x1b[31m"), Not(HasSubstr("\x1b"))));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("continues from odd\\xff\\x1b[31m"), Not(HasSubstr("\x1b"))));
 }
 
 TEST_F(Outputs, RestartNeverOverwritesWhatItGoesOnFrom) {
@@ -341,11 +343,11 @@ TEST_F(Outputs, RestartNeverOverwritesWhatItGoesOnFrom) {
     words.insert(words.end(), more.begin(), more.end());
     return mechanism(words);
   };
-  expect_error(restart("arm.checkpoint.h5", {}), {"--restart needs a results file of its own", "--append"});
+  expect_error(restart("arm.checkpoint.h5", {}), {"--restart needs the name of a new results file", "--append"});
   expect_error(restart("arm.checkpoint.h5", {"-o", "./arm.results.h5"}), {"would overwrite the run", "--append"});
   expect_error(restart("arm.checkpoint.h5", {"-o", "arm.h5"}), {"would overwrite the run", "arm.checkpoint.h5"});
   expect_error(restart("arm.results.h5", {"-o", "arm.results.h5", "--at", "0.05"}), {"would overwrite the run"});
-  expect_error(mechanism({"run", "arm.scene.yaml", "--append"}), {"--append needs a run to go on from"});
+  expect_error(mechanism({"run", "arm.scene.yaml", "--append"}), {"--append needs --restart"});
   EXPECT_EQ(read_text(file("arm.results.h5")), before);
   // One that was killed: found by its final name, and its .part is as safe.
   std::filesystem::rename(file("arm.results.h5"), file("arm.results.h5.part"));
@@ -379,14 +381,14 @@ TEST_F(Outputs, PicturesSayWhatTheyCannotShow) {
   };
   expect_error(fault({"--time", "7"}), {"arm.results.h5", "no instant t = 7", "from 0 to"});
   expect_error(fault({"--time", "nan"}), {"no instant t = nan"});
-  expect_error(fault({"--view", "left,3"}), {"'left,3' is no view", "azimuth,elevation"});
+  expect_error(fault({"--view", "left,3"}), {"'left,3' is not a view", "azimuth,elevation"});
   expect_error(fault({"--size", "2", "2"}), {"2 x 2 pixels", "--size"});
   expect_error(fault({"--trace", "rod/ende"}), {"no node 'rod/ende'", "rod/end"});
   expect_error(fault({"--mode", "3"}), {"holds 0 modes", "analysis: modes"});
   expect_error(mechanism({"picture", "arm.results.h5", "-o", "arm.jpg"}), {"arm.jpg", ".png"});
   const Outcome alone =
       call({"/usr/bin/env", "PATH=/nowhere", program("mechanism"), "picture", "arm.results.h5", "--no-sandbox"}, where);
-  expect_error(alone, {"no Chromium", "apt-get install chromium"});
+  expect_error(alone, {"pictures need Chromium, which is not installed", "apt-get install chromium"});
   write_text(file("chromium"), "#!/bin/sh\necho no display >&2\nexit 1\n");
   std::filesystem::permissions(file("chromium"), std::filesystem::perms::owner_all);
   expect_error(call({"/usr/bin/env", "PATH=" + folder.path().string(), program("mechanism"), "picture",

@@ -80,11 +80,12 @@ TEST_F(Pictures, EmptyOnesAreErrors) {
   EXPECT_EQ(full.code, 0) << full.error;
   // Seen from the front there is air between plate (z = 0) and ball (z above 0.042).
   expect_error(mechanism(drawn({results, "--view", "front", "--zoom", "20", "--hide", "joints", "-o", "air.png"})),
-               {"air.png", "nothing is to be seen", "--zoom"});
+               {"air.png", "the picture would be empty", "--zoom"});
   EXPECT_FALSE(std::filesystem::exists(file("air.png")));
   expect_error(mechanism(drawn({results, "--follow", "brackt", "-o", "x.png"})), {"no body 'brackt'", "bracket"});
   if (::geteuid() == 0)
-    expect_error(mechanism({"picture", results, "-o", "x.png"}), {"root", "--no-sandbox", "that you trust"});
+    expect_error(mechanism({"picture", results, "-o", "x.png"}),
+                 {"root", "--no-sandbox", "if you trust the results file"});
 }
 
 // A block slides away for 40 times its size; the road under a car does not count, and is not followed.

@@ -56,7 +56,7 @@ class Quotes : public Folder {
   }
 };
 
-TEST_F(Quotes, ScenesTellNothingOfStrangeFiles) {
+TEST_F(Quotes, ScenesRevealNothingOfUntrustedFiles) {
   const std::string load = "loads.push.value=[0, 0, u]";
   for (const auto& [name, text] : strange_files) {
     SCOPED_TRACE(name);
@@ -72,7 +72,7 @@ TEST_F(Quotes, ScenesTellNothingOfStrangeFiles) {
   }
 }
 
-TEST_F(Quotes, RoadsAndTyresTellNothingOfStrangeFiles) {
+TEST_F(Quotes, RoadsAndTyresRevealNothingOfUntrustedFiles) {
   for (const auto& [name, text] : strange_files) {
     SCOPED_TRACE(name);
     for (const char* ending : {"crg", "csv", "tir"}) write_text(file(std::string("strange.") + ending), text);
@@ -86,7 +86,7 @@ TEST_F(Quotes, RoadsAndTyresTellNothingOfStrangeFiles) {
   }
 }
 
-TEST_F(Quotes, PartsAndDecksTellNothingOfStrangeFiles) {
+TEST_F(Quotes, PartsAndDecksRevealNothingOfUntrustedFiles) {
   if (!fs::exists(program("reducer"))) GTEST_SKIP() << "built without the reducer";
   const auto reducer = [&](const std::vector<std::string>& words) {
     std::vector<std::string> all{program("reducer")};

@@ -58,12 +58,12 @@ class RecoveredLoads : public ::testing::Test {
     return outcome.out;
   }
   /// The number behind `what` in the lines of recover.
-  static double told(const std::string& text, const std::string& what) {
+  static double reported(const std::string& text, const std::string& what) {
     const std::size_t at = text.find(what);
     return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + what.size()));
   }
-  static double stress(const std::string& text) { return told(text, "largest stress of beams"); }
-  static double missing(const std::string& text) { return told(text, "what is still missing is estimated at"); }
+  static double stress(const std::string& text) { return reported(text, "largest stress of beams"); }
+  static double missing(const std::string& text) { return reported(text, "the remaining error is estimated at"); }
 
   test_support::TemporaryFolder folder;
   Surroundings where;
@@ -289,7 +289,7 @@ TEST_F(RecoveredLoads, OfLoadCasesIsThatOfOtherProgramsAndOfThePlane) {
   reduce({"modes=2"});
   run(loaded_scene(clamped + at_rest, "snow", "0.01"));
   const std::string text = recover("bar.recovery.h5", {"--loads", "nastran"});
-  EXPECT_LT(told(text, " N m: "), 1e-7) << text;  // residual force over the size of all
+  EXPECT_LT(reported(text, "relative to all loads: "), 1e-7) << text;  // residual force over the size of all
   run(loaded_scene(simply + at_rest + "effects: {planar: on}\n", "snow", "0.01"), {"bodies.c.second_order=off"});
   EXPECT_NEAR(stress(recover("bar.recovery.h5")), middle, 1e-4 * middle);
 }
@@ -311,10 +311,10 @@ TEST_F(RecoveredLoads, FilesOfBeforeAreReadWithNotes) {
   const Outcome outcome = call({program("mechanism"), "run", "loaded.scene.yaml", "-o", "run.results.h5"}, where);
   ASSERT_EQ(outcome.code, 0) << outcome.error;
   EXPECT_THAT(text_of(old_recovery, folder.file("run.results.h5")),
-              AllOf(HasSubstr("no static answers"), HasSubstr("reduce the part again")));
+              AllOf(HasSubstr("no static answers"), HasSubstr("Reduce the part again")));
   EXPECT_THAT(text_of(folder.file("loaded.recovery.h5"), folder.file("run.results.h5")), Not(HasSubstr("note")));
   const std::string modal = text_of(before / "loaded_1.2.modal.recovery.h5", before / "loaded_modal_1.10.results.h5");
-  EXPECT_THAT(modal, HasSubstr("no answers to inertia loads"));
+  EXPECT_THAT(modal, HasSubstr("no static answers to inertia loads"));
 }
 
 }  // namespace

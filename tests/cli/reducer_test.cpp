@@ -33,7 +33,7 @@ class Reducer : public Folder {
   }
 };
 
-TEST_F(Reducer, FaultsOfAPartAreToldAndLeaveNothing) {
+TEST_F(Reducer, FaultsOfAPartAreReportedAndLeaveNothing) {
   struct Fault {
     std::vector<std::string> settings, words;
   };
@@ -115,7 +115,7 @@ loads: {push: {type: force, at: beam/tip, value: [0, 0, -100]}}
 
 TEST_F(Reducer, FilesOfOtherKindsAreNamed) {
   expect_error(reducer({"run", "arm.scene.yaml"}), {"arm.scene.yaml:1:", "a scene, not a part"});
-  expect_error(reducer({"run", "se.superelement.h5"}), {"another kind of file"});
+  expect_error(reducer({"run", "se.superelement.h5"}), {"check that this is a text file"});
   expect_error(reducer({"run", "none.yaml"}), {"none.yaml", "No such file"});
   expect_error(reducer({"show", "arm.scene.yaml"}), {"is not an HDF5 file"});
   expect_error(reducer({"show", "none.h5"}), {"No such file"});
@@ -126,7 +126,7 @@ TEST_F(Reducer, FilesOfOtherKindsAreNamed) {
 TEST_F(Reducer, OutputsAreLookedAtBeforeTheWork) {
   expect_error(reducer({"run", "beam.part.yaml", "-o", "none/x.h5"}), {"none/", "No such file"});
   expect_error(reducer({"run", "beam.part.yaml", "-o", "beam.part.yaml"}), {"replace its own input"});
-  expect_error(reducer({"run", "beam.part.yaml", "-o", "arm.scene.yaml"}), {"another kind"});
+  expect_error(reducer({"run", "beam.part.yaml", "-o", "arm.scene.yaml"}), {"other kinds of file"});
   expect_error(reducer({"run", "beam.part.yaml", "-o", "/dev/null"}), {"device"});
   expect_error(reducer({"mesh", "beam.part.yaml", "-o", "none/x.msh"}), {"none/", "No such file"});
   EXPECT_EQ(read_text(file("beam.part.yaml")), beam_part);

@@ -51,7 +51,7 @@ TEST_F(Restart, ListsWhatChangedAndAsks) {
     accepted.emplace_back("--changed");
     const Outcome outcome = go_on(source, accepted);
     EXPECT_EQ(outcome.code, 0) << outcome.error;
-    EXPECT_THAT(outcome.out, AllOf(HasSubstr("goes on with 2 values changed since " + source),
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("continues with 2 values changed since " + source),
                                    HasSubstr("bodies.arm.mass: 2 -> 20"), HasSubstr("gravity.2: -9.81 -> 9.81")));
     fs::remove(folder.file("rest.results.h5"));
   }
@@ -83,7 +83,8 @@ TEST_F(Restart, SettingsAndOutputsAreNoChange) {
 TEST_F(Restart, OtherBodiesAreListedAndRefusedAlways) {
   const Outcome outcome = go_on("pendulum.checkpoint.h5", {"-o", "rest.results.h5", "--changed", "--set",
                                                            "bodies.bob={type: rigid, mass: 1, inertia: [1, 1, 1]}"});
-  expect_error(outcome, {"with other bodies", "bodies.bob.mass: nothing -> 1"});
+  expect_error(outcome,
+               {"whose bodies, joints, superelements or companion files differ", "bodies.bob.mass: nothing -> 1"});
   EXPECT_THAT(outcome.error, Not(HasSubstr("--changed")));
 }
 
@@ -100,7 +101,7 @@ TEST_F(Restart, TablesCountByTheirContents) {
   for (const std::string& source : sources) EXPECT_EQ(again(source).code, 0);
   write_text(folder.file("push.csv"), "time,value\n0,0\n2,7\n");
   for (const std::string& source : sources)
-    expect_error(again(source), {"inputs.u.file: the file has other contents", "--changed"});
+    expect_error(again(source), {"inputs.u.file: the contents of the file differ", "--changed"});
 }
 
 // Written by the program of 2026-11-29, before checkpoints held values of their scene.
@@ -108,7 +109,8 @@ TEST_F(Restart, OlderCheckpointsAreReadWithANote) {
   take("tests/compatibility/pendulum_1.1.checkpoint.h5", "old.checkpoint.h5");
   const Outcome outcome = go_on("old.checkpoint.h5", {"-o", "rest.results.h5", "--set", "bodies.arm.mass=20"});
   EXPECT_EQ(outcome.code, 0) << outcome.error;
-  EXPECT_THAT(outcome.out, HasSubstr("what has changed in the scene since cannot be said"));
+  EXPECT_THAT(outcome.out,
+              HasSubstr("does not contain its scene, so changes of the scene since then cannot be listed"));
 }
 
 }  // namespace

@@ -8,8 +8,8 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// A door on two hinges of one line: five of the ten equations repeat what the others demand. A weight hangs on it whose
-/// pendulum stands on its head, so that both analyses of modes find one mode that grows.
+/// A door on two hinges of one line: five of the ten equations repeat what the others demand. A weight hangs on it
+/// whose pendulum stands on its head, so that both analyses of modes find one mode that grows.
 constexpr const char* door = R"yaml(scene: door
 gravity: [0, 0, -9.81]
 bodies:
@@ -33,11 +33,11 @@ int count(const std::string& text, const std::string& part) {
 }
 
 // The trial: a car whose two analyses had the same eight joints in a note each.
-TEST_F(SceneNotes, AreToldOnceAndWhatAnAnalysisFindsEachTime) {
+TEST_F(SceneNotes, AreReportedOnceAndWhatAnAnalysisFindsEachTime) {
   write_text(file("door.scene.yaml"), door);
   const Outcome run = mechanism({"run", "door.scene.yaml"});
   ASSERT_EQ(run.code, 0) << run.error;
-  const std::string redundant = "are not unique, those of least norm are stored", found = "1 modes grow";
+  const std::string redundant = "are not unique: those of least norm are stored", found = "1 modes grow";
   EXPECT_EQ(count(run.out, redundant), 1) << run.out;
   EXPECT_EQ(count(run.out, found), 2) << run.out;
   EXPECT_EQ(count(mechanism({"check", "door.scene.yaml"}).out, redundant), 1);

@@ -98,7 +98,7 @@ TEST_F(Study, FindsTheOrderOfAKnownMethod) {
   }
   EXPECT_THAT(outcome.out, HasSubstr("the references agree to"));
   const std::string page = read_text(file("orders.study/index.html"));
-  EXPECT_THAT(page, AllOf(HasSubstr("<svg"), HasSubstr("</html>"), HasSubstr("What accuracy costs: x")));
+  EXPECT_THAT(page, AllOf(HasSubstr("<svg"), HasSubstr("</html>"), HasSubstr("Error against CPU time: x")));
   EXPECT_THAT(page, Not(HasSubstr("<script src")));
   EXPECT_THAT(page, AllOf(HasSubstr("prefers-color-scheme:dark"), Not(HasSubstr("fill=\"#ffffff\""))));
 }
@@ -124,7 +124,8 @@ TEST_F(Study, NamesTheCheapestSettingAndWritesItsScene) {
   EXPECT_EQ(mechanism({"run", scene}).code, 0);
   const Outcome beyond = mechanism({"study", "orders.study.yaml", "--tolerance", "1e-9"});
   EXPECT_EQ(beyond.code, 1);
-  EXPECT_THAT(beyond.error, AllOf(HasSubstr("no setting keeps the error within 1e-09"), HasSubstr("0.0005")));
+  EXPECT_THAT(beyond.error, AllOf(HasSubstr("no setting keeps its error and those of all finer settings within 1e-09"),
+                                  HasSubstr("0.0005")));
 }
 
 TEST_F(Study, EndsWithTheSameTableHoweverOftenItIsKilled) {
@@ -193,7 +194,7 @@ TEST_F(Study, SaysWhatIsWrongWithRuns) {
   write_text(file("mine/journal.jsonl"), replaced(journal, "\"tisserand\":\"", "\"tisserand\":\"9."));
   EXPECT_THAT(study(orders, {"-o", "mine"}).error, HasSubstr("results of version 9."));
   write_text(file("mine/journal.jsonl"), "what is this\n");
-  EXPECT_THAT(study(orders, {"-o", "mine"}).error, HasSubstr("is no journal of a study"));
+  EXPECT_THAT(study(orders, {"-o", "mine"}).error, HasSubstr("is not the journal of a study"));
 }
 
 TEST_F(Study, TellsWhenNoRunFitsTheBudget) {
@@ -204,8 +205,8 @@ TEST_F(Study, TellsWhenNoRunFitsTheBudget) {
       "quantities: {x: {channel: nodes/position/bob/x}}\nrun_budget: 0.2\n" +
       reference);
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.error, HasSubstr("no run completed inside the budget"));
-  EXPECT_THAT(read_text(file("case.study/table.csv")), HasSubstr("not done within 0.2 s"));
+  EXPECT_THAT(outcome.error, HasSubstr("no run completed within its budget"));
+  EXPECT_THAT(read_text(file("case.study/table.csv")), HasSubstr("not finished within 0.2 s"));
 }
 
 TEST_F(Study, SaysThatSlurmIsMissing) {
@@ -243,7 +244,7 @@ TEST_F(Study, AJobThatVanishedIsNamed) {
   const Outcome outcome =
       call({"/usr/bin/env", path, program("mechanism"), "study", "orders.study.yaml", "--slurm"}, where);
   EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.error, AllOf(HasSubstr("1 of 4 jobs vanished without a result: tasks 2"),
+  EXPECT_THAT(outcome.error, AllOf(HasSubstr("1 of 4 jobs ended without a result: tasks 2"),
                                    HasSubstr("integrator.step = 0.005"), HasSubstr("orders.study/slurm")));
 }
 
@@ -302,7 +303,8 @@ TEST_F(Study, PartsAreReducedOncePerSetting) {
   EXPECT_EQ(files, 2);  // modes are cut by the scene
   write_text(file("parts.study.yaml"), replaced(parts_study, "[2, 4]", "[2, 4, 8]"));
   // The finest run is the reference, another one now.
-  EXPECT_THAT(mechanism({"study", "parts.study.yaml"}).error, HasSubstr("measured otherwise"));
+  EXPECT_THAT(mechanism({"study", "parts.study.yaml"}).error,
+              HasSubstr("results of another scene, or of other quantities or another reference"));
 }
 
 }  // namespace

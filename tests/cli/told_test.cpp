@@ -4,13 +4,13 @@
 
 #include "tests/cli/scenes.hpp"
 
-namespace tisserand::cli::told_test {
+namespace tisserand::cli::reported_test {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-class Told : public Folder {
+class Reported : public Folder {
  protected:
   /// The value of a channel in the first row.
   double first(const std::string& results, const std::string& channel) const {
@@ -27,7 +27,7 @@ class Told : public Folder {
 // A crank of length 1 is driven at 2 rad/s, a bar (m = 2, J = 0.2, its centre of mass a = 0.5 behind the pin) hangs on
 // it and has no velocity written. Least energy: w = -2 m a/(J + m a^2) about y. At this start nothing turns the bar
 // faster, so its pin carries m (-4 - w^2 a) along x.
-TEST_F(Told, StartOfADriveFromRestAndItsFirstRow) {
+TEST_F(Reported, StartOfADriveFromRestAndItsFirstRow) {
   write_text(file("crank.scene.yaml"), R"yaml(scene: crank
 bodies:
   crank: {type: rigid, mass: 1, inertia: [1, 1, 1], nodes: {tip: {position: [1, 0, 0]}}}
@@ -40,9 +40,9 @@ integrator: {step: 0.001, end: 0.002}
 )yaml");
   const Outcome run = mechanism({"run", "crank.scene.yaml"});
   ASSERT_EQ(run.code, 0) << run.error;
-  EXPECT_THAT(run.out, AllOf(HasSubstr("velocities of "), HasSubstr("'bar'"),
-                             HasSubstr("at the start follow from joints, drives and given velocities with the least "
-                                       "kinetic energy: 3.143")));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("initial velocities of "), HasSubstr("'bar'"),
+                             HasSubstr("were computed from joints, drives and given velocities with the smallest "
+                                       "kinetic energy, 3.143")));
   const double m = 2.0, J = 0.2, a = 0.5, w = -2.0 * m * a / (J + m * a * a), v = -2.0 - w * a;
   EXPECT_NEAR(first("crank.results.h5", "nodes/angular_velocity/bar/y"), w, 1e-9);
   EXPECT_NEAR(first("crank.results.h5", "energy/kinetic"), 2.0 + 0.5 * m * v * v + 0.5 * J * w * w, 1e-9);
@@ -50,7 +50,7 @@ integrator: {step: 0.001, end: 0.002}
 }
 
 // k = 100, J = 4: 5 rad/s; c = 1: c/(2 sqrt(k J)) = 0.025.
-TEST_F(Told, DampingOfTheModes) {
+TEST_F(Reported, DampingOfTheModes) {
   write_text(file("wheel.scene.yaml"), R"yaml(scene: wheel
 analysis: modes
 bodies: {wheel: {type: rigid, mass: 1, inertia: [4, 4, 4]}}
@@ -63,4 +63,4 @@ springs: {spring: {coordinate: hinge, stiffness: 100, damping: 1}}
 }
 
 }  // namespace
-}  // namespace tisserand::cli::told_test
+}  // namespace tisserand::cli::reported_test

@@ -46,8 +46,9 @@ TEST(Progress, RewritesOneLineOnATerminalAndRemovesIt) {
   progress.update(5.0, "");
   progress.finish();
   progress.finish();
-  EXPECT_EQ(recorder.text(),
-            "\rrunning: 25 %, t = 2.5 s, 1 s gone, 4 s to go\x1b[K\rrunning: 50 %, 2 s gone, 2 s to go\x1b[K\r\x1b[K");
+  EXPECT_EQ(
+      recorder.text(),
+      "\rrunning: 25 %, t = 2.5 s, 1 s elapsed, 4 s to go\x1b[K\rrunning: 50 %, 2 s elapsed, 2 s to go\x1b[K\r\x1b[K");
 }
 
 TEST(Progress, WritesALineEveryTenSecondsElsewhere) {
@@ -58,7 +59,7 @@ TEST(Progress, WritesALineEveryTenSecondsElsewhere) {
     progress.update(i, "");
   }
   progress.finish();
-  EXPECT_EQ(recorder.text(), "modes: 1 s gone\nmodes: 11 s gone\nmodes: 21 s gone\nmodes: done in 25 s\n");
+  EXPECT_EQ(recorder.text(), "modes: 1 s elapsed\nmodes: 11 s elapsed\nmodes: 21 s elapsed\nmodes: done in 25 s\n");
 }
 
 TEST(Progress, DoesNotSayDoneOfWhatIsCutShort) {
@@ -68,7 +69,7 @@ TEST(Progress, DoesNotSayDoneOfWhatIsCutShort) {
     recorder.now += 2.0;
     progress.update(1.0, "");
   }
-  EXPECT_EQ(recorder.text(), "running: 10 %, 2 s gone, 18 s to go\n");
+  EXPECT_EQ(recorder.text(), "running: 10 %, 2 s elapsed, 18 s to go\n");
 }
 
 }  // namespace

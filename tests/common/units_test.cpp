@@ -49,8 +49,8 @@ TEST(Units, UnnamedMixOnlyWithUnnamed) {
       static_cast<void>(convert_units(from, to, "beam.superelement.h5"));
       ADD_FAILURE();
     } catch (const Error& error) {
-      EXPECT_THAT(error.what(),
-                  ::testing::AllOf(::testing::HasSubstr("beam.superelement.h5"), ::testing::HasSubstr("unnamed")));
+      EXPECT_THAT(error.what(), ::testing::AllOf(::testing::HasSubstr("beam.superelement.h5"),
+                                                 ::testing::HasSubstr("name the units in both")));
     }
   }
 }

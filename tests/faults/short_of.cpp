@@ -95,7 +95,7 @@ int counted_main(int argc, char** argv, char** environment) {
 }
 
 /// Writes the number of calls of the first process, also if it became another program. Children may not open files.
-__attribute__((destructor)) void tell_count() {
+__attribute__((destructor)) void report_count() {
   counting = false;
   const char* path = std::getenv("TISSERAND_SHORT_COUNT");
   const char* first = std::getenv(first_process);
@@ -180,7 +180,7 @@ EXPORTED ssize_t pwrite(int file, const void* data, size_t size, off_t offset) {
 }
 
 EXPORTED void _exit(int status) {
-  tell_count();
+  report_count();
   ::syscall(SYS_exit_group, status);
   __builtin_unreachable();
 }

@@ -230,7 +230,7 @@ TEST(Inactive, RetainedRotationsWithoutStiffnessAreAnError) {
   Mesh mesh = truss();
   mesh.boundary[1].rotations = true;
   EXPECT_THAT(error_of([&] { reducer::build_system(mesh, "p.yaml"); }),
-              AllOf(HasSubstr("rotations of node 1"), HasSubstr("retain its translations only")));
+              AllOf(HasSubstr("rotations of node 1"), HasSubstr("keep only its translations")));
 }
 
 TEST(BadMeshes, AreErrorsThatNameNodesAndElements) {

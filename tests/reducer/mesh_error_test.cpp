@@ -272,23 +272,23 @@ TEST(MeshError, CurvedSurfacesAndEdgesAreSeenFromTheNodes) {
 }
 
 /// One first-order tetrahedron across a plate makes bending several times too stiff. A warning names the remedy.
-TEST(MeshError, OneTetrahedronThroughAPlateIsToldWithItsRemedy) {
+TEST(MeshError, OneTetrahedronThroughAPlateIsReportedWithItsRemedy) {
   const reducer::Reduction plate = reducer::reduction_for_mesh_errors(reducer::plate_of_single_tetrahedra(12));
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   for (const std::string& warning : plate.model.warnings)
-    if (warning.find("too coarse") != std::string::npos) told.push_back(warning);
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_THAT(told[0], AllOf(HasSubstr("'block'"), HasSubstr("`size`"), HasSubstr("`order: 2`")));
+    if (warning.find("too coarse") != std::string::npos) reported.push_back(warning);
+  ASSERT_EQ(reported.size(), 1u);
+  EXPECT_THAT(reported[0], AllOf(HasSubstr("'block'"), HasSubstr("`size`"), HasSubstr("`order: 2`")));
 }
 
 /// A warning reports an accuracy that the mesh does not reach.
-TEST(MeshError, BeyondTheAccuracyAskedForIsTold) {
+TEST(MeshError, BeyondTheAccuracyAskedForIsReported) {
   formats::Part part = plain_beam(Vector3d::Zero(), Vector3d(1.7, 0, 0), 8, 0);
   const auto warned = [&](double error) {
     part.modes.accuracy = formats::Accuracy{error, 1000.0};
     const reducer::Reduction reduction = reduce(part);
     return std::any_of(reduction.model.warnings.begin(), reduction.model.warnings.end(),
-                       [](const std::string& w) { return w.find("asked for") != std::string::npos; });
+                       [](const std::string& w) { return w.find("requested: ") != std::string::npos; });
   };
   EXPECT_FALSE(warned(0.05));
   EXPECT_TRUE(warned(1e-5));

@@ -167,7 +167,7 @@ TEST(BadParts, SayWhatIsWrong) {
   part = plain_beam(zero, x, 3, 0);
   part.boundary[1].at = "base";
   EXPECT_THAT(message(part), HasSubstr("same point as boundary node 'base'"));
-  EXPECT_THAT(message(arc(200.0, 1)), HasSubstr("1 elements for an arc of 200 degrees"));
+  EXPECT_THAT(message(arc(200.0, 1)), HasSubstr("1 elements are too few for an arc of 200 degrees"));
   part = plain_beam(zero, x, 3, 0);
   part.beams[0].through = 0.4 * x;
   EXPECT_THAT(message(part), HasSubstr("on a straight line"));

@@ -209,7 +209,7 @@ TEST(ReducedModalBody, RefusesWhatHasNone) {
   start_solvers();
   const formats::Part mean = asking(frame, {}, 3);
   EXPECT_THAT(error_of([&] { static_cast<void>(reducer::lumped_modal_body(reducer::build_mesh(mean), mean, 0.0)); }),
-              HasSubstr("no free frequencies, and so no mean axis; hold six components"));
+              HasSubstr("no free frequencies, so it has no mean axis; hold six components"));
 }
 
 }  // namespace

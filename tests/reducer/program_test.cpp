@@ -79,7 +79,7 @@ TEST_F(Program, SolveWritesTableAndFieldsBesideThePart) {
   EXPECT_TRUE(std::filesystem::exists(folder / "beam.solution.tip.vtu"));
   EXPECT_TRUE(std::filesystem::exists(folder / "beam.solution-modes.vtu"));
   EXPECT_EQ(call("solve " + part + " --modes -1").code, 2);
-  EXPECT_THAT(call("solve " + part).text, HasSubstr("nothing to solve"));
+  EXPECT_THAT(call("solve " + part).text, HasSubstr("nothing to compute"));
 }
 
 TEST_F(Program, RunWritesSuperelementAndCertificateBesideThePart) {
@@ -103,7 +103,7 @@ TEST_F(Program, RunWritesSuperelementAndCertificateBesideThePart) {
 // Two boundary nodes: a column of boundary modes and one of the flexibility for each of 12 coordinates. A mode takes
 // one column at least, that of its residual. The peak of a process never falls, and a phase that goes on after another
 // tells its last one: none lies outside those of the first and the last phase.
-TEST_F(Program, RunTellsMemoryByPhaseAndColumnsSolved) {
+TEST_F(Program, RunReportsMemoryByPhaseAndColumnsSolved) {
   const auto columns = [&](int modes) {
     const Outcome run = call("run " + part + " --set second_order=no --set modes=" + std::to_string(modes));
     EXPECT_EQ(run.code, 0) << run.text;
@@ -151,11 +151,11 @@ TEST_F(Program, RunLeavesNoCompanionOfAnEarlierRunBehind) {
   other.producer = "another program";
   formats::write_companion(companion, other, formats::read_superelement(superelement).superelement);
   EXPECT_THAT(call(bare).text,
-              AllOf(HasSubstr(companion), HasSubstr("mechanisms take: it belongs to this superelement")));
-  EXPECT_THAT(call(bare + " --set modes=4").text, HasSubstr("mechanisms refuse: it belongs to another superelement"));
+              AllOf(HasSubstr(companion), HasSubstr("`mechanism` reads: it belongs to this superelement")));
+  EXPECT_THAT(call(bare + " --set modes=4").text, HasSubstr("`mechanism` refuses: it belongs to another superelement"));
   EXPECT_TRUE(std::filesystem::exists(companion));
   std::ofstream(companion) << "notes";
-  EXPECT_THAT(call(bare).text, HasSubstr("mechanisms refuse: it is no companion file"));
+  EXPECT_THAT(call(bare).text, HasSubstr("`mechanism` refuses: it is not a companion file"));
   EXPECT_TRUE(std::filesystem::exists(companion));
 }
 
@@ -181,7 +181,7 @@ TEST_F(Program, InternalModesAreCountedWhereThatIsCheap) {
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_EQ(run.text.find("not counted"), std::string::npos) << run.text;
   const Outcome show = call("show " + (folder / "beam.superelement.h5").string());
-  EXPECT_NE(show.text.find("count by inertia   8 below the cut\n"), std::string::npos) << show.text;
+  EXPECT_NE(show.text.find("count by inertia   8 modes up to the highest kept one\n"), std::string::npos) << show.text;
 }
 
 // 21 594 coordinates and 1000 modes take 0.4 GB; a program that has loaded its libraries finds 0.3 GB of 0.7.
@@ -194,8 +194,8 @@ TEST_F(Program, PartThatDoesNotFitIsRefusedBeforeItIsFactored) {
                                                        "--set 'plates.sheet.elements=[60, 60]' -o " +
                                                            (folder / "plate.superelement.h5").string());
   EXPECT_EQ(run.code, 1) << run.text;
-  EXPECT_THAT(run.text, AllOf(HasSubstr("the reduction of 21594 internal coordinates needs 0.4"),
-                              HasSubstr(" GB of memory more, but 0."), HasSubstr("use fewer elements or modes")));
+  EXPECT_THAT(run.text, AllOf(HasSubstr("the reduction of 21594 internal coordinates needs another 0.4"),
+                              HasSubstr(" GB of memory, but only 0."), HasSubstr("use fewer elements or modes")));
   EXPECT_FALSE(std::filesystem::exists(folder / "plate.superelement.h5"));
 }
 
@@ -262,7 +262,7 @@ TEST_F(Program, LimitsOfGeometryAreOptions) {
   EXPECT_EQ(call("groups " + step + " --geometry-time -1").code, 2);
 }
 
-TEST_F(Program, FolderThatDoesNotExistIsToldBeforeTheWork) {
+TEST_F(Program, FolderThatDoesNotExistIsReportedBeforeTheWork) {
   const Outcome run = call("run " + part + " -o " + (folder / "none" / "x.superelement.h5").string());
   EXPECT_EQ(run.code, 1);
   EXPECT_THAT(run.text, AllOf(HasSubstr("cannot write to the folder"), HasSubstr("No such file or directory")));

@@ -154,7 +154,7 @@ TEST_F(Ranks, FreeModesAreShared) {
 
 // A motion without stiffness, here of a spring that points one way, is found by the shared factor, told once, and ends
 // all processes.
-TEST_F(Ranks, AnErrorIsToldOnce) {
+TEST_F(Ranks, AnErrorIsReportedOnce) {
   const std::string part =
       "run " + beam +
       " --set points.weight='[141.42, 0, 10]' --set 'point_masses={weight: {at: weight, mass: 1}}' --set "
@@ -201,7 +201,7 @@ TEST_F(Ranks, AFollowerWithoutThePartEndsAll) {
   EXPECT_THAT(missing.text, HasSubstr("rank 1: " + (folder / "other.part.yaml").string() + ": cannot open the file"));
   const Outcome other = both(part + " --set points.c='[1, 1.1, 0]'");
   EXPECT_NE(other.code, 0);
-  EXPECT_THAT(other.text, HasSubstr("this process made another mesh of the part than the first one"));
+  EXPECT_THAT(other.text, HasSubstr("this process made a mesh that differs from the mesh of the first process"));
   EXPECT_FALSE(std::filesystem::exists(folder / "x.superelement.h5"));
 }
 

@@ -131,13 +131,13 @@ std::string error_of(const std::string& type, const std::vector<double>& sizes) 
 TEST(Pbarl, FaultsAreNamed) {
   EXPECT_EQ(error_of("L", {4, 5, 6, 0.5}),
             "deck.bdf:3: section type L: flange 6 is not less than height 5; DIM1 = 4, DIM2 = 5, DIM3 = 6, DIM4 = 0.5; "
-            "correct the sizes; their order is that of the figures of PBARL");
-  EXPECT_EQ(error_of("ELL", {1}).find("deck.bdf:3: section type 'ELL' is not known; known: BAR, BOX"), 0u);
+            "correct the sizes; their order is that of the figures for PBARL in the manual of Nastran");
+  EXPECT_EQ(error_of("ELL", {1}).find("deck.bdf:3: section type 'ELL' is not known; known are BAR, BOX"), 0u);
   EXPECT_NE(error_of("BAR", {1}).find("1 sizes instead of 2"), std::string::npos);
   EXPECT_NE(error_of("BAR", {1, std::numeric_limits<double>::quiet_NaN()}).find("DIM2 nan must be positive"), std::string::npos);
   EXPECT_NE(error_of("TUBE", {1, 2}).find("the wall is not inside the radius"), std::string::npos);
-  EXPECT_NE(error_of("HEXA", {2, 4, 1}).find("DIM2 is not more than 2 DIM1"), std::string::npos);
-  EXPECT_NE(error_of("Z", {2, 1, 6, 6}).find("DIM4 is not more than DIM3"), std::string::npos);
+  EXPECT_NE(error_of("HEXA", {2, 4, 1}).find("DIM2 must exceed 2 DIM1"), std::string::npos);
+  EXPECT_NE(error_of("Z", {2, 1, 6, 6}).find("DIM4 must exceed DIM3"), std::string::npos);
   EXPECT_NE(error_of("I1", {1, 1, 6, 6}).find("must be positive"), std::string::npos);
   EXPECT_EQ(pbarl_sizes("BEAM"), 0);
   EXPECT_DOUBLE_EQ(section("TUBE", {2, 0}).torsion_constant, 8 * M_PI);

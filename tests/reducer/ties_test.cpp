@@ -288,15 +288,16 @@ TEST(Contradictions, AreErrorsWithNames) {
   Mesh mesh = spring_net(8, 4);
   mesh.spiders = {spider(reducer::SpiderKind::rigid, 0, {3}), spider(reducer::SpiderKind::rigid, 1, {3})};
   EXPECT_THAT(error_of_system(mesh),
-              AllOf(HasSubstr("spider 's0', spider 's1'"), HasSubstr("tie together rigidly"), HasSubstr("node 0")));
+              AllOf(HasSubstr("connected rigidly by spider 's0', spider 's1'"), HasSubstr("node 0")));
   mesh.spiders[1].reference = 4;  // consistent: two references of one rigid piece, one of them not of the boundary
   EXPECT_EQ(error_of_system(mesh), "no error");
   mesh.spiders = {spider(reducer::SpiderKind::rigid, 2, {})};
-  EXPECT_THAT(error_of_system(mesh), HasSubstr("grabs no node"));
+  EXPECT_THAT(error_of_system(mesh), HasSubstr("connects no nodes"));
   mesh.spiders.clear();
   mesh.equations = {{{{3, 0, 1.0}}, "support"}};
-  EXPECT_THAT(error_of_system(mesh), AllOf(HasSubstr("equation 'support'"), HasSubstr("stops the part as a whole"),
-                                           HasSubstr("translation x")));
+  EXPECT_THAT(error_of_system(mesh),
+              AllOf(HasSubstr("equation 'support'"), HasSubstr("prevents rigid-body motion of the part"),
+                    HasSubstr("translation x")));
   mesh.equations = {{{{3, 3, 1.0}, {4, 3, -1.0}}, "twist"}};
   EXPECT_EQ(error_of_system(mesh), "no error");
   mesh.equations = {{{{0, 3, 1.0}, {1, 3, -1.0}}, "twist"}};  // both of the boundary

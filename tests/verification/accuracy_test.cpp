@@ -57,7 +57,7 @@ Reached reach(const formats::Scene& scene, const BodyFiles& files) {
 }
 
 // The pendulum loses digits where it turns slowly; Andrews' mechanism multiplies errors along its way.
-TEST(Accuracy, IsReachedAndTold) {
+TEST(Accuracy, IsReachedAndReported) {
   for (const double error : {1e-2, 1e-3}) {
     const Reached pendulum = reach(with(test_support::pendulum_scene(0.01, 2.0), error, "joints/coordinate/hinge"), {});
     EXPECT_LE(pendulum.error, error);
@@ -99,7 +99,7 @@ TEST(Accuracy, AsksForModesAndToleranceAtOnce) {
   const Reached swing = reach(scene, files);
   EXPECT_LE(swing.error, 0.1);
   EXPECT_THAT(::testing::PrintToString(swing.report.notes),
-              HasSubstr("half of the modes and the tolerance before together change it by"));
+              HasSubstr("half of the modes and the previous tolerance together change it by"));
 }
 
 // Steps that end on instants of output are the same with every coarse tolerance, and differ by nothing.
@@ -115,7 +115,8 @@ TEST(Accuracy, IsNotTakenFromRunsOfTheSameSteps) {
 TEST(Accuracy, DoubtsWhatAFileDoesNotHold) {
   BodyFiles files;
   const Reached swing = reach(with(cantilever(4, files), 1e-4, "nodes/velocity/beam/tip/z"), files);
-  EXPECT_THAT(::testing::PrintToString(swing.report.doubts), HasSubstr("may miss modes"));
+  EXPECT_THAT(::testing::PrintToString(swing.report.doubts),
+              HasSubstr("may need modes that the superelement files do not contain"));
 }
 
 // Nothing in the pendulum vibrates: `radau` takes some hundred steps where generalised alpha takes ten thousands.
@@ -146,8 +147,8 @@ TEST(Accuracy, BeginsNoRunThatWouldTakeTooLong) {
   EXPECT_EQ(report.outcome, RunOutcome::completed);
   EXPECT_GT(3 * report.steps, steps);  // the first, and two with half and all of the modes
   EXPECT_THAT(::testing::PrintToString(report.doubts),
-              AllOf(HasSubstr("an error of 0.0001 of 'nodes/velocity/beam/tip/z' was not reached"),
-                    HasSubstr("the next run would take some"), HasSubstr("or take method: radau"),
+              AllOf(HasSubstr("the error 0.0001 of 'nodes/velocity/beam/tip/z' was not reached"),
+                    HasSubstr("the next run would take about"), HasSubstr("or use method: radau"),
                     HasSubstr("error_control: {tolerance: ")));
   const std::vector<std::string> channel{scene.integrator.accuracy->of};
   EXPECT_EQ(read_quantities(path, channel).front().x.size(), 21u);                      // the best result so far

@@ -380,14 +380,14 @@ formats::Scene on_two_hinges(double angle) {
 
 // Whether the axes are parallel, nearly so or not: there are rows beyond the rank of rigid motions in all of them.
 TEST(AutomaticEffects, AreOnWhereReactionsStressABody) {
-  const auto told = ::testing::Contains(HasSubstr("effects of beam are on"));
+  const auto reported = ::testing::Contains(HasSubstr("effects of beam are on"));
   for (const double angle : {0.0, 1e-12, 1e-6, 0.1}) {
     SCOPED_TRACE(angle);
     TemporaryFolder folder;
     const std::string a = folder.file("a.results.h5"), b = folder.file("b.results.h5");
     const RunReport report = run(on_two_hinges(angle), a);
     run(with(on_two_hinges(angle), {}), b);
-    EXPECT_THAT(report.notes, told);
+    EXPECT_THAT(report.notes, reported);
     EXPECT_TRUE(choice(report).on);
     EXPECT_EQ(report.repeated, 0);
     EXPECT_EQ(largest_difference(a, b, {"nodes", "joints", "superelements"}), 0.0);

@@ -188,7 +188,7 @@ TEST(VehicleExample, TellsLockedCornersAndFreeSteering) {
   const Mobility good = freedoms(car);
   EXPECT_THAT(good.locked, IsEmpty());
   EXPECT_EQ(good.free.size(), 9u) << ::testing::PrintToString(good.free);  // four bounces, four spins, the whole
-  EXPECT_EQ(good.free.back(), "'chassis' in 6 ways");
+  EXPECT_EQ(good.free.back(), "'chassis' in 6 directions");
 
   formats::Scene crossed = car;
   for (formats::JointSpec& joint : crossed.joints)
@@ -202,7 +202,7 @@ TEST(VehicleExample, TellsLockedCornersAndFreeSteering) {
   const Mobility steering = freedoms(loose);
   EXPECT_EQ(steering.free.size(), 10u);
   EXPECT_TRUE(std::ranges::any_of(steering.free, [](const std::string& name) {
-    return name == "a turn in 'front_left/upper_ball'" || name == "a turn in 'front_left/lower_ball'";
+    return name == "a rotation in 'front_left/upper_ball'" || name == "a rotation in 'front_left/lower_ball'";
   })) << ::testing::PrintToString(steering.free);
 }
 

@@ -295,13 +295,13 @@ TEST(CheckpointFile, IsRefusedIfItIsNotOfThisSceneOrNotWhole) {
   scene.checkpoint.interval = 0.1;
   static_cast<void>(simulate(request(scene, list, folder.file("a.results.h5")), {}));
   const std::string file = folder.file("a.checkpoint.h5"), out = folder.file("b.results.h5");
-  EXPECT_THAT(refusal(scene, file, out), HasSubstr("raise integrator.end"));  // its last instant is the end
+  EXPECT_THAT(refusal(scene, file, out), HasSubstr("increase integrator.end"));  // its last instant is the end
   scene.integrator.end = 1.0;
   EXPECT_EQ(refusal(scene, file, out), "");
-  EXPECT_THAT(refusal(swing(), file, out), HasSubstr("other bodies, joints or superelements"));
+  EXPECT_THAT(refusal(swing(), file, out), HasSubstr("whose bodies, joints, superelements or companion files differ"));
   formats::Scene renamed = scene;
   renamed.joints[0].name = "other";
-  EXPECT_THAT(refusal(renamed, file, out), HasSubstr("other bodies, joints or superelements"));
+  EXPECT_THAT(refusal(renamed, file, out), HasSubstr("whose bodies, joints, superelements or companion files differ"));
   EXPECT_THAT(refusal(scene, folder.file("none.h5"), out), HasSubstr("none.h5"));
   const auto size = std::filesystem::file_size(file);
   std::filesystem::copy_file(file, folder.file("short.h5"));
@@ -328,11 +328,13 @@ TEST(CheckpointFile, IsRefusedWithoutTheCompanionThatItWasWrittenWithAndWithAnot
   EXPECT_EQ(refusal(scene, file, out), "");
   BodyFiles without = files(), other = files();
   without.companions.clear();
-  EXPECT_THAT(refusal(scene, file, out, without), HasSubstr("(or companion files)"));
+  EXPECT_THAT(refusal(scene, file, out, without),
+              HasSubstr("whose bodies, joints, superelements or companion files differ"));
   formats::Companion& companion = other.companions.at("blade");
   companion.E[0] *= 1.0 + 1e-9;
   companion.companion_id = formats::companion_id(companion);
-  EXPECT_THAT(refusal(scene, file, out, other), HasSubstr("(or companion files)"));
+  EXPECT_THAT(refusal(scene, file, out, other),
+              HasSubstr("whose bodies, joints, superelements or companion files differ"));
 }
 
 /// All channels of a file without conversion, one row per instant.
@@ -455,7 +457,7 @@ TEST(CheckpointFile, AppendsOnlyToTheRunThatWroteIt) {
     static_cast<void>(simulate(again, {}));
     FAIL() << "no error";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("are not there any more"));
+    EXPECT_THAT(error.what(), HasSubstr("no longer exist"));
   }
 }
 

@@ -35,7 +35,7 @@ RunReport run(const formats::Scene& scene, const BodyFiles& files = {}) {
 
 /// Warnings from a run from 0 to 80 with kinetic energy 1 and the given balance.
 template <class Balance>
-std::vector<std::string> told_by(Balance balance) {
+std::vector<std::string> reported_by(Balance balance) {
   EnergyBalance energy(0.0, 80.0);
   formats::ResultsRow row;
   row.kinetic = row.total = 1.0;
@@ -48,9 +48,10 @@ std::vector<std::string> told_by(Balance balance) {
 }
 
 TEST(EnergyDoubt, SpeaksBeyondAHundredthOfWhatMoved) {
-  EXPECT_THAT(told_by([](double t) { return t < 40 ? 0.0 : -0.02; }),
-              ElementsAre(HasSubstr("0.02 of the energy that moved was lost")));
-  EXPECT_THAT(told_by([](double t) { return 0.009 * std::sin(t); }), IsEmpty());
+  EXPECT_THAT(reported_by([](double t) { return t < 40 ? 0.0 : -0.02; }),
+              ElementsAre(AllOf(HasSubstr("the error of the energy balance is 0.02 of the largest energy or work"),
+                                HasSubstr("Energy was lost without a physical cause"))));
+  EXPECT_THAT(reported_by([](double t) { return 0.009 * std::sin(t); }), IsEmpty());
 }
 
 // A growing force on a body that a fixed joint holds: its energies are round-off, and so is their imbalance.
@@ -67,9 +68,9 @@ TEST(EnergyDoubt, IsSilentWhereNothingMoves) {
 }
 
 TEST(EnergyDoubt, SpeaksOfASteadyDrift) {
-  EXPECT_THAT(told_by([](double t) { return 5e-5 * t; }), ElementsAre(HasSubstr("steadily gained")));
-  EXPECT_THAT(told_by([](double t) { return 5e-6 * t; }), IsEmpty());  // 4e-4: far from the tolerance
-  EXPECT_THAT(told_by([](double t) { return 4e-3 * (1.0 - std::exp(-t / 5.0)); }), IsEmpty());  // settles
+  EXPECT_THAT(reported_by([](double t) { return 5e-5 * t; }), ElementsAre(HasSubstr("steadily gained")));
+  EXPECT_THAT(reported_by([](double t) { return 5e-6 * t; }), IsEmpty());  // 4e-4: far from the tolerance
+  EXPECT_THAT(reported_by([](double t) { return 4e-3 * (1.0 - std::exp(-t / 5.0)); }), IsEmpty());  // settles
 }
 
 TEST(StepDoubt, SpeaksWhereAPeriodHasFewSteps) {
@@ -79,7 +80,7 @@ TEST(StepDoubt, SpeaksWhereAPeriodHasFewSteps) {
     return run(scene).doubts;
   };
   EXPECT_THAT(with_step(0.01), IsEmpty());
-  EXPECT_THAT(::testing::PrintToString(with_step(0.3)), HasSubstr("does not resolve what moves"));
+  EXPECT_THAT(::testing::PrintToString(with_step(0.3)), HasSubstr("does not resolve the motion"));
 }
 
 // A pendulum that is thrown round at 10 rad/s: 0.1 and 2 rad per step.
@@ -115,7 +116,7 @@ TEST(MultiplierDoubt, SpeaksOfIndex3WithoutDamping) {
   scene.integrator.rho = 1.0;
   const RunReport report = run(scene);
   EXPECT_THAT(::testing::PrintToString(report.doubts) + report.reason,
-              HasSubstr("the multipliers swing from step to step"));
+              HasSubstr("the Lagrange multipliers oscillate from step to step"));
 }
 
 /// The beam as a superelement of four modes, held by a joint at its base.
@@ -203,14 +204,14 @@ RunReport run_of_blade(double rate, double softer, formats::InertiaOption inerti
 
 TEST(TorsionDoubt, SpeaksOfWeldedPiecesThatAreSoftForTheirSpin) {
   using enum formats::InertiaOption;
-  const auto told = [](double softer, formats::InertiaOption inertia) {
+  const auto reported = [](double softer, formats::InertiaOption inertia) {
     return ::testing::PrintToString(run_of_blade(10, softer, inertia, 0.05).doubts);
   };
   for (const formats::InertiaOption option : {B, M}) {
-    EXPECT_THAT(told(1, option), Not(HasSubstr("soft in torsion")));
-    EXPECT_THAT(told(1e3, option), HasSubstr("is soft in torsion for its spin"));
+    EXPECT_THAT(reported(1, option), Not(HasSubstr("soft in torsion")));
+    EXPECT_THAT(reported(1e3, option), HasSubstr("is too soft in torsion for its spin"));
   }
-  EXPECT_THAT(told(1e3, A), Not(HasSubstr("soft in torsion")));
+  EXPECT_THAT(reported(1e3, A), Not(HasSubstr("soft in torsion")));
 }
 
 /// Warnings for the beam on a joint of `kind`. It turns about z, and a force along z makes it move in space.
@@ -269,17 +270,17 @@ TEST(ModalRangeDoubt, SpeaksOfAxialForceDeflectionAndSpin) {
   for (const double share : {-0.2, -0.05, 0.05, 0.2}) {
     ModalRod rod(JointKind::fixed);
     rod.statics({share * pi * pi * ModalRod::E * ModalRod::I, 0, 0});
-    const std::string told = ::testing::PrintToString(run(rod.scene, rod.files).doubts);
-    EXPECT_EQ(told.find(share > 0 ? "tension of 0.2 of its buckling" : "compression of 0.2 of its buckling") !=
+    const std::string reported = ::testing::PrintToString(run(rod.scene, rod.files).doubts);
+    EXPECT_EQ(reported.find(share > 0 ? "tension of 0.2 of its buckling" : "compression of 0.2 of its buckling") !=
                   std::string::npos,
               std::abs(share) > 0.1)
-        << told;
+        << reported;
   }
   for (const double share : {0.02, 0.3}) {
     ModalRod rod(JointKind::fixed);
     rod.statics({0, 0, share * 3.0 * ModalRod::E * ModalRod::I});
-    const std::string told = ::testing::PrintToString(run(rod.scene, rod.files).doubts);
-    EXPECT_EQ(told.find("deflects by") != std::string::npos, share > 0.2) << told;
+    const std::string reported = ::testing::PrintToString(run(rod.scene, rod.files).doubts);
+    EXPECT_EQ(reported.find("deflects by") != std::string::npos, share > 0.2) << reported;
   }
   for (const int k : {0, 1, 2, 3}) {
     const double share = k % 2 == 0 ? 0.2 : 0.5;
@@ -287,8 +288,8 @@ TEST(ModalRangeDoubt, SpeaksOfAxialForceDeflectionAndSpin) {
     rod.scene.effects = {{formats::Effect::planar, "", k > 1, "switch"}};
     std::get<formats::ModalBodySpec>(rod.scene.bodies.front()).start.angular_velocity =
         Vector3d(0, 0, share * 3.5160 * std::sqrt(ModalRod::E * ModalRod::I / ModalRod::mass));
-    const std::string told = ::testing::PrintToString(run(rod.scene, rod.files).doubts);
-    EXPECT_EQ(told.find("'rod' spins at 0.5") != std::string::npos, share > 0.29) << told;
+    const std::string reported = ::testing::PrintToString(run(rod.scene, rod.files).doubts);
+    EXPECT_EQ(reported.find("'rod' spins at 0.5") != std::string::npos, share > 0.29) << reported;
   }
 }
 
@@ -331,7 +332,7 @@ TEST(DampingDoubt, SpeaksWhereTheLowestModeHasNone) {
   auto& body = std::get<formats::SuperelementBodySpec>(held.scene.bodies.front());
   body.damping.ratio_internal = 0.02;
   EXPECT_THAT(run(held.scene, held.files).doubts,
-              ElementsAre(HasSubstr("damping of 'beam' does not reach its lowest mode")));
+              ElementsAre(HasSubstr("damping of 'beam' has almost no effect on its lowest mode")));
   body.damping = {};
   body.damping.ratio = 0.02;  // of the free beam, whose lowest mode is 6.4 times as high as that of the cantilever
   EXPECT_THAT(run(held.scene, held.files).notes, Contains(HasSubstr("in the modes of the body without joints")));
@@ -363,7 +364,7 @@ TEST(FailureCause, IsADriveThatLeavesWhatTheMechanismCanReach) {
   integrator.step = 1e-3;
   const RunReport locked = run_of_crank(0.5, integrator);
   EXPECT_EQ(locked.outcome, RunOutcome::not_converged);
-  EXPECT_THAT(locked.reason, HasSubstr("the drive leaves what the mechanism can reach"));
+  EXPECT_THAT(locked.reason, HasSubstr("The drive demands a position that the mechanism cannot reach"));
   EXPECT_THAT(locked.reason, HasSubstr("t = 0.5235"));  // asin(1/2)
   EXPECT_EQ(run_of_crank(1.1, integrator).outcome, RunOutcome::completed);
 }
@@ -411,8 +412,7 @@ TEST(FailureCause, IsAStiffnessThatBalancesTheMass) {
   integrator.rho = 1.0;
   formats::SpringSpec spring;
   spring.stiffness = -4.0 / (0.01 * 0.01);
-  EXPECT_THAT(run_of_slide(spring, integrator).reason,
-              HasSubstr("regular with a quarter of it: a stiffness below zero"));
+  EXPECT_THAT(run_of_slide(spring, integrator).reason, HasSubstr("regular with a quarter of it. A negative stiffness"));
   spring.stiffness = -1.0;
   EXPECT_EQ(run_of_slide(spring, integrator).outcome, RunOutcome::completed);
 }
@@ -436,7 +436,7 @@ TEST(FailureCause, IsADirectionWithoutMass) {
     scene.springs = {spring};
     return run(scene);
   };
-  EXPECT_THAT(with_last(0.5).reason, HasSubstr("a direction without mass, stiffness or constraint, needle"));
+  EXPECT_THAT(with_last(0.5).reason, HasSubstr("A direction has no mass, no stiffness and no constraint: needle"));
   EXPECT_EQ(with_last(1.5).outcome, RunOutcome::completed);
 }
 
@@ -453,7 +453,7 @@ TEST(FailureCause, IsALoadThatSetsIn) {
     return run(scene);
   };
   EXPECT_THAT(with_moment("t < 0.1 ? 0 : 1e9").reason,
-              HasSubstr("what fails comes with the step: a load, a stop or friction that sets in"));
+              HasSubstr("The cause begins within the step: a load, a stop or friction"));
   EXPECT_EQ(with_moment("t < 0.1 ? 0 : 1").outcome, RunOutcome::completed);
 }
 
@@ -474,7 +474,7 @@ TEST(FailureCause, IsMultipliersThatSwing) {
   scene.integrator.end = 100.0;
   scene.integrator.formulation = formats::Formulation::index3;
   scene.integrator.rho = 1.0;
-  EXPECT_THAT(run(scene).reason, HasSubstr("the multipliers swing from step to step"));
+  EXPECT_THAT(run(scene).reason, HasSubstr("the Lagrange multipliers oscillate from step to step"));
   scene.integrator.rho = 0.9;
   scene.integrator.end = 1.0;
   EXPECT_EQ(run(scene).outcome, RunOutcome::completed);
@@ -485,14 +485,14 @@ TEST(FailureCause, IsTorsionTooSoftForTheSpin) {
   using enum formats::InertiaOption;
   const RunReport soft = run_of_blade(40, 1e5, B, 2.0);
   EXPECT_EQ(soft.outcome, RunOutcome::not_converged);
-  EXPECT_THAT(soft.reason, HasSubstr("is soft in torsion for its spin"));
+  EXPECT_THAT(soft.reason, HasSubstr("is too soft in torsion for its spin"));
 }
 
 TEST(Doubts, AreTheLastLinesOfTheReport) {
   RunReport report;
   report.steps = 1;
   report.doubts = {"something"};
-  EXPECT_THAT(report_text(report, {}), ::testing::EndsWith("in doubt         something\n"));
+  EXPECT_THAT(report_text(report, {}), ::testing::EndsWith("warning          something\n"));
   EXPECT_THAT(report_json(report), HasSubstr("\"something\""));
 }
 

@@ -112,7 +112,7 @@ TEST_F(FarScene, PendulumMovesAsAtTheOrigin) {
   EXPECT_LT(difference(scene, "nodes/position/bob/z", away.z()), 4.0 * rounding);
   EXPECT_LT(difference(scene, "nodes/velocity/bob/x", 0.0), 1e-11);
   EXPECT_LT(difference(scene, "energy/total", 0.0), 1e-11);
-  EXPECT_THAT(reports_["far"].notes, ::testing::Contains(::testing::HasSubstr("times its size from the origin")));
+  EXPECT_THAT(reports_["far"].notes, ::testing::Contains(::testing::HasSubstr("times its size away from the origin")));
   EXPECT_THAT(reports_["near"].notes, ::testing::IsEmpty());
 }
 

@@ -135,8 +135,9 @@ TEST(DisplacedDoubt, SpeaksWhereForcesActOnDisplacedNodes) {
     const RunRequest request{scene, files, std::nullopt, folder.file("a.results.h5"), "", std::nullopt};
     return ::testing::PrintToString(simulate(request, {}).report.doubts);
   };
-  EXPECT_THAT(doubts(0.11), ::testing::Not(::testing::HasSubstr("of its largest moment more")));
-  EXPECT_THAT(doubts(0.2), ::testing::HasSubstr("of its largest moment more where its nodes are"));
+  EXPECT_THAT(doubts(0.11), ::testing::Not(::testing::HasSubstr("of its largest moment")));
+  EXPECT_THAT(doubts(0.2),
+              ::testing::HasSubstr("the displaced nodes of 'beam' change the moment of the forces on it by"));
 }
 
 }  // namespace

@@ -154,17 +154,17 @@ export class App {
     });
     const interrupted = this.runs.filter((run) => run.entry.completed === false).length;
     const doubts = this.runs.reduce((sum, run) => sum + (run.entry.report.doubts?.length ?? 0), 0);
-    const warnings = [interrupted > 0 ? "interrupted" : "", doubts > 0 ? `${doubts} doubt${doubts > 1 ? "s" : ""}` : ""].filter(Boolean).join(", ");
+    const warnings = [interrupted > 0 ? "interrupted" : "", doubts > 0 ? `${doubts} warning${doubts > 1 ? "s" : ""}` : ""].filter(Boolean).join(", ");
     return h("header", { class: "head" }, h("h1", {}, this.page.header.title), h("div", { class: "chips", role: "group", "aria-label": "Runs shown" }, ...chips),
       h("span", { class: "grow" }), warnings ? button(warnings, "Open the report", () => this.tabs.open("report"), { class: "warn" }) : null,
-      button("Full screen", "Picture on the full screen (U)", () => this.fullScreen()), button("?", "Keys and mouse (?)", () => this.help.showModal()));
+      button("Full screen", "Show the picture on the full screen (U)", () => this.fullScreen()), button("?", "Keys and mouse (?)", () => this.help.showModal()));
   }
 
   private openViewport(canvas: HTMLCanvasElement): Viewport | null {
     try {
       return new Viewport(canvas, this.runs, this.settings);
     } catch (error) {
-      this.tell(`This browser draws no 3-D picture (WebGL 2: ${(error as Error).message}). Curves and report work; for the picture try another browser, or switch its hardware acceleration on or off.`);
+      this.tell(`This browser cannot draw the 3-D picture (WebGL 2: ${(error as Error).message}). Curves and report work. For the picture, use another browser, or switch hardware acceleration on or off.`);
       return null;
     }
   }
@@ -258,9 +258,9 @@ export class App {
     const notes = [];
     if (largest.time !== null)
       notes.push(`largest ${number(factor * largest.value)}${unit ? ` ${unit}` : ""} at (${largest.place.map((x) => number(Math.abs(x) < 1e-9 * run.size ? 0 : x)).join(", ")})${isStress ? " of the part" : ""}, '${largest.body}', t = ${number(largest.time)} ${run.unit("time")}`.trim());
-    if (isMode) notes.push("relative to the largest: a mode has no size");
-    else notes.push({ displacement: "from the first instant", deformation: "within the body, not exaggerated", body: "",
-      stress: "Means at nodes of what is drawn. `reducer recover` has the worst element: it may be larger." }[settings.colouring]);
+    if (isMode) notes.push("relative to the largest value: the amplitude of a mode is arbitrary");
+    else notes.push({ displacement: "relative to the first instant", deformation: "within the body, not exaggerated", body: "",
+      stress: "Mean values at the drawn nodes. `reducer recover` gives the largest stress of an element, which may be larger." }[settings.colouring]);
     this.legend.show(title, unit, [0, largest.value || 1], factor, settings.map, notes);
   }
 
@@ -345,7 +345,7 @@ export class App {
   }
   record(): void {
     if (!this.viewport) return;
-    if (!Recorder.possible) return this.tell("This browser records no video (MediaRecorder).");
+    if (!Recorder.possible) return this.tell("This browser cannot record a video (no MediaRecorder).");
     if (this.recorder.recording) this.recorder.stop();
     else this.recorder.start(this.viewport.canvas, this.page.header.title);
     this.toolbar.video.setAttribute("aria-pressed", String(this.recorder.recording));
@@ -357,6 +357,6 @@ export class App {
   }
   fullScreen(): void {
     if (document.fullscreenElement) void document.exitFullscreen();
-    else void document.documentElement.requestFullscreen?.().catch(() => this.tell("This browser gives no full screen here."));
+    else void document.documentElement.requestFullscreen?.().catch(() => this.tell("This browser does not allow full screen here."));
   }
 }

@@ -15,7 +15,7 @@ declare global {
 
 function tell(root: HTMLElement, error: unknown): void {
   const message = error instanceof Error ? error.message : String(error);
-  const remedy = error instanceof Failure ? error.remedy : "This is a fault of the viewer: please report it, with the page.";
+  const remedy = error instanceof Failure ? error.remedy : "This is an error in the viewer. Please report it and attach the page.";
   root.replaceChildren(h("main", { class: "failure", role: "alert" }, h("h1", {}, "This page cannot be shown"), h("p", {}, message), h("p", {}, remedy)));
   window.tisserand = { ready: false, failure: message };
 }

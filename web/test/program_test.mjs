@@ -196,7 +196,7 @@ integrator: {step: 0.002, end: 0.3}
         }
       assert.ok(16 * count.bracket > 0.02 * 1200 * 700 && 16 * count.weight > 2000, `${words}: ${JSON.stringify(count)}`);
     }
-    assert.throws(() => draw("--view", "front", "--zoom", "20", "--hide", "joints"), /nothing is to be seen/);
+    assert.throws(() => draw("--view", "front", "--zoom", "20", "--hide", "joints"), /the picture would be empty/);
     call("mechanism", "view", "arm_exaggerated.results.h5", "--stress");
     const page = await browser.page();
     await page.open(file("arm_exaggerated.html"));

@@ -191,7 +191,7 @@ test("the viewer", async (suite) => {
       assert.equal((await state(page)).tab, tab.toLowerCase());
     }
     const report = await page.evaluate("document.querySelector('.report').textContent");
-    assert.ok(report.indexOf("Doubts") < report.indexOf("Notes") && report.indexOf("Notes") < report.indexOf("What was simulated"), "doubts and notes first");
+    assert.ok(report.indexOf("Warnings") >= 0 && report.indexOf("Warnings") < report.indexOf("Notes") && report.indexOf("Notes") < report.indexOf("Data of the run"), "warnings and notes first");
     await quiet(page);
   });
 
@@ -254,10 +254,10 @@ test("the viewer", async (suite) => {
 
   await suite.test("tells what is wrong with damaged data", async () => {
     const cases = [
-      [/no base64/, { damage: (text) => `${text.slice(0, 40)}*${text.slice(41)}` }],
-      [/page is cut/, { damage: (text) => text.slice(0, Math.floor(text.length / 8) * 4) }],
+      [/not base64/, { damage: (text) => `${text.slice(0, 40)}*${text.slice(41)}` }],
+      [/page is incomplete/, { damage: (text) => text.slice(0, Math.floor(text.length / 8) * 4) }],
       [/does not unpack/, { damage: (text) => `AAAA${text.slice(4)}` }],
-      [/no JSON/, { edit: (html) => html.replace('id="tisserand-header">{', 'id="tisserand-header">{{') }],
+      [/not JSON/, { edit: (html) => html.replace('id="tisserand-header">{', 'id="tisserand-header">{{') }],
       [/of version 2/, { change: (header) => (header.version = 2) }],
       [/no list 'nodes'/, { change: (header) => delete header.runs[0].nodes }],
       [/there is no shape 9/, { change: (header) => (header.runs[0].bodies[0].shape = 9) }],
@@ -359,15 +359,15 @@ test("the viewer", async (suite) => {
     assert.match(await page.evaluate("document.querySelector('.modes').textContent"), /-1\.021/);
     for (let i = 0; i < 4 && (await state(page)).settings.colouring !== "displacement"; ++i) await page.key("c");
     const { legend } = await state(page);
-    assert.equal(legend.title, "displacement", "a mode has no size, so that its scale has no unit");
+    assert.equal(legend.title, "displacement", "the amplitude of a mode is arbitrary, so that its scale has no unit");
     near([legend.range[1]], [1], 1e-9, "relative to the largest");
-    assert.match(legend.notes.join(" "), /a mode has no size/);
+    assert.match(legend.notes.join(" "), /the amplitude of a mode is arbitrary/);
     await quiet(page);
   });
 
   await suite.test("works without WebGL but for the picture", async () => {
     const page = await open("beam", { before: "const own = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = function (kind, ...rest) { return /webgl/.test(kind) ? null : own.call(this, kind, ...rest); };" });
-    assert.match(await page.evaluate("document.querySelector('.stage-message').innerText"), /no 3-D picture/);
+    assert.match(await page.evaluate("document.querySelector('.stage-message').innerText"), /cannot draw the 3-D picture/);
     await page.until("tisserand.curve(0, 0) !== null");
     await page.key("ArrowRight");
     near([await page.evaluate("tisserand.time")], [0.025], 1e-6, "time steps");

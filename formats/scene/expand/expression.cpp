@@ -52,7 +52,9 @@ void check_extent(const std::string& formula) {
     deepest = std::max(deepest, depth);
   }
   if (formula.size() > longest_formula || deepest > deepest_brackets)
-    throw Error("the expression is too long or too deeply nested", "", "split it into parameters");
+    throw Error(fmt::format("the expression has more than {} characters or {} nested brackets", longest_formula,
+                            deepest_brackets),
+                "", "split it into parameters");
 }
 
 /// A call of a smooth step with its constant arguments.
@@ -174,7 +176,7 @@ std::string call_fault(const std::string& formula) {
     if (!fault.empty() || !starts_name(formula[begin]) || next == std::string::npos || formula[next] != '(') return;
     const std::string name = formula.substr(begin, end - begin);
     if (std::ranges::find(known, name) == known.end())
-      fault = fmt::format("there is no function '{}'; known are {}", name, join(known, ", "));
+      fault = fmt::format("there is no function '{}'; use one of {}", name, join(known, ", "));
   });
   return fault;
 }
@@ -190,7 +192,7 @@ std::string step_fault(const std::string& formula) {
     if (call.arguments.size() < 6) continue;
     const auto& [text, share] = call.arguments[5];
     if (share <= 0.0 || share > 0.5)
-      return fmt::format("{}: the share {} of the time that it accelerates must lie above 0 and not above 0.5",
+      return fmt::format("{}: the share {} of the time with acceleration must be greater than 0 and at most 0.5",
                          call.name, text);
   }
   return {};
@@ -228,9 +230,9 @@ std::string formula_fault(const std::string& formula) {
     if (c == '(') is_call.push_back(starts_name(before) || is_digit(before));
     if (c == ')' && !is_call.empty()) is_call.pop_back();
     if (c == ',' && (is_call.empty() || !is_call.back()))
-      return "a comma stands between arguments of a function only; decimals have a point: 2.5, not 2,5";
+      return "a comma may only separate arguments of a function; write decimals with a point: 2.5, not 2,5";
     const bool compares = next == '=' || before == '=' || before == '<' || before == '>' || before == '!';
-    if (c == '=' && !compares) return "'=' assigns nothing here; compare with ==, or write the value alone";
+    if (c == '=' && !compares) return "'=' cannot assign a value here; compare with ==, or write the value alone";
     if (c != ' ' && c != '\t') before = c;
   }
   const std::string fault = call_fault(formula);

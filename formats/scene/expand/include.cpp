@@ -94,9 +94,10 @@ YamlNode TreeLoader::load_into(YamlDocument& document, const YamlNode& from) {
   const std::string relative = (base / from.text).lexically_normal().string();
   const std::string path = canonical((fs::path(folder_) / relative).string());
   for (const Visit& visit : chain_)
-    if (visit.path == path) fail(fmt::format("'{}' includes itself", from.text), where, "break the circle");
-  if (chain_.size() >= deepest_chain) fail("files include one another more than 20 deep", where, "");
-  if (document.sources.size() >= most_files) fail(fmt::format("more than {} files", most_files), where, "");
+    if (visit.path == path) fail(fmt::format("'{}' includes itself", from.text), where, "remove this include");
+  if (chain_.size() >= deepest_chain) fail("included files are nested more than 20 levels deep", where, "");
+  if (document.sources.size() >= most_files)
+    fail(fmt::format("the scene includes more than {} files", most_files), where, "");
   chain_.push_back({path, where});
   seen_.insert(path);
   YamlNode root = load_file(document, (fs::path(folder_) / relative).lexically_normal().string(),
@@ -119,9 +120,9 @@ YamlNode TreeLoader::load_file(YamlDocument& document, const std::string& name, 
   document.sources.push_back({YamlSourceKind::file, name, folder});
   mark_source(file.root, source);
   if (file.root.kind != YamlKind::map)
-    fail(fmt::format("holds {} instead of a map of keys and values",
+    fail(fmt::format("the file must be a map of keys and values, not {}",
                      file.root.kind == YamlKind::scalar ? "a text" : describe(file.root)),
-         document.where(file.root.place), "write `bodies:` and the like");
+         document.where(file.root.place), "write keys such as `bodies:`");
   include_all(document, file.root);
   return std::move(file.root);
 }

@@ -13,22 +13,24 @@
 
 namespace tisserand::formats {
 
-/// Reads files into one document. Each file is a source with the folder to which its paths are relative.
+/// Reads files into one YAML document. Each file is a source of the document, with the folder to which the paths in
+/// that file are relative.
 class TreeLoader {
  public:
-  /// Entries of several files are merged in maps whose key is in `collections`.
+  /// `collections`: keys of maps whose entries from several files are merged into one map.
   explicit TreeLoader(std::vector<std::string_view> collections) : collections_(std::move(collections)) {}
 
-  /// Loads the first file and all that it includes. `changes`: overrides of its `include`.
+  /// Loads the first file and all files that it includes. `changes`: overrides of the first file's key `include`.
   YamlDocument load(const std::string& path, const std::vector<Override>& changes);
 
-  /// Loads another file into the same document, with all that it includes. The value at `from` names it.
+  /// Loads another file and all files that it includes into the document, and returns its root. The value `from` is the
+  /// file's name.
   YamlNode load_into(YamlDocument& document, const YamlNode& from);
 
  private:
   struct Visit {
     std::string path;   ///< canonical path
-    std::string where;  ///< place that names the file; empty for the first file
+    std::string where;  ///< place of the name of the file; empty for the first file
   };
   YamlNode load_file(YamlDocument& document, const std::string& name, const std::string& folder);
   void include_all(YamlDocument& document, YamlNode& root);

@@ -61,7 +61,7 @@ void SceneExpander::collect(Action action) {
   try {
     action();
   } catch (const Error& error) {
-    if (errors_.size() < most_errors && told_.insert(error.what()).second) errors_.push_back(error);
+    if (errors_.size() < most_errors && reported_.insert(error.what()).second) errors_.push_back(error);
   }
 }
 
@@ -108,7 +108,7 @@ Assembly& SceneExpander::find_assembly(const YamlNode& use, const Assembly& from
   throw Error(
       fmt::format("there is no assembly '{}'", use.text), document_.where(use.place),
       did_you_mean(use.text, known,
-                   known.empty() ? "define it under `assemblies`" : fmt::format("known are {}", listed(known))));
+                   known.empty() ? "define it under `assemblies`" : fmt::format("use one of {}", listed(known))));
 }
 
 YamlNode& SceneExpander::flat(const std::string& collection, const YamlPlace& place) {
@@ -195,8 +195,8 @@ SceneExpander::Instance SceneExpander::read_instance(const YamlNode& node, Param
 
 void SceneExpander::expand_instance(const YamlNode& node, const Level& level) {
   if (level.depth >= deepest_level)
-    throw Error(fmt::format("assemblies hold one another more than {} deep", deepest_level),
-                document_.where(node.key_place), "break the circle");
+    throw Error(fmt::format("assemblies are nested more than {} levels deep", deepest_level),
+                document_.where(node.key_place), "check whether an assembly contains itself");
   const Instance instance = read_instance(node, *level.scope);
   const YamlNode* use = find_child(instance.node, "use");
   if (use == nullptr) return;
@@ -216,7 +216,7 @@ void SceneExpander::make_one(const Instance& instance, int index, const Assembly
                              const Level& level) {
   if (++instances_ > most_instances)
     throw Error(fmt::format("the scene has more than {} instances", most_instances),
-                document_.where(instance.node.key_place), "make fewer");
+                document_.where(instance.node.key_place), "use fewer instances");
   ParameterScope around(level.scope);
   const auto name_of = [&](int i) {
     return instance.count < 0 ? instance.name : fmt::format("{}[{}]", instance.name, i);
@@ -247,7 +247,7 @@ void SceneExpander::define_parameters(const Instance& instance, int index, const
         throw Error(fmt::format("assembly '{}' has no parameter '{}'", assembly.name, value.key),
                     document_.where(value.key_place),
                     did_you_mean(value.key, known,
-                                 known.empty() ? "it has none" : fmt::format("its parameters are {}", listed(known))));
+                                 known.empty() ? "it has no parameters" : fmt::format("use one of {}", listed(known))));
       }
       own.define(value, around);
     }
@@ -259,7 +259,8 @@ void SceneExpander::define_parameters(const Instance& instance, int index, const
 void SceneExpander::report_unused(const ParameterScope& scope) {
   const auto tell = [this](const YamlNode& parameter, const std::string& whose) {
     errors_.emplace_back(fmt::format("parameter '{}'{} is never used", parameter.key, whose),
-                         document_.where(parameter.key_place), fmt::format("remove it, or write ${}", parameter.key));
+                         document_.where(parameter.key_place),
+                         fmt::format("remove it, or use it as ${}", parameter.key));
   };
   for (const auto& [name, parameter] : scope.own()) {
     const YamlSource& source = document_.sources.at(static_cast<std::size_t>(parameter.given.key_place.source));

@@ -18,19 +18,19 @@
 
 namespace tisserand::formats {
 
-/// Expands the tree of a scene (read and merged) to a flat one.
+/// Expands the tree of a scene (read and merged) to a flat tree, without assemblies and instances.
 class SceneExpander {
  public:
   SceneExpander(YamlDocument& document, TreeLoader& loader, const std::vector<KeySet>& legal_keys);
 
-  /// Runs the expansion. Throws Error that joins all errors found.
+  /// Runs the expansion. Throws one Error that joins all errors found.
   void run();
 
  private:
   /// An entry of `instances`.
   struct Instance {
     YamlNode node;          ///< without `parameters` and `first`
-    YamlNode given, first;  ///< their maps
+    YamlNode given, first;  ///< maps `parameters` and `first` of the entry
     std::string name;       ///< unique within its level
     int count = -1;         ///< number of copies; −1: not repeated
     AssemblyFrame pose, step, mirror;
@@ -61,7 +61,7 @@ class SceneExpander {
   std::deque<Assembly> assemblies_;
   std::map<std::pair<const Assembly*, std::string>, Assembly*> by_name_;
   std::vector<Error> errors_;
-  std::set<std::string> told_;
+  std::set<std::string> reported_;
   std::vector<MirroredReference> mirrored_;
   std::set<std::string> reversed_;  ///< joint coordinates that a mirror reverses, as paths from the scene
   long instances_ = 0;

@@ -44,8 +44,8 @@ YamlNode scaled(const Context& context, double factor, const YamlNode& function)
   } else if (YamlNode* table = find_child(copy, "table")) {
     scale_table(context, factor, *table);
   } else {
-    context.fail(function.place, "this function of time cannot be turned with its assembly",
-                 "give it in a table or expression, or with axes: body");
+    context.fail(function.place, "this function of time cannot be rotated with its assembly",
+                 "give a table or an expression, or give the load with axes: body");
   }
   return copy;
 }
@@ -70,8 +70,9 @@ void turn_components(const Context& context, const Eigen::Matrix3d& by, YamlNode
       std::string sum;
       for (const YamlNode& term : terms) {
         if (term.kind != YamlKind::scalar)
-          context.fail(term.place, "tables and files of a turned load have several components of one direction",
-                       "write expressions, or give the load with axes: body");
+          context.fail(term.place,
+                       "the rotated assembly adds components of this load, and tables and files cannot be added",
+                       "give expressions, or give the load with axes: body");
         sum += (sum.empty() ? "(" : " + (") + term.text + ")";
       }
       component = scalar(sum, component);

@@ -8,8 +8,8 @@
 
 namespace tisserand::formats {
 
-/// Replaces the three functions of time f in the node by `by` f. Numbers and expressions are summed. Tables and files
-/// can only change sign or place; otherwise an error names a remedy.
+/// Replaces the vector f of three functions of time in the node `value` by `by` times f. Numbers and expressions are
+/// summed. Tables and files can only change sign or place: otherwise an error is recorded that names a remedy.
 void turn_components(const Context& context, const Eigen::Matrix3d& by, YamlNode& value);
 
 }  // namespace tisserand::formats

@@ -165,7 +165,7 @@ void check_mirrored(YamlReader& reader, const std::vector<MirroredReference>& li
       reader.fail(reader.where(reference.entry_place), reference.place,
                   fmt::format("'{}': the coordinate '{}' changes its sign in a mirrored assembly", reference.entry,
                               reference.given),
-                  "use a prismatic joint for it, or an assembly of its own for the other side");
+                  "use a prismatic joint, or define a separate assembly for the other side");
 }
 
 void insert_definitions(const Level& level, Substitution& substitution, YamlNode& body) {

@@ -13,7 +13,7 @@
 
 namespace tisserand::formats {
 
-/// Contents of a scene or an assembly.
+/// Contents of a scene or of an assembly: its tree, and the sets of names that it defines.
 struct Assembly {
   std::string name;
   YamlNode node;
@@ -24,9 +24,10 @@ struct Assembly {
   bool made = false;  ///< whether an instance exists
 };
 
-/// Instance of an assembly, or the scene itself. Names are searched here first, then in the outer levels.
+/// Instance of an assembly, or the scene itself, as a level of names. A name is searched in its own level first, then
+/// in the outer levels.
 struct Level {
-  std::string prefix;  ///< "corner_fl/"
+  std::string prefix;  ///< path before the names of the level, for example "corner_fl/"
   const Level* outer = nullptr;
   Assembly* assembly = nullptr;
   AssemblyFrame frame;
@@ -34,9 +35,9 @@ struct Level {
   int depth = 0;
 };
 
-/// Joint coordinate that an entry of a mirrored assembly refers to, with its path from the scene.
+/// Reference from an entry of a mirrored assembly to a joint coordinate.
 struct MirroredReference {
-  std::string path;
+  std::string path;   ///< path of the coordinate from the scene
   std::string given;  ///< as written in the file
   std::string entry;  ///< entry that refers to it
   YamlPlace entry_place, place;
@@ -45,24 +46,25 @@ struct MirroredReference {
 /// Whether each instance of an assembly copies the map of this key.
 bool is_instantiated(const std::string& key);
 
-/// Fills in the sets of names. Invalid and duplicate names are reported as errors of the reader.
+/// Fills in the sets of names of an assembly from its tree. Invalid and duplicate names become errors of the reader.
 void read_names(YamlReader& reader, Assembly& assembly);
 
 /// Replaces the paths in an entry of a collection by paths from the scene. `ground` and paths that begin with '/' are
-/// relative to the scene, others to the innermost level with their first word. Expressions write paths with points:
-/// `speed` of a motor becomes `left.motor.speed`. Adds to `mirrored` what must be checked when all joints are known.
+/// relative to the scene, others to the innermost level that has their first word. Expressions write paths with points:
+/// `speed` of a motor becomes `left.motor.speed`. `mirrored`: receives the references to check with check_mirrored().
 void resolve_references(const std::string& collection, const Level& level, YamlNode& entry,
                         std::vector<MirroredReference>& mirrored);
 
-/// Reports references to coordinates that a mirror reverses, since one number cannot fit both sides, as errors of the
-/// reader. `reversed`: such coordinates of all joints, as paths from the scene.
+/// Records an error of the reader for each of the `references` to a joint coordinate that a mirror reverses: one number
+/// cannot fit both sides. `reversed`: reversed coordinates of all joints, as paths from the scene.
 void check_mirrored(YamlReader& reader, const std::vector<MirroredReference>& references,
                     const std::set<std::string>& reversed);
 
-/// Replaces the names of a beam's material and section by definitions of its assembly or an outer one.
+/// Replaces the names of a beam's material and section by their definitions in the beam's assembly or an outer one.
 void insert_definitions(const Level& level, Substitution& substitution, YamlNode& body);
 
-/// Makes file names below the node relative to the folder of the scene: keys `file`, and `from` of rigid bodies.
+/// Makes file names below the node relative to the folder of the scene. They are the values of keys `file`, and of keys
+/// `from` of rigid bodies.
 void rebase_files(const YamlDocument& document, YamlNode& node);
 
 }  // namespace tisserand::formats

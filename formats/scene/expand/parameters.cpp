@@ -116,8 +116,8 @@ std::vector<std::string> ParameterScope::names() const {
 void ExpansionBudget::take(std::size_t values, const std::string& where) {
   taken_ += values;
   if (taken_ > most_values)
-    throw Error(fmt::format("the scene grows to more than {} values once its instances are made", most_values), where,
-                "make fewer or smaller instances");
+    throw Error(fmt::format("the scene has more than {} values after its instances are expanded", most_values), where,
+                "use fewer or smaller instances");
 }
 
 void Substitution::fail(const YamlPlace& place, const std::string& what, const std::string& remedy) const {
@@ -129,9 +129,9 @@ const YamlNode& Substitution::value_of(Parameter& parameter, const YamlPlace& pl
   if (parameter.value) return *parameter.value;
   if (parameter.resolving)
     fail(parameter.given.key_place, fmt::format("parameter '{}' refers to itself", parameter.given.key),
-         "give it a value that does not depend on it");
+         "give it a value that does not depend on this parameter");
   if (depth_ >= longest_reference)
-    fail(place, fmt::format("parameters refer to one another more than {} deep", longest_reference), "");
+    fail(place, fmt::format("parameters refer to one another more than {} levels deep", longest_reference), "");
   const Resolving guard(parameter, depth_);
   YamlNode value = parameter.given;
   apply(value, *parameter.scope);
@@ -145,8 +145,8 @@ const YamlNode& Substitution::value_of(const std::string& name, ParameterScope& 
   const std::vector<std::string> known = scope.names();
   fail(place, fmt::format("there is no parameter '{}'", name),
        did_you_mean(name, known,
-                    known.empty() ? "define it under `parameters`; a $ that is meant is written $$"
-                                  : fmt::format("parameters here are {}", listed(known))));
+                    known.empty() ? "define it under `parameters`, or write $$ for the character $"
+                                  : fmt::format("use one of {}", listed(known))));
 }
 
 std::optional<double> Substitution::named_number(const std::string& name, ParameterScope& scope,
@@ -194,8 +194,8 @@ std::string Substitution::text_of(const std::string& inner, ParameterScope& scop
   if (is_plain_name(inner) && scope.find(inner) != nullptr) {
     const YamlNode& value = value_of(inner, scope, place);
     if (value.kind != YamlKind::scalar)
-      fail(place, fmt::format("parameter '{}' is {}, which is no text", inner, describe(value)),
-           "write it alone, or give a number or text");
+      fail(place, fmt::format("parameter '{}' is {}, not a number or text", inner, describe(value)),
+           "write it alone, without other text, or give it a number or text");
     return value.text;
   }
   return number_text(number_of(inner, scope, place));
@@ -204,8 +204,8 @@ std::string Substitution::text_of(const std::string& inner, ParameterScope& scop
 std::string Substitution::interpolate(const YamlNode& node, ParameterScope& scope) {
   const auto pieces = pieces_of(node.text);
   if (!pieces)
-    fail(node.place, fmt::format("a $ in {} is followed by no name and no {{formula}}", describe(node)),
-         "write $$ for a $ that is meant");
+    fail(node.place, fmt::format("a $ in {} is not followed by a name or a {{formula}}", describe(node)),
+         "write $$ for the character $");
   std::string text;
   for (const Piece& piece : *pieces) {
     if (piece.replaced && !piece.braces) (void)value_of(piece.text, scope, node.place);
@@ -213,7 +213,8 @@ std::string Substitution::interpolate(const YamlNode& node, ParameterScope& scop
   }
   constexpr std::size_t longest_text = 100'000;
   if (text.size() > longest_text)
-    fail(node.place, fmt::format("the text grows to more than {} characters", longest_text), "");
+    fail(node.place,
+         fmt::format("the text has more than {} characters after its parameters are replaced", longest_text), "");
   return text;
 }
 

@@ -14,7 +14,8 @@ namespace tisserand::formats {
 
 class ParameterScope;
 
-/// Value of a name as given, and the scope of the names in it. It is resolved at its first use.
+/// Parameter: its value as written in the file, and the scope in which names in this value are searched. The value is
+/// resolved when the parameter is first used.
 struct Parameter {
   YamlNode given;
   ParameterScope* scope = nullptr;
@@ -23,14 +24,15 @@ struct Parameter {
   bool used = false;
 };
 
-/// Names of one scene or instance. Other names are searched in the outer scope.
+/// Parameters of one scene or instance. Names that it does not define are searched in the outer scope.
 class ParameterScope {
  public:
   explicit ParameterScope(ParameterScope* outer) : outer_(outer) {}
   ParameterScope(const ParameterScope&) = delete;
   ParameterScope& operator=(const ParameterScope&) = delete;
 
-  /// Defines a parameter and replaces an earlier definition.
+  /// Defines the parameter `given` (key and value) and replaces an earlier definition. `scope`: scope of the names in
+  /// its value.
   void define(const YamlNode& given, ParameterScope& scope) { own_[given.key] = {given, &scope, {}, false, false}; }
   /// Defines a parameter whose value is not a formula.
   void define(const std::string& name, const std::string& text);
@@ -47,7 +49,7 @@ class ParameterScope {
 /// Counts the values of an expanded scene, so that a few lines cannot fill the memory.
 class ExpansionBudget {
  public:
-  /// Throws Error at `where` when more than `most_values` values were created.
+  /// Counts `values` more values. Throws Error at `where` if the total exceeds `most_values`.
   void take(std::size_t values, const std::string& where);
 
  private:
@@ -55,13 +57,14 @@ class ExpansionBudget {
   std::size_t taken_ = 0;
 };
 
-/// Replaces parameters by their values.
+/// Replaces parameters in a tree by their values.
 class Substitution {
  public:
   Substitution(const YamlDocument& document, ExpansionBudget& budget) : document_(document), budget_(budget) {}
 
-  /// Replaces in the node and everything below it. A scalar `$name` becomes the value of any kind, with its place.
-  /// `${formula}` alone becomes a number. Within other text, `$name` and `${formula}` become text. Throws Error.
+  /// Replaces parameters in the node and in everything below it. A scalar `$name` becomes the parameter's value (a
+  /// scalar, list or map), with its place. A scalar `${formula}` becomes a number. Within other text, `$name` and
+  /// `${formula}` become text. Throws Error.
   void apply(YamlNode& node, ParameterScope& scope);
 
  private:

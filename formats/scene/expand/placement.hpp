@@ -12,8 +12,9 @@
 
 namespace tisserand::formats {
 
-/// Map x -> p + G x from the axes of an assembly to the outer ones. G is orthogonal, of determinant −1 if mirrored. If
-/// so, S (diagonal) mirrors the part frames of its bodies, so that G R S stay rotations; else S is 1.
+/// Map x -> p + G x from the axes of an assembly to the outer ones. G is orthogonal, with determinant −1 if it mirrors.
+/// S (diagonal) mirrors the part frames of the assembly's bodies, so that G R S stays a rotation for each orientation
+/// R. Without a mirror S is 1.
 struct AssemblyFrame {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
   Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
@@ -27,16 +28,17 @@ struct AssemblyFrame {
 /// The composed map x -> outer(inner(x)).
 AssemblyFrame compose(const AssemblyFrame& outer, const AssemblyFrame& inner);
 
-/// Rewrites the numbers of entries. Unreadable values cause errors of the reader and stay unchanged.
+/// Moves, rotates and mirrors entries by rewriting their numbers in the tree. Values that cannot be read become errors
+/// of the reader and stay unchanged.
 class Placement {
  public:
   Placement(YamlReader& reader, const AssemblyFrame& frame) : reader_(reader), frame_(frame) {}
 
-  /// Places an entry of `bodies`, `joints`, `channels`, `springs`, `bushings`, `initial`, `tyres` or `loads`. Others do
-  /// not depend on the frame.
+  /// Places an entry of `bodies`, `joints`, `channels`, `springs`, `bushings`, `initial`, `tyres` or `loads`. Entries
+  /// of other collections do not depend on the frame and stay.
   void place(const std::string& collection, YamlNode& entry);
 
-  /// Coordinates of a joint that change sign in a mirrored assembly: "slide/z".
+  /// Coordinates of a joint that change sign in a mirrored assembly, for example "slide/z".
   static std::set<std::string> reversed_coordinates(const YamlNode& joint);
 
  private:

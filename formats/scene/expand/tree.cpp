@@ -44,8 +44,8 @@ std::string scene_text(const std::string& path, const std::vector<Override>& ove
   TreeLoader loader(collections);
   YamlDocument document = loader.load(path, chosen(overrides, Stage::files));
   for (const Override& change : chosen(overrides, Stage::flat))
-    throw Error(fmt::format("'{}' is made by an instance and has no place in a scene file", change.path), path,
-                "vary a parameter of the instance instead");
+    throw Error(fmt::format("'{}' belongs to an instance and cannot be set in a scene file", change.path), path,
+                "change a parameter of the instance instead");
   apply_overrides(document, chosen(overrides, Stage::tree), collections);
   std::erase_if(document.root.children, [](const YamlNode& child) { return child.key == "include"; });
   rebase_files(document, document.root);

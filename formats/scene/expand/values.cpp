@@ -240,7 +240,7 @@ std::string changes_text(const std::vector<ValueChange>& changes, const std::str
   for (std::size_t i = 0; i < std::min(most, changes.size()); ++i) {
     const ValueChange& change = changes[i];
     if (change.key.ends_with(contents_mark))
-      text += fmt::format("{}{}: the file has other contents", before_each,
+      text += fmt::format("{}{}: the contents of the file differ", before_each,
                           change.key.substr(0, change.key.size() - contents_mark.size()));
     else
       text += fmt::format("{}{}: {} -> {}", before_each, change.key, shortened(change.before), shortened(change.after));

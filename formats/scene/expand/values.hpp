@@ -11,7 +11,8 @@
 
 namespace tisserand::formats {
 
-/// Identifier of the contents of a file that the tree names under a key such as `inputs.u.file`; empty: unknown.
+/// Function that returns the identifier of the contents of a file, which the tree names under a key such as
+/// `inputs.u.file`. Empty result: unknown.
 using ContentsOf = std::function<std::string(const std::string& key, const std::string& file)>;
 
 /// Lines "bodies.arm.mass: 2", one per value of a flat tree in its order. After a file that `contents` knows follows a
@@ -23,23 +24,25 @@ std::string scene_values(const YamlNode& tree, const ContentsOf& contents);
 /// Flat tree as YAML, followed by the lines of `contents` as comments.
 std::string text_with_contents(const YamlNode& tree, const ContentsOf& contents);
 
-/// scene_values of such a text. Throws Error if it is not YAML.
+/// Lines of scene_values(), computed from a text written by text_with_contents(). Throws Error if the text is not YAML.
 std::string values_of_text(const std::string& text, const std::string& where);
 
-/// Value that differs; "nothing" if it is not given.
+/// Value that differs between two scenes: its key, and its texts before and after. A value that is not given has the
+/// text "nothing".
 struct ValueChange {
   std::string key;
   std::string before;
   std::string after;
 };
 
-/// Differences of two texts of scene_values, in the order of `after`, then those that only `before` has. Ignored are
-/// blanks, keys given with the default of `legal_keys`, added channels without use, and renamed files of equal
-/// contents.
+/// Differences of two texts of scene_values(), in the order of `after`; then values that only `before` has. Ignored are
+/// blanks, keys given with their default in `legal_keys`, added channels that nothing uses, and renamed files with
+/// equal contents.
 std::vector<ValueChange> scene_changes(const std::string& before, const std::string& after,
                                        const std::vector<KeySet>& legal_keys);
 
-/// Text "bodies.arm.mass: 2 -> 20" of at most ten changes, each after `before_each`, and the number of further ones.
+/// Text of at most ten changes, each as "bodies.arm.mass: 2 -> 20" after the text `before_each`, then the number of
+/// further changes.
 std::string changes_text(const std::vector<ValueChange>& changes, const std::string& before_each);
 
 }  // namespace tisserand::formats

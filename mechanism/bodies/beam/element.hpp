@@ -37,55 +37,62 @@
 
 namespace tisserand::mechanism {
 
-/// Constants of an element. A node has the residual rows [force, world axes; moment, node axes].
+/// Constants of a geometrically exact beam element with N = 2 or 3 nodes. Residuals have six rows per node: force
+/// (world axes), then moment (axes of the node).
 template <int N>
 struct BeamElement {
   static_assert(N == 2 || N == 3);
   static constexpr int dofs = 6 * N;
-  static constexpr int points = N - 1;  ///< quadrature points
+  static constexpr int points = N - 1;  ///< number of quadrature points
 
-  std::array<int, N> nodes{};                    ///< indices of nodes, along the beam
-  double length = 0.0;                           ///< L, arc length of the reference curve
-  std::array<Eigen::Matrix3d, N> section{};      ///< D_i: section triad in node axes
-  Eigen::Vector3d bending_share = {0, 0, 0};     ///< (0, β_y, β_z) of two nodes
-  double polar_radius_squared = 0.0;             ///< ρ²
-  Eigen::Vector3d force_stiffness = {0, 0, 0};   ///< C_n = (E A, G A_y, G A_z); for two nodes with residual bending
-  Eigen::Vector3d moment_stiffness = {0, 0, 0};  ///< C_m = (G J, E I_y, E I_z)
-  std::array<Eigen::Vector3d, points> initial_gamma{};  ///< Γ₀ (including the 1 of the axis)
-  std::array<Eigen::Vector3d, points> initial_kappa{};  ///< κ₀
-  double mass = 0.0;                                    ///< ρ A L
+  std::array<int, N> nodes{};                 ///< indices of nodes, along the beam
+  double length = 0.0;                        ///< L, arc length of the reference curve
+  std::array<Eigen::Matrix3d, N> section{};   ///< D_i: section triad in node axes
+  Eigen::Vector3d bending_share = {0, 0, 0};  ///< (0, β_y, β_z): shares of bending in shear strains; 0 for three nodes
+  double polar_radius_squared = 0.0;          ///< ρ² = (I_y + I_z)/A, for the elongation by twist
+  /// Stiffness C_n = (E A, G A_y, G A_z). With two nodes the shear stiffness contains the residual bending flexibility.
+  Eigen::Vector3d force_stiffness = {0, 0, 0};
+  Eigen::Vector3d moment_stiffness = {0, 0, 0};         ///< C_m = (G J, E I_y, E I_z): torsion and bending
+  std::array<Eigen::Vector3d, points> initial_gamma{};  ///< Γ₀: Λᵀx' of the reference shape, (1, 0, 0) if straight
+  std::array<Eigen::Vector3d, points> initial_kappa{};  ///< κ₀: curvature of the reference shape
+  double mass = 0.0;                                    ///< density · A · L
   std::array<Eigen::Matrix3d, N> inertia{};             ///< rotary inertia of node i in node axes
-  bool rotary = true;                                   ///< false: inertia is zero, and all sums omit it
-  Eigen::Vector3d gravity = {0, 0, 0};                  ///< gravity of its body; the caller scales it and passes it on
+  bool rotary = true;                                   ///< false: `inertia` is zero, and sums omit it
+  /// Gravity of the body (world axes). The functions below ignore it and take gravity as an argument, which the caller
+  /// has scaled.
+  Eigen::Vector3d gravity = {0, 0, 0};
 };
 
 using BeamElement2 = BeamElement<2>;
 using BeamElement3 = BeamElement<3>;
 
-/// Reference geometry of an element in the axes of its nodes in that configuration (the part frame: R_i = 1).
+/// Reference geometry of a beam element in the part frame. In the reference configuration all nodes have the axes of
+/// the part (R_i = 1).
 template <int N>
 struct BeamReference {
   std::array<int, N> nodes{};
-  std::array<Eigen::Vector3d, N> position{};  ///< in order along the beam, equally spaced in arc length
+  std::array<Eigen::Vector3d, N> position{};  ///< positions of the nodes, equally spaced in arc length
   std::array<Eigen::Matrix3d, N> section{};   ///< section triads; columns x (axis), y, z
   double length = 0.0;                        ///< arc length
 };
 
-/// Makes the constants of an element. Throws Error if the section has no shear areas (place: section.where) or if a
+/// Makes the constants of a beam element. Throws Error at `section.where` if the section has no shear areas, or if a
 /// stiffness, the density or the length is not physical.
 template <int N>
 BeamElement<N> make_beam_element(const BeamReference<N>& reference, const formats::Section& section,
                                  const formats::Material& material);
 
-/// Computes r = G_iner + G_int − gravity of one element from the motions of all nodes (indexed by element.nodes). G_int
-/// is the exact gradient of `strain`, gravity of `potential` (energies below). gravity: acceleration, world axes.
+/// Computes the residual r of one element: inertia force plus elastic force less weight. The elastic force is the exact
+/// gradient of BeamEnergy::strain. The weight is minus the gradient of BeamEnergy::potential. `nodes`: motions of all
+/// nodes of the model, of which element.nodes are indices. `gravity`: acceleration (world axes).
 void residual(const BeamElement2& element, std::span<const NodeMotion> nodes, const Eigen::Vector3d& gravity,
               Eigen::Matrix<double, 12, 1>& r);
 void residual(const BeamElement3& element, std::span<const NodeMotion> nodes, const Eigen::Vector3d& gravity,
               Eigen::Matrix<double, 18, 1>& r);
 
-/// Computes residual() and the exact tangent A = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q with rotation increments
-/// δR = R skew(δΘ). A is not symmetric away from equilibrium, because increments are not coordinates.
+/// Computes the residual r and the exact tangent A = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q of one element. The rotation
+/// increments δΘ are material, δR = R skew(δΘ). Away from equilibrium A is not symmetric, because such increments are
+/// not coordinates. Arguments are those of residual().
 void residual_and_tangent(const BeamElement2& element, std::span<const NodeMotion> nodes,
                           const Eigen::Vector3d& gravity, const TangentCoefficients& coefficients,
                           Eigen::Matrix<double, 12, 1>& r, Eigen::Matrix<double, 12, 12>& A);
@@ -102,12 +109,13 @@ struct BeamEnergy {
 template <int N>
 BeamEnergy energy(const BeamElement<N>& element, std::span<const NodeMotion> nodes, const Eigen::Vector3d& gravity);
 
-/// Strains and stress resultants at one quadrature point, in section axes. Resultants act on the side towards the
-/// negative axis (tension positive). For two nodes the shear strains contain the residual bending, their forces do not.
+/// Strains and stress resultants at one quadrature point of a beam element, in section axes. `force` and `moment` act
+/// on the part of the beam on the negative side of the section, so tension is positive. With two nodes the shear
+/// strains contain the residual bending of the element. The shear forces do not.
 struct BeamSectionForces {
-  double arc_length = 0.0;       ///< arc length of the point from the first node of the element
+  double arc_length = 0.0;       ///< arc length from the first node of the element
   Eigen::Matrix3d axes;          ///< Λ: section triad in world axes
-  Eigen::Vector3d gamma, kappa;  ///< strains
+  Eigen::Vector3d gamma, kappa;  ///< Γ: axial and shear strains; κ: twist and curvatures
   Eigen::Vector3d force;         ///< (normal force, shear y, shear z)
   Eigen::Vector3d moment;        ///< (torque, bending about y, bending about z)
 };

@@ -12,41 +12,44 @@
 
 namespace tisserand::mechanism::beam {
 
-/// Positions and orientations of the nodes of one element.
+/// Positions and orientations (world axes) of the N nodes of one beam element.
 template <class S, int N>
 struct Configuration {
   std::array<Vec3<S>, N> x;
   std::array<Mat3<S>, N> R;
 };
 
-/// Shape functions and their derivatives by arc length times L at the quadrature points of the three-node element,
-/// s = −1/√3, 1/√3 (weights L/2): N₁ = s(s−1)/2, N₂ = 1 − s², N₃ = s(s+1)/2; d/dS = (2/L) d/ds.
+/// Abscissa 1/√3 of the two Gauss points s = −1/√3, 1/√3 of the three-node element. Each has the weight L/2.
 inline constexpr double gauss = 0.57735026918962576451;
+/// Shape functions at the Gauss points (point x node): N₁ = s(s−1)/2, N₂ = 1 − s², N₃ = s(s+1)/2.
 inline constexpr std::array<std::array<double, 3>, 2> shape = {
     {{0.5 * gauss * (gauss + 1), 2.0 / 3, 0.5 * gauss*(gauss - 1)},
      {0.5 * gauss * (gauss - 1), 2.0 / 3, 0.5 * gauss*(gauss + 1)}}};
+/// Derivatives of the shape functions by arc length S, times L, at the Gauss points (point x node): d/dS = (2/L) d/ds.
 inline constexpr std::array<std::array<double, 3>, 2> slope = {
     {{-2 * gauss - 1, 4 * gauss, 1 - 2 * gauss}, {2 * gauss - 1, -4 * gauss, 1 + 2 * gauss}}};
 
-/// Product A(ψ) v = v − ψ×(ψ×v)/24. Arc over chord is (a/2)/sin(a/2) = 1 + a²/24 + O(a⁴) across ψ,
-/// and 1 along ψ. ∂(A v)/∂ψ: chord_gradient; its transpose times n: chord_gradient_transposed.
+/// Product A(ψ) v = v − ψ×(ψ×v)/24 of a two-node element, from its chord to its arc, with `u` = ψ·ψ. Arc over chord is
+/// (a/2)/sin(a/2) = 1 + a²/24 + O(a⁴) across ψ, a = |ψ|, and 1 along ψ.
 template <class S>
 inline Vec3<S> chord_to_arc(const Vec3<S>& psi, const S& u, const Vec3<S>& v) {
   return v + (v * u - psi * dot3(psi, v)) * S(1.0 / 24);
 }
+/// Product (∂(A v)/∂ψ)ᵀ n with the matrix A(ψ) of chord_to_arc().
 template <class S>
 inline Vec3<S> chord_gradient_transposed(const Vec3<S>& psi, const Vec3<S>& v, const Vec3<S>& n) {
   return (psi * (2.0 * dot3(v, n)) - n * dot3(psi, v) - v * dot3(psi, n)) * S(1.0 / 24);
 }
 
-/// State of a two-node element: section axes in the middle, g = Λᵀx', strains and resultants (section axes). Forces on
-/// δg (times L) and on δψ are on_g = A force and on_psi = moment + L ∂(A g)/∂ψᵀ force.
+/// State of a two-node element at its middle: section triad Λ (`axes`), g = Λᵀx', strains Γ and κ, and resultants.
+/// `on_g` is ∂W/∂g over L and `on_psi` is ∂W/∂ψ, with the strain energy W and the relative rotation vector ψ. on_g = A
+/// force, A of chord_to_arc(), and on_psi = moment + L (∂(A g)/∂ψ)ᵀ force.
 template <class S>
 struct State2 {
   Logarithm<S> log;
   Mat3<S> axes;
   Vec3<S> g, gamma, kappa, force, moment, on_g, on_psi;
-  S energy, normal;  ///< W/L, N
+  S energy, normal;  ///< strain energy per length W/L; normal force N
   BentLength<S> bent;
 
   State2(const BeamElement2& e, const Configuration<S, 2>& q)
@@ -72,16 +75,17 @@ struct State2 {
   }
 };
 
-/// One quadrature point of the three-node element: φ = N₁Φ₁ + N₃Φ₃ and a = φ' (by arc length), κ = T(φ) a − κ₀.
+/// State at one quadrature point of a three-node element: rotation vector φ = N₁Φ₁ + N₃Φ₃ from the middle node,
+/// Φ_i = log(Λ₂ᵀΛ_i), its derivative a = φ' by arc length, u = φ·φ, κ = T(φ) a − κ₀, and g = Λᵀx'.
 template <class S>
 struct Point3 {
   Vec3<S> phi, a;
   S u;
   CurvatureFunctions<S> f;
-  Mat3<S> turn;  ///< exp(φ)
-  Mat3<S> axes;  ///< Λ = Λ₂ exp(φ)
+  Mat3<S> turn;  ///< exp(φ): rotation from the middle node
+  Mat3<S> axes;  ///< Λ = Λ₂ exp(φ): section triad, world axes
   Vec3<S> g, gamma, kappa, force, moment;
-  S energy;  ///< W/L
+  S energy;  ///< strain energy per length W/L
 
   Point3(const BeamElement3& e, const Configuration<S, 3>& q, const Mat3<S>& middle, const Vec3<S>& Phi1,
          const Vec3<S>& Phi3, int point)
@@ -106,7 +110,7 @@ struct Point3 {
 
 template <class S>
 struct State3 {
-  Mat3<S> middle;  ///< Λ₂
+  Mat3<S> middle;  ///< Λ₂: section triad of the middle node
   Logarithm<S> log1, log3;
   std::array<Point3<S>, 2> point;
 
@@ -117,7 +121,7 @@ struct State3 {
         point{Point3<S>(e, q, middle, log1.psi, log3.psi, 0), Point3<S>(e, q, middle, log1.psi, log3.psi, 1)} {}
 };
 
-/// Strain energy W of an element.
+/// Strain energy W of a beam element.
 template <class S>
 S strain_energy(const BeamElement2& e, const Configuration<S, 2>& q) {
   const State2<S> state(e, q);
@@ -129,8 +133,9 @@ S strain_energy(const BeamElement3& e, const Configuration<S, 3>& q) {
   return 0.5 * e.length * (state.point[0].energy + state.point[1].energy);
 }
 
-/// Forces G_int of two nodes: ∂W/∂x_i and ∂W/∂Θ_i. With σ = δθ₁ + δθ₂, δ = δθ₂ − δθ₁ (section axes) the variations are
-///   δψ = (1 + e ψ~²) δ + ψ×σ/2,   δθ_m = (σ + w×δ)/2,   δg = Λᵀ δx' + g×δθ_m.
+/// Computes the elastic forces r = [∂W/∂x_i; ∂W/∂Θ_i] of a two-node element. With the rotation increments δθ₁, δθ₂ of
+/// the nodes in section axes, σ = δθ₁ + δθ₂ and δ = δθ₂ − δθ₁, and with ψ, w, e of Logarithm, the variations are
+/// δψ = (1 + e ψ~²) δ + ψ×σ/2, δθ_m = (σ + w×δ)/2 (middle section), δg = Λᵀ δx' + g×δθ_m.
 template <class S>
 void internal_force(const BeamElement2& e, const State2<S>& state, Eigen::Matrix<S, 12, 1>& r) {
   const Vec3<S>& psi = state.log.psi;
@@ -145,13 +150,14 @@ void internal_force(const BeamElement2& e, const State2<S>& state, Eigen::Matrix
   r.template segment<3>(9) = e.section[1].template cast<S>() * (sum + difference);
 }
 
-/// Generalised forces on Φ₁, Φ₃ and directly on θ₂ of the three-node element (section axes).
+/// Generalised forces on the relative rotations Φ₁, Φ₃ and on θ₂ of the middle node of an element (section axes).
 template <class S>
 struct Moments3 {
   Vec3<S> on1, on3, direct;
 };
 
-/// Forces G_int of three nodes: δΦ_i = T⁻¹(Φ_i) δθ_i − T⁻ᵀ(Φ_i) δθ₂, δθ = exp(−φ) δθ₂ + T(φ) δφ, δκ = δ(T(φ) φ').
+/// Computes the elastic forces r = [∂W/∂x_i; ∂W/∂Θ_i] of a three-node element. Returns their moments. Variations:
+/// δΦ_i = T⁻¹(Φ_i) δθ_i − T⁻ᵀ(Φ_i) δθ₂, δθ = exp(−φ) δθ₂ + T(φ) δφ, δκ = δ(T(φ) φ').
 template <class S>
 Moments3<S> internal_force(const BeamElement3& e, const State3<S>& state, Eigen::Matrix<S, 18, 1>& r) {
   const double weight = 0.5 * e.length;
@@ -178,8 +184,8 @@ Moments3<S> internal_force(const BeamElement3& e, const State3<S>& state, Eigen:
   return P;
 }
 
-/// Consistent translational mass ∫ N_i N_j dS / L and its row sums ∫ N_i dS / L (lumping of gravity and rotary
-/// inertia).
+/// Mass matrix and nodal shares of an element of mass 1. `mass` is the consistent translational mass ∫ N_i N_j dS / L.
+/// `node` holds its row sums ∫ N_i dS / L, which distribute gravity and rotary inertia.
 template <int N>
 struct Shares;
 template <>
@@ -194,18 +200,18 @@ struct Shares<3> {
   static constexpr double node[3] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
 };
 
-/// Pointers to the motions of the nodes.
+/// Pointers to the motions of the N nodes of one element.
 template <class Motion, int N>
 using NodePointers = std::array<const Motion*, static_cast<std::size_t>(N)>;
 
-/// Parabola between two nodes, x(ξ) = (1 − ξ) x₁ + ξ x₂ + ξ(1 − ξ) b: the even part of the cubic through both. The mass
-/// is distributed along it: m ∫ of products of 1 − ξ, ξ and ξ(1 − ξ).
-///   b = d − 0.6 (d·c) c/L²,   d = L (t₁ − t₂)/2,   c = x₂ − x₁,
-/// with the unit vectors t_i along the beam. d vanishes in every rigid motion of a straight element. For an arc it is
-/// exact to O(L⁴). d is normal to the mean of the tangents, but b must be nearly normal to the chord: 0.4 of the angle
-/// φ between both turns it. The reason is that the weight q L changes the tension along an element. With the slope
-/// κ s + φ (6 s² − ½), s from −½ to ½ along L, this has the energy −q L² κ φ/30 (κ: difference of the slopes at the
-/// ends), as with b. With d alone it is −q L² κ φ/12, and the free end of a chain turns over if q L³ exceeds 130 EI.
+/// Constants of the parabola of the mass of a two-node element, x(ξ) = (1 − ξ) x₁ + ξ x₂ + ξ(1 − ξ) b. It is the even
+/// part of the cubic through both nodes. Inertia is m times integrals of products of 1 − ξ, ξ and ξ(1 − ξ).
+/// b = d − 0.6 (d·c) c/L², d = L (t₁ − t₂)/2, c = x₂ − x₁, unit vectors t_i along the beam at node i.
+/// d vanishes in every rigid motion of a straight element. For an arc it is exact to O(L⁴). d is normal to the mean of
+/// the tangents, but b must be nearly normal to the chord: 0.4 of the angle φ between both turns it. The reason is that
+/// the weight q L changes the tension along an element. With the slope κ s + φ (6 s² − ½), s from −½ to ½ along L, this
+/// has the energy −q L² κ φ/30 (κ: difference of the slopes at the ends), as with b. With d alone it is −q L² κ φ/12,
+/// and the free end of a chain turns over if q L³ exceeds 130 EI.
 struct Parabola {
   static constexpr double by_node = 1.0 / 12, by_itself = 1.0 / 30, whole = 1.0 / 6, across = 0.6;
   static constexpr std::array<double, 2> sign = {0.5, -0.5};  ///< d = L Σ sign_i R_i a_i
@@ -214,7 +220,8 @@ struct Parabola {
 /// Unit vector a_i along the beam in the axes of node i.
 inline Eigen::Vector3d along(const BeamElement2& e, int i) { return e.section[i].col(0); }
 
-/// Vectors d, c with rates, and b. B = ∂b/∂d = 1 − k c cᵀ, H = ∂b/∂c = −k (c dᵀ + (d·c) 1), k = 0.6/L².
+/// Vectors d, c and b of Parabola for one element, with their rates. The derivatives of b are B = ∂b/∂d = 1 − k c cᵀ
+/// and H = ∂b/∂c = −k (c dᵀ + (d·c) 1), k = 0.6/L².
 template <class S>
 struct Bow {
   Vec3<S> d, d_rate, d_acceleration, c, c_rate, c_acceleration;
@@ -241,20 +248,20 @@ struct Bow {
 
   Vec3<S> value() const { return on_d(d); }
   Vec3<S> rate() const { return on_d(d_rate) + by_chord(c_rate); }
-  /// Acceleration b̈ = B d̈ + H c̈ − 2k [(c·ḋ + d·ċ) ċ + (ḋ·ċ) c].
+  /// Acceleration b̈ = B d̈ + H c̈ − 2k [(c·ḋ + d·ċ) ċ + (ḋ·ċ) c], with B = ∂b/∂d and H = ∂b/∂c.
   Vec3<S> acceleration() const {
     const Vec3<S> rates = c_rate * (dot3(c, d_rate) + dot3(d, c_rate)) + c * dot3(d_rate, c_rate);
     return on_d(d_acceleration) + by_chord(c_acceleration) - rates * (k + k);
   }
-  /// Product B f = Bᵀ f: the force on d that a force f on b causes.
+  /// Product B f = Bᵀ f with the symmetric B = ∂b/∂d: the force on d that a force f on b causes.
   Vec3<S> on_d(const Vec3<S>& f) const { return f - c * (k * dot3(c, f)); }
-  /// Product Hᵀ f: the force on c that a force f on b causes.
+  /// Product Hᵀ f with H = ∂b/∂c: the force on c that a force f on b causes.
   Vec3<S> on_chord(const Vec3<S>& f) const { return (d * dot3(c, f) + f * dot3(d, c)) * (-k); }
-  /// Product H u.
+  /// Product H u with H = ∂b/∂c.
   Vec3<S> by_chord(const Vec3<S>& u) const { return (c * dot3(d, u) + u * dot3(d, c)) * (-k); }
 };
 
-/// Inertia force less weight, which does work on δb.
+/// Inertia force less weight that does work on the bow vector b of Parabola. `acceleration`: b̈.
 template <class S, class Motion>
 Vec3<S> force_on_bow(const BeamElement2& e, const std::array<const Motion*, 2>& node, const Eigen::Vector3d& gravity,
                      const Vec3<S>& acceleration) {
@@ -263,8 +270,8 @@ Vec3<S> force_on_bow(const BeamElement2& e, const std::array<const Motion*, 2>& 
          S(e.mass);
 }
 
-/// Adds M ẍ − m_i g and J Ω̇ + Ω × J Ω to r; for two nodes also the contribution of the parabola. Motion: NodeMotion or
-/// its equivalent with another scalar.
+/// Adds inertia force less weight to the residual r: M ẍ − m_i g and J Ω̇ + Ω × J Ω; two nodes: with the parabola.
+/// `Motion`: NodeMotion or its equivalent with another scalar.
 template <class S, int N, class Motion>
 void add_inertia(const BeamElement<N>& e, const NodePointers<Motion, N>& node, const Eigen::Vector3d& gravity,
                  Eigen::Matrix<S, 6 * N, 1>& r) {

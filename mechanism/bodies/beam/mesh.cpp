@@ -49,7 +49,7 @@ CenterLine arc(const formats::BeamBodySpec& spec, int intervals) {
     throw Error(
         fmt::format("the arc of beam '{}' is not defined: from {}, through {} and to {} lie on a line or coincide",
                     spec.name, text(spec.from), text(*spec.through), text(spec.to)),
-        spec.where, "give three points of a circle, or leave out 'through' for a straight beam");
+        spec.where, "give three points of a circle, or remove 'through' for a straight beam");
   // From `from` to the center of the circle through 0, a, b: (|a|² b − |b|² a) × (a × b) / (2 |a × b|²).
   const Vector3d center = (a.squaredNorm() * b - b.squaredNorm() * a).cross(normal) * (0.5 / (area * area));
   const Vector3d start = -center;

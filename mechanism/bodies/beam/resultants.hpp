@@ -9,8 +9,8 @@
 
 namespace tisserand::mechanism::beam {
 
-/// Bent length e(Γ) of two nodes with its first and second derivatives (element.hpp). With Q = Σ w_k Γ_k², w = 2β − β²,
-/// s = |v| and D = s + v₁ it is e = Q/D + Σ β_k² Γ_k²/10.
+/// Elongation e(Γ) of the bent axis of a two-node element, with first and second derivatives by the strains Γ. e = Q/D
+/// + Σ β_k² Γ_k²/10 with Q = Σ (2β_k − β_k²) Γ_k², v = Γ + Γ₀ and D = |v| + v₁. The β_k are BeamElement::bending_share.
 template <class S>
 struct BentLength {
   S value;
@@ -51,13 +51,15 @@ struct BentLength {
   S s_, inverse_, q_;
 };
 
-/// Energy W/L = ½ (E A ε² + C_y Γ_y² + C_z Γ_z² + κ·C_m κ) and its derivatives by Γ and κ.
+/// Section forces and strain energy per length, W/L = ½ (E A ε² + C_y Γ_y² + C_z Γ_z² + κ·C_m κ), with the axial strain
+/// ε. `force` and `moment` are its derivatives by Γ and κ. `normal` is the normal force E A ε.
 template <class S>
 struct Resultants {
   Vec3<S> force, moment;
   S energy, normal;
 
-  /// `axial` and `J` are ε and ∂ε/∂Γ without the contribution of twist.
+  /// Computes the section forces from the strains `gamma` (Γ) and `kappa` (κ). `axial`: axial strain ε without the
+  /// contribution of twist. `J`: derivative of `axial` by Γ.
   template <int N>
   Resultants(const BeamElement<N>& e, const Vec3<S>& gamma, const Vec3<S>& kappa, const S& axial, const Vec3<S>& J)
       : force(e.force_stiffness.template cast<S>().cwiseProduct(gamma)),

@@ -18,8 +18,9 @@ inline S polynomial(const std::array<double, K>& a, const S& u) {
   return sum;
 }
 
-/// Series of e(u) of T⁻¹, u = a²: Σ |B_2k| u^(k−1)/(2k)!. Below `series_limit` nine terms are exact to round-off.
+/// Limit of u = a² [rad²] below which the nine terms of `e_series` are exact to round-off.
 inline constexpr double series_limit = 0.25;
+/// Coefficients of the series e(u) = Σ |B_2k| u^(k−1)/(2k)! of T⁻¹, THEORY (4), with u = a² and Bernoulli numbers B.
 inline constexpr std::array<double, 9> e_series = {1.0 / 12.0,
                                                    1.0 / 720.0,
                                                    1.0 / 30240.0,
@@ -29,12 +30,13 @@ inline constexpr std::array<double, 9> e_series = {1.0 / 12.0,
                                                    1.0 / 74724249600.0,
                                                    3617.0 / 10670622842880000.0,
                                                    43867.0 / 5109094217170944000.0};
-/// Series of atan(√z)/√z.
+/// Coefficients of the series of atan(√z)/√z in powers of z.
 inline constexpr std::array<double, 10> atan_series = {1.0,       -1.0 / 3, 1.0 / 5,   -1.0 / 7, 1.0 / 9,
                                                        -1.0 / 11, 1.0 / 13, -1.0 / 15, 1.0 / 17, -1.0 / 19};
 
-/// ψ = log(E), |ψ| ≤ π, with quantities for its variations: w = tan(a/4)/a ψ (so that exp(ψ/2) = 1 + 2 (w~ + w~²)/(1 +
-/// w·w)), u = a² = ψ·ψ, e of T⁻¹(ψ) = 1 + ψ~/2 + e ψ~². Needs no transcendental function below |ψ| = 0.5.
+/// Rotation vector ψ = log(E) of a rotation E, a = |ψ| ≤ π, with quantities for its variations. w = tan(a/4)/a ψ, so
+/// that exp(ψ/2) = 1 + 2 (w~ + w~²)/(1 + w·w). u = a², and e is that of T⁻¹(ψ) = 1 + ψ~/2 + e ψ~², THEORY (4). Below a
+/// = 0.5 rad it needs no transcendental function.
 template <class S>
 struct Logarithm {
   Vec3<S> psi, w;
@@ -62,14 +64,15 @@ struct Logarithm {
   }
 };
 
-/// Product T⁻¹(ψ) a = a + ψ×a/2 + e ψ×(ψ×a). The argument −ψ gives the transpose.
+/// Product T⁻¹(ψ) a = a + ψ×a/2 + e ψ×(ψ×a) of THEORY (4). `e`: Logarithm::e of ψ. With −ψ for ψ the result is T⁻ᵀ(ψ)
+/// a.
 template <class S>
 inline Vec3<S> inverse_tangent_times(const Vec3<S>& psi, const S& e, const Vec3<S>& a) {
   const Vec3<S> b = cross(psi, a);
   return a + b * S(0.5) + cross(psi, b) * e;
 }
 
-/// Ten terms of Σ (−1)^k u^k/(2k + first)!, differentiated `order` times by 2 d/du.
+/// First ten coefficients of the series Σ (−1)^k u^k/(2k + first)! after `order` applications of 2 d/du.
 constexpr std::array<double, 10> curvature_series(int first, int order) {
   std::array<double, 10> a{};
   for (int k = 0; k < 10; ++k) {
@@ -85,8 +88,9 @@ inline constexpr std::array<double, 10> c_series = curvature_series(2, 0), c1_se
                                         c2_series = curvature_series(2, 2), d_series = curvature_series(3, 0),
                                         d1_series = curvature_series(3, 1), d2_series = curvature_series(3, 2);
 
-/// Functions c = (1 − cos a)/a², d = (a − sin a)/a³ of u = a², and derivatives c1 = 2 dc/du, c2 = 2 dc1/du, likewise d:
-/// ∇c = c1 φ for u = φ·φ. Series below u = 1, closed forms above.
+/// Functions of u = a² for an angle a: s = sin(a)/a, c = (1 − cos a)/a², d = (a − sin a)/a³. c1 = 2 dc/du and c2 = 2
+/// dc1/du are derivatives, and so are d1 and d2 of d. For u = φ·φ the gradient of c is c1 φ. Uses series below u = 1
+/// and closed forms above.
 template <class S>
 struct CurvatureFunctions {
   S s, c, d, c1, d1;
@@ -115,14 +119,16 @@ struct CurvatureFunctions {
   S d2(const S& u) const { return real_part(u) < 1.0 ? polynomial(d2_series, u) : (c1 - 5.0 * d1) / u; }
 };
 
-/// Product T(φ) a = a − c φ×a + d φ×(φ×a). The argument −φ gives the transpose.
+/// Product T(φ) a = a − c φ×a + d φ×(φ×a) of THEORY (3). `f`: functions c and d of u = φ·φ. With −φ for φ the result is
+/// Tᵀ(φ) a.
 template <class S>
 inline Vec3<S> tangent_times(const Vec3<S>& phi, const CurvatureFunctions<S>& f, const Vec3<S>& a) {
   const Vec3<S> b = cross(phi, a);
   return a - b * f.c + cross(phi, b) * f.d;
 }
 
-/// Gradient ∇_φ (m · T(φ) a) = −c k − c1 A φ + d ∇B + d1 B φ with k = a×m, A = φ·k, B = (φ·a)(φ·m) − u a·m.
+/// Gradient of m · T(φ) a by φ: −c k − c1 A φ + d ∇B + d1 B φ with k = a×m, A = φ·k, B = (φ·a)(φ·m) − u a·m. `u` = φ·φ,
+/// and `f` holds the functions of u.
 template <class S>
 inline Vec3<S> tangent_gradient(const Vec3<S>& phi, const S& u, const CurvatureFunctions<S>& f, const Vec3<S>& a,
                                 const Vec3<S>& m) {

@@ -51,7 +51,8 @@ void require_apart(const MatrixXd& A, const Split& split, const std::string& wha
     for (Eigen::Index j = 0; j < mixed.cols(); ++j)
       if (!(std::abs(mixed(i, j)) <= planar_share * in[i] * out[j]))
         throw LeavesPlane{
-            fmt::format("{} couples motion in it with motion out of it: {:.3g} beside diagonals of {:.3g} and {:.3g}",
+            fmt::format("{} couples motion in the plane with motion out of the plane: entry {:.3g}, diagonal entries "
+                        "{:.3g} and {:.3g}",
                         what, mixed(i, j), in[i] * in[i], out[j] * out[j])};
 }
 
@@ -282,7 +283,7 @@ void set_nodes(const Matrix3d& axes, SuperelementBody& planar) {
   for (SuperelementNode& node : planar.node) {
     node.X = (axes.transpose() * node.X).eval();
     node.X_polar = (axes.transpose() * node.X_polar).eval();
-    require_nothing(node.X.tail<1>(), length, fmt::format("the place of node '{}' in its body", node.name));
+    require_nothing(node.X.tail<1>(), length, fmt::format("the position of node '{}' in its body", node.name));
     node.X.z() = node.X_polar.z() = 0.0;
   }
 }

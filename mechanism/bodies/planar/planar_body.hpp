@@ -9,10 +9,11 @@
 
 namespace tisserand::mechanism {
 
-/// Planar body in the plane with `axes` in the part frame, z normal. Boundary rows: per node [x y, θ_z]. Internal modes
-/// that do not couple with them are omitted, after modes of one frequency were separated. Couplings between motions in
-/// and out of the plane count as zero up to 1e-10 of the diagonals (of the largest entry, for arrays of second order).
-/// Larger ones throw LeavesPlane.
+/// Planar body from a superelement body in space. `axes` are those of the plane in the part frame, z normal to it. A
+/// node has the boundary rows [x y, θ_z]. Internal modes that do not couple with these rows are omitted, after modes of
+/// one frequency were separated. Couplings between motions in the plane and out of it count as zero up to 1e-10 of the
+/// diagonals. For arrays of second order the limit is 1e-10 of the largest entry. Throws LeavesPlane for larger
+/// couplings.
 SuperelementBody planar_body(const SuperelementBody& body, const Eigen::Matrix3d& axes);
 
 }  // namespace tisserand::mechanism

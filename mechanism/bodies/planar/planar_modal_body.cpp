@@ -90,9 +90,9 @@ void require_apart(const MatrixXd& P2, const Split& modes) {
   };
   for (const int a : rows_across) require_nothing(product(a, modes.in, modes.in), 1.0, "a second moment of its modes");
   require_nothing(product(0, modes.in, modes.out) + product(4, modes.in, modes.out), 1.0,
-                  "what a spin does to its modes");
+                  "the effect of rotation on its modes");
   require_nothing(product(1, modes.in, modes.out) - product(3, modes.in, modes.out), 1.0,
-                  "what a change of spin does to its modes");
+                  "the effect of angular acceleration on its modes");
 }
 
 /// Transforms the sums to the modes w_p of w = W w_p.

@@ -22,7 +22,8 @@ double largest(const MatrixXd& A) { return A.size() > 0 ? A.cwiseAbs().maxCoeff(
 
 void require_nothing(const MatrixXd& part, double size, const std::string& what) {
   if (!(largest(part) <= planar_share * size))
-    throw LeavesPlane{fmt::format("{} leads out of it: {:.3g} beside {:.3g}", what, largest(part), size)};
+    throw LeavesPlane{fmt::format("{} has a component of {:.3g} out of the plane, compared with a size of {:.3g}", what,
+                                  largest(part), size)};
 }
 
 Split split_modes(const ModePulls& pulls, const VectorXd& stiffness, const std::string& kind) {
@@ -42,8 +43,8 @@ Split split_modes(const ModePulls& pulls, const VectorXd& stiffness, const std::
       const double pull_in = largest(pulls.in.middleCols(first, end - first) * mode),
                    pull_out = largest(pulls.out.middleCols(first, end - first) * mode);
       if (pull_in > planar_share && pull_out > planar_share)
-        throw LeavesPlane{fmt::format("{} {} couples with motion in it ({:.3g}) and out of it ({:.3g})", kind,
-                                      first + 1, pull_in, pull_out)};
+        throw LeavesPlane{fmt::format("{} {} couples with motion in the plane ({:.3g}) and out of the plane ({:.3g})",
+                                      kind, first + 1, pull_in, pull_out)};
       (pull_in > planar_share ? split.in.col(in++) : split.out.col(out++)).segment(first, end - first) = mode;
     }
   }

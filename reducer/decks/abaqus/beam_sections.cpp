@@ -28,10 +28,11 @@ std::vector<double> sizes_of(Model& model, const Block& block, std::size_t count
     sizes.push_back(*size);
   }
   if (sizes.size() < count)
-    throw model.error(fmt::format("{}: {} of {} sizes", block.title, sizes.size(), count), line, "give all sizes");
+    throw model.error(fmt::format("{}: {} of {} sizes are given", block.title, sizes.size(), count), line,
+                      "give all sizes");
   for (std::size_t k = 0; k < count; ++k)
     if (!(sizes[k] > 0.0))
-      throw model.error(fmt::format("{}: size {} = 0", block.title, k + 1), line, "give sizes > 0");
+      throw model.error(fmt::format("{}: size {} is 0", block.title, k + 1), line, "give sizes > 0");
   return sizes;
 }
 
@@ -45,7 +46,7 @@ Section circle(Model& model, const Block& block) {
     return formats::circle_section(0.5 * sizes[0]);
   }
   throw model.error("SECTION=CIRC with the sizes of an ellipse", block.data[0],
-                    "give one radius (Abaqus), two equal diameters (CalculiX), or constants by *BEAM GENERAL SECTION");
+                    "give one radius (Abaqus) or two equal diameters (CalculiX), or use *BEAM GENERAL SECTION");
 }
 
 Section pipe(Model& model, const Block& block) {
@@ -66,8 +67,8 @@ void check_profile(Model& model, const Block& block, const char* shape, const st
 Section box(Model& model, const Block& block) {
   const std::vector<double> s = sizes_of(model, block, 6);
   if (s[2] != s[3] || s[2] != s[4] || s[2] != s[5])
-    throw model.error("SECTION=BOX with walls of several thicknesses is not understood", block.data[0],
-                      "give equal ones, or constants by *BEAM GENERAL SECTION, SECTION=GENERAL");
+    throw model.error("SECTION=BOX with walls of different thickness is not understood", block.data[0],
+                      "give equal thicknesses, or use *BEAM GENERAL SECTION, SECTION=GENERAL");
   const std::vector<double> sizes = {s[1], s[0], s[2], s[3], s[4], s[5]};
   check_profile(model, block, "box", sizes);
   return formats::profile_section("box", sizes);
@@ -103,7 +104,7 @@ Section general(Model& model, const Block& block) {
                       "give A, I11, I22, J > 0 and I12² < I11 I22");
   if (sectorial_moment != 0.0)
     throw model.error(fmt::format("sectorial moment {} is not understood", sectorial_moment), block.data[0],
-                      "give sections about their shear centre, with 0");
+                      "give the section constants about the shear centre and 0 as sectorial moment");
   Section section;
   section.area = section.shear_area_y = section.shear_area_z = A;
   section.second_moment_y = I11;
@@ -128,7 +129,7 @@ Section section_of(Model& model, const Block& block) {
   if (shape == "I") return i_section(model, block);
   if (shape == "GENERAL") return general(model, block);
   throw Error(fmt::format("{}, SECTION={} is not understood", block.title, shape), model.where(block),
-              "use RECT, CIRC, PIPE, BOX, I, or the constants of *BEAM GENERAL SECTION, SECTION=GENERAL");
+              "use RECT, CIRC, PIPE, BOX or I, or *BEAM GENERAL SECTION, SECTION=GENERAL");
 }
 
 /// E and G of the third data line, DENSITY of the keyword line.
@@ -223,7 +224,7 @@ void read_beam_section(Model& model, int scope, std::size_t index) {
     if (!read_numbers(model, block, block.data[1], n1)) return;
   }
   use.direction = owner.placement.R * Eigen::Vector3d(n1[0], n1[1], n1[2]);
-  if (!(use.direction.norm() > 0.0)) throw model.error("n1 is zero", block.data[1], "give a direction");
+  if (!(use.direction.norm() > 0.0)) throw model.error("n1 is zero", block.data[1], "give a vector that is not zero");
   use.property = add_row(model.deck.mesh.beam_properties, std::move(property));
   give_section(model, scope, block, use);
 }

@@ -94,8 +94,8 @@ void read_support(Model& model, int scope, const Block& block, Supports& support
         supports.example = fmt::format("{}: '{}'", model.where(line), line.text.substr(0, 60));
       continue;
     }
-    model.fault(fmt::format("*BOUNDARY holds {} against the ground", model.node_text(*bearing)), line,
-                "a superelement floats: put the support into the scene");
+    model.fault(fmt::format("*BOUNDARY fixes {} to the ground", model.node_text(*bearing)), line,
+                "a superelement has no supports: define the support in the scene");
   }
 }
 
@@ -140,9 +140,9 @@ void make_boundary(Model& model, const std::map<int, Retained>& retained, const 
   for (const auto& [node, entry] : retained) {
     const Components translations = entry.components & translations_only, rotations = entry.components & rotations_only;
     if ((translations != 0 && translations != translations_only) || (rotations != 0 && rotations != rotations_only)) {
-      model.fault(fmt::format("*RETAINED NODAL DOFS: {} retains some of its translations or rotations only",
+      model.fault(fmt::format("*RETAINED NODAL DOFS: {} retains only some of its translations or rotations",
                               model.node_text(node)),
-                  where, "retain 1 to 3, 4 to 6 or 1 to 6");
+                  where, "retain degrees of freedom 1 to 3, 4 to 6 or 1 to 6");
       continue;
     }
     const bool has_own_name = !entry.name.empty() && uses[entry.name] == 1;
@@ -178,12 +178,12 @@ void read_boundary(Model& model) {
   make_boundary(model, retained, retained_at);
   if (supports.lines_without_effect > 0)
     model.deck.mesh.warnings.push_back(fmt::format(
-        "*BOUNDARY: {} lines hold only components without stiffness and mass and are not used, the first at {}",
+        "*BOUNDARY: {} lines are ignored because they fix only components without stiffness and mass; the first is {}",
         supports.lines_without_effect, supports.example));
   std::vector<std::string> words;
   for (const auto& [title, count] : in_steps) words.push_back(fmt::format("{} ({})", title, count));
   if (!words.empty())
-    model.deck.mesh.warnings.push_back(fmt::format("keywords of steps that are not used: {}", listed(words)));
+    model.deck.mesh.warnings.push_back(fmt::format("these keywords inside steps are ignored: {}", listed(words)));
 }
 
 }  // namespace tisserand::reducer::abaqus

@@ -6,8 +6,9 @@
 
 namespace tisserand::reducer::abaqus {
 
-/// *RETAINED NODAL DOFS becomes Mesh::boundary. *BOUNDARY of the model and of steps is a fault, or a warning if the
-/// components have neither stiffness nor mass. One warning lists the other keywords of steps.
+/// Makes the coordinates of *RETAINED NODAL DOFS the boundary of the mesh. Adds a fault for *BOUNDARY of the model and
+/// of steps, or a warning if the components have neither stiffness nor mass. Adds one warning that lists the other
+/// keywords of steps.
 void read_boundary(Model& model);
 
 }  // namespace tisserand::reducer::abaqus

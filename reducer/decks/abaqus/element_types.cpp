@@ -96,11 +96,11 @@ const ElementType* find_element_type(const std::string& name) {
 RefusedType refused_type(const std::string& name) {
   static const std::vector<std::pair<std::vector<std::string_view>, RefusedType>> refused{
       {{"S6", "S8", "S8R", "S8R5", "S9R5", "STRI65"},
-       {"shells with nodes on the middle of their edges are not understood", "mesh with S3 and S4 or S4R"}},
+       {"shells with nodes in the middle of their edges are not understood", "mesh with S3 and S4 or S4R"}},
       {{"B32", "B32R", "B32H", "PIPE32", "T3D3"},
-       {"beams and trusses of three nodes are not understood", "mesh with B31, B33 or T3D2"}},
+       {"beams and trusses with three nodes are not understood", "mesh with B31, B33 or T3D2"}},
       {{"B31OS", "B31OSH", "B32OS", "B32OSH"},
-       {"beams with a warping coordinate are not understood", "mesh with B31 or with shells"}}};
+       {"beams with a warping degree of freedom are not understood", "mesh with B31 or with shells"}}};
   for (const auto& [names, type] : refused)
     if (std::find(names.begin(), names.end(), name) != names.end()) return type;
   return {};

@@ -31,7 +31,7 @@ Placement read_system(Model& model, const Block& block) {
   const Eigen::Vector3d x = (b - a).normalized();
   const Eigen::Vector3d z = x.cross(c - a);
   if (block.data.size() < 2 || !(z.norm() > 1e-9 * (c - a).norm()) || !((b - a).norm() > 0.0)) {
-    model.fault("*SYSTEM: its points do not span a plane", block,
+    model.fault("*SYSTEM: its points do not define a plane", block,
                 "give the origin a, b on the x axis and, in a second line, c in the x-y plane");
     return system;
   }
@@ -50,7 +50,7 @@ bool read_node_line(Model& model, const Line& line, long& id, Eigen::Vector3d& p
   std::string_view field;
   const std::optional<long> number = fields.next(field) ? to_integer(field) : std::nullopt;
   if (!number || *number <= 0) {
-    model.fault(fmt::format("*NODE: '{}' is no node number", field), line,
+    model.fault(fmt::format("*NODE: '{}' is not a node number", field), line,
                 "begin the line with a positive whole number");
     return false;
   }
@@ -60,7 +60,7 @@ bool read_node_line(Model& model, const Line& line, long& id, Eigen::Vector3d& p
     if (field.empty()) continue;
     const std::optional<double> value = to_number(field);
     if (!value) {
-      model.fault(fmt::format("node {}: '{}' is no coordinate", id, field), line, "write a finite number");
+      model.fault(fmt::format("node {}: '{}' is not a coordinate", id, field), line, "write a finite number");
       return false;
     }
     position[k] = *value;
@@ -78,7 +78,8 @@ void read_node_block(Model& model, int scope_index, const Block& block, const Pl
   const Eigen::Matrix3d R = scope.placement.R * system.R;
   const Eigen::Vector3d t = scope.placement.R * system.t + scope.placement.t;
   if (model.positions.size() + block.data.size() > kMostNodes)
-    throw Error(fmt::format("more than {} nodes", kMostNodes), model.where(block), "reduce the part in pieces");
+    throw Error(fmt::format("more than {} nodes", kMostNodes), model.where(block),
+                "divide the part into several parts");
   scope.nodes.reserve(scope.nodes.size() + block.data.size());
   for (const Line& line : block.data) {
     long id = 0;
@@ -105,7 +106,7 @@ class ElementBlock {
   void read() {
     if (model_.elements.size() + block_.data.size() > kMostElements)
       throw Error(fmt::format("more than {} elements", kMostElements), model_.where(block_),
-                  "reduce the part in pieces");
+                  "divide the part into several parts");
     scope().elements.reserve(scope().elements.size() + block_.data.size());
     for (const Line& line : block_.data) read_line(line);
     if (is_open_) too_few(*last_line_);
@@ -132,7 +133,7 @@ class ElementBlock {
     is_sound_ = id && *id > 0;
     found_ = 0;
     if (!is_sound_)
-      model_.fault(fmt::format("*ELEMENT: '{}' is no element number", field), line,
+      model_.fault(fmt::format("*ELEMENT: '{}' is not an element number", field), line,
                    "begin the line with a positive whole number");
     element_ = {};
     element_.id = id.value_or(0);
@@ -158,8 +159,9 @@ class ElementBlock {
     is_open_ = false;
     const int most = type_.nodes + (type_.kind == ElementKind::beam ? 1 : 0);
     if (is_sound_ && found_ > most) {
-      model_.fault(fmt::format("element {}: {} nodes, but {} has {}", element_.id, found_, type_.name, type_.nodes),
-                   line, "correct the type or the nodes");
+      model_.fault(
+          fmt::format("element {} names {} nodes, but type {} has {}", element_.id, found_, type_.name, type_.nodes),
+          line, "correct the type or the nodes");
       is_sound_ = false;
     }
     if (is_sound_) is_sound_ = is_new(line);
@@ -183,7 +185,8 @@ class ElementBlock {
   }
 
   void too_few(const Line& line) {
-    model_.fault(fmt::format("element {}: {} of the {} nodes of {}", element_.id, found_, type_.nodes, type_.name),
+    model_.fault(fmt::format("element {} names only {} of the {} nodes of type {}", element_.id, found_, type_.nodes,
+                             type_.name),
                  line, "give all nodes; is the file truncated?");
     model_.connectivity.resize(element_.first);
   }

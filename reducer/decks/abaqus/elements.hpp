@@ -8,7 +8,7 @@ namespace tisserand::reducer::abaqus {
 
 void read_nodes(Model& model, int scope);
 
-/// Reads the elements of a scope. Needs the nodes of all scopes.
+/// Reads *ELEMENT of a scope. Requires that the nodes of all scopes have been read.
 void read_elements(Model& model, int scope);
 
 }  // namespace tisserand::reducer::abaqus

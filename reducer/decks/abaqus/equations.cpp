@@ -50,7 +50,7 @@ class EquationReader {
       const std::optional<long> count = fields.size() == 1 ? to_integer(fields[0]) : std::nullopt;
       ++line_;
       if (!count || *count < 1) {
-        model_.fault(fmt::format("*EQUATION: '{}' is no number of terms", line.text.substr(0, 60)), line,
+        model_.fault(fmt::format("*EQUATION: '{}' is not a number of terms", line.text.substr(0, 60)), line,
                      "begin every equation with a line that holds its number of terms");
         return;
       }
@@ -66,7 +66,7 @@ class EquationReader {
       const Line& line = block_.data[line_++];
       const std::vector<std::string_view> fields = split(line.text);
       if (fields.empty() || fields.size() % 3 != 0) {
-        model_.fault("*EQUATION: terms are node, degree of freedom, coefficient", line,
+        model_.fault("*EQUATION: each term needs a node, a degree of freedom and a coefficient", line,
                      "write three values for each term");
         return false;
       }
@@ -74,7 +74,7 @@ class EquationReader {
         if (!read_term(line, fields[k], fields[k + 1], fields[k + 2])) return false;
     }
     if (terms_.size() == count) return true;
-    model_.fault(fmt::format("*EQUATION: {} terms announced, {} given", count, terms_.size()), start,
+    model_.fault(fmt::format("*EQUATION: {} terms are announced, but {} are given", count, terms_.size()), start,
                  "correct the number");
     return false;
   }
@@ -85,8 +85,8 @@ class EquationReader {
     const std::optional<long> component = to_integer(dof);
     const std::optional<double> coefficient = to_number(value);
     if (!component || *component < 1 || *component > 6 || !coefficient) {
-      model_.fault(fmt::format("*EQUATION: degree of freedom '{}', coefficient '{}'", dof, value), line,
-                   "write a number from 1 to 6 and a finite coefficient");
+      model_.fault(fmt::format("*EQUATION: degree of freedom '{}' or coefficient '{}' is not valid", dof, value), line,
+                   "write a degree of freedom from 1 to 6 and a finite coefficient");
       return false;
     }
     terms_.push_back({*nodes, static_cast<int>(*component) - 1, *coefficient});
@@ -97,12 +97,14 @@ class EquationReader {
     const std::size_t count = terms_.front().nodes.size();
     for (const Term& term : terms_)
       if (term.nodes.size() != 1 && term.nodes.size() != count) {
-        model_.fault(fmt::format("*EQUATION: sets of {} and of {} nodes", count, term.nodes.size()), line,
-                     "let all sets be as large as the first one, or name single nodes");
+        model_.fault(
+            fmt::format("*EQUATION: the first set has {} nodes, but another one has {}", count, term.nodes.size()),
+            line, "give all sets the same number of nodes, or name single nodes");
         return;
       }
     if (terms_.front().coefficient == 0.0) {
-      model_.fault("*EQUATION: the first coefficient is 0", line, "put a term first that can be eliminated");
+      model_.fault("*EQUATION: the first coefficient is 0", line,
+                   "begin with a term whose coefficient is not 0: it is eliminated");
       return;
     }
     for (std::size_t i = 0; i < count; ++i) {

@@ -8,13 +8,13 @@
 namespace tisserand::reducer::abaqus {
 
 enum class KeywordRole {
-  defines,  ///< read as a block
-  follows,  ///< read with the preceding keyword, such as *KINEMATIC after *COUPLING
+  defines,  ///< the keyword is read as a block
+  follows,  ///< the keyword is read with the preceding one, such as *KINEMATIC after *COUPLING
   silent,   ///< titles and output requests
   skipped   ///< without effect on stiffness and mass; listed in a warning
 };
 
-/// Role of a keyword in upper case without blanks; empty if it is not supported.
+/// Role of a keyword, which is in upper case without blanks. Returns nothing if the reader does not support it.
 std::optional<KeywordRole> keyword_role(std::string_view keyword);
 
 }  // namespace tisserand::reducer::abaqus

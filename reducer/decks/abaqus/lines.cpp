@@ -86,7 +86,7 @@ class Reader {
       throw Error(fmt::format("more than {} files are included", kMostFiles), where, "include every file once");
     std::error_code none;
     if (!fs::is_regular_file(path, none))
-      throw Error(fmt::format("'{}' is no file that can be read", path.string()), where, "check the path");
+      throw Error(fmt::format("'{}' is not a file that can be read", path.string()), where, "check the path");
     std::ifstream stream(path, std::ios::binary);
     auto text = std::make_unique<std::string>();
     if (stream) {
@@ -121,7 +121,7 @@ class Reader {
         keyword_line(continued, path, file, continued_from);
         continued.clear();
       } else if (input_.blocks.empty()) {
-        throw Error("the line stands before the first keyword", input_.where({line, file, number}),
+        throw Error("this line comes before the first keyword", input_.where({line, file, number}),
                     "an Abaqus deck begins with a keyword such as *HEADING or *NODE; is the file of another format?");
       } else {
         input_.blocks.back().data.push_back({line, file, number});
@@ -148,7 +148,7 @@ class Reader {
     const fs::path target = path.parent_path() / *source;
     const std::string where = input_.where(block);
     if (std::find(open_.begin(), open_.end(), target.lexically_normal()) != open_.end())
-      throw Error(fmt::format("'{}' includes itself", target.string()), where, "break the circle of *INCLUDE");
+      throw Error(fmt::format("'{}' includes itself", target.string()), where, "remove this *INCLUDE");
     if (block.keyword != "INCLUDE") input_.blocks.push_back(std::move(block));
     read_lines(target, load(target, where));
   }
@@ -182,7 +182,7 @@ Input read_input(const std::string& path) {
   Input input;
   Reader(input).read_file(path);
   if (input.blocks.empty())
-    throw Error("no keyword in the file", path, "an Abaqus deck begins with a keyword such as *HEADING or *NODE");
+    throw Error("the file has no keyword", path, "an Abaqus deck begins with a keyword such as *HEADING or *NODE");
   return input;
 }
 

@@ -19,7 +19,7 @@ std::optional<std::vector<double>> constants_of(Model& model, const Block& block
     for (const std::string_view field : split(line.text)) {
       const std::optional<double> value = to_number(field);
       if (!value)
-        return model.refuse(fmt::format("{}: '{}' is no number", block.title, field), line, "write a finite number");
+        return model.refuse(fmt::format("{}: '{}' is not a number", block.title, field), line, "write a finite number");
       values.push_back(*value);
       if (values.size() > 2 * wanted) break;
     }
@@ -28,8 +28,8 @@ std::optional<std::vector<double>> constants_of(Model& model, const Block& block
     values.resize(wanted);
     return values;
   }
-  return model.refuse(fmt::format("{}: {} values where {} are expected", block.title, values.size(), wanted), block,
-                      "give one row: constants that change with temperature are not understood");
+  return model.refuse(fmt::format("{}: {} values are given, expected {}", block.title, values.size(), wanted), block,
+                      "give one set of constants: values for several temperatures are not understood");
 }
 
 void read_isotropic(Model& model, const Block& block, AbaqusMaterial& material) {
@@ -123,7 +123,7 @@ void read_materials(Model& model) {
     }
     if (block->keyword != "ELASTIC" && block->keyword != "DENSITY") continue;
     if (present == nullptr)
-      model.fault(fmt::format("{} stands before the first *MATERIAL", block->title), *block,
+      model.fault(fmt::format("{} comes before the first *MATERIAL", block->title), *block,
                   "write *MATERIAL, NAME=... before it");
     else if (block->keyword == "ELASTIC")
       read_elastic(model, *block, *present);
@@ -144,7 +144,7 @@ const AbaqusMaterial* find_material(Model& model, const std::string& name, const
   }
   if (found->second.kind != AbaqusMaterial::Kind::none) return &found->second;
   model.fault(fmt::format("material '{}' has no elastic constants", name), where,
-              fmt::format("give it *ELASTIC (it begins at {})", found->second.where));
+              fmt::format("add *ELASTIC to it (it begins at {})", found->second.where));
   return nullptr;
 }
 

@@ -7,19 +7,19 @@
 
 namespace tisserand::reducer::abaqus {
 
-/// Fills Model::materials from the blocks of the assembly.
+/// Reads *MATERIAL of the assembly into Model::materials.
 void read_materials(Model& model);
 
-/// Material by name; null, with a fault, if it does not exist or is not elastic.
+/// Material by its name; null after a fault, if it does not exist or is not elastic. `where`: place for the message.
 const AbaqusMaterial* find_material(Model& model, const std::string& name, const std::string& where);
-/// Material that the block's parameter MATERIAL names.
+/// Material that the parameter MATERIAL of `block` names; null after a fault.
 const AbaqusMaterial* find_material(Model& model, const Block& block);
 
-/// Layer of this material with thickness and angle 0. Orthotropic materials are in plane stress: σ33 = 0.
+/// Layer of `material` with thickness and angle 0. Orthotropic materials are reduced to plane stress, σ33 = 0.
 Ply ply_of(const AbaqusMaterial& material);
 
-/// C in part axes; R_PM has the material axes as columns. Throws Error for constants that are not positive definite.
-/// The material must not be a lamina (check before).
+/// Elasticity and density of `material` for solids, in part axes. The columns of `R_PM` are the material axes in part
+/// axes. Throws Error for constants that are not positive definite. Requires a material that is no lamina.
 SolidMaterial solid_of(const AbaqusMaterial& material, const Eigen::Matrix3d& R_PM);
 
 }  // namespace tisserand::reducer::abaqus

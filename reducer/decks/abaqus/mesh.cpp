@@ -79,7 +79,9 @@ int add_beam(Model& model, const RawElement& element, SectionUse& use) {
         fmt::format("{}: {}", model.element_text(element),
                     axis.norm() > 0.0 ? fmt::format("n1 = ({}, {}, {}) is parallel to the beam", n1.x(), n1.y(), n1.z())
                                       : std::string("its nodes coincide")),
-        element, axis.norm() > 0.0 ? "give another n1 in the second data line of the section" : "delete or mend it");
+        element,
+        axis.norm() > 0.0 ? "give another n1 in the second data line of the section"
+                          : "delete the element or correct its nodes");
     return -1;
   }
   beam.R_PE = *axes;
@@ -114,7 +116,7 @@ int add_spring(Model& model, const RawElement& element, const SectionUse& use) {
     const auto stiffness = reducer::axial_spring(use.stiffness, reach);
     if (!stiffness)
       model.fault(fmt::format("{}: its nodes coincide", model.element_text(element)), element,
-                  "use SPRING2, which has a direction of its own");
+                  "use SPRING2, for which you give the direction");
     spring.stiffness = stiffness.value_or(Eigen::Matrix<double, 12, 12>::Zero());
   } else {
     if (!use.axes)
@@ -124,10 +126,10 @@ int add_spring(Model& model, const RawElement& element, const SectionUse& use) {
                                      {use.components[1], component_axes(model, use, nodes[1])});
     const double defect = rigid_motion_defect(spring.stiffness, reach);
     if (use.stiffness > 0.0 && defect > 1e-9)
-      model.fault(fmt::format("{} holds the part against the ground: its force grows when the part moves as a "
-                              "rigid body (nodes {:.6g} apart, degrees of freedom {} and {})",
+      model.fault(fmt::format("{} resists rigid-body motion of the part, like a support (its nodes are {:.6g} "
+                              "apart, degrees of freedom {} and {})",
                               model.element_text(element), reach.norm(), use.components[0] + 1, use.components[1] + 1),
-                  element, "a superelement floats: let both nodes coincide, or use SPRINGA");
+                  element, "place both nodes at the same point, or use SPRINGA");
   }
   return add_row(model.deck.mesh.springs, spring);
 }
@@ -159,8 +161,8 @@ int add_element(Model& model, const RawElement& element, SectionUse& use) {
       add_point(model, element, use);
       return -1;
     case ElementKind::ground_spring:
-      model.fault(fmt::format("{} holds the part against the ground", model.element_text(element)), element,
-                  "a superelement floats: put the support into the scene");
+      model.fault(fmt::format("{} connects the part to the ground", model.element_text(element)), element,
+                  "a superelement has no supports: define the support in the scene");
       return -1;
   }
   return -1;
@@ -200,21 +202,22 @@ bool lacks_section(const RawElement& element) {
 
 void add_missing_section(Model& model, const std::string& set, int count, const RawElement& first) {
   const std::string element = model.element_text(first);
-  const std::string who = count == 1    ? element
-                          : set.empty() ? fmt::format("{} elements in no set, from {} on:", count, element)
-                                        : fmt::format("set '{}': {} elements, from {} on:", set, count, element);
-  model.fault(who + (count == 1 ? " has no section" : " no section"), first,
+  const std::string text =
+      count == 1    ? fmt::format("{} has no section", element)
+      : set.empty() ? fmt::format("{} elements in no set have no section, the first is {}", count, element)
+                    : fmt::format("set '{}': {} elements have no section, the first is {}", set, count, element);
+  model.fault(text, first,
               "name the set in *SHELL SECTION, *SOLID SECTION, *BEAM SECTION, *MASS, *ROTARY INERTIA or *SPRING");
 }
 
 /// Adds one fault per set; an element in several sets counts with the first by name.
 void find_missing_sections(Model& model) {
-  std::vector<bool> told(model.elements.size(), false);
+  std::vector<bool> reported(model.elements.size(), false);
   const auto tell = [&](const std::string& set, const auto& rows) {
     int count = 0, first = -1;
     for (const int row : rows) {
-      if (told[row] || !lacks_section(model.elements[row])) continue;
-      told[row] = true;
+      if (reported[row] || !lacks_section(model.elements[row])) continue;
+      reported[row] = true;
       first = count++ == 0 ? row : std::min(first, row);
     }
     if (count > 0) add_missing_section(model, set, count, model.elements[first]);

@@ -6,10 +6,10 @@
 
 namespace tisserand::reducer::abaqus {
 
-/// Sets nodes with labels, and Deck::node_of_id.
+/// Sets the nodes of the mesh with their labels, and Deck::node_of_id.
 void fill_nodes(Model& model);
 
-/// Adds all elements, with faults for those without a section.
+/// Adds all elements to the mesh, and faults for elements without a section.
 void fill_elements(Model& model);
 
 }  // namespace tisserand::reducer::abaqus

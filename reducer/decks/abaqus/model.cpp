@@ -20,15 +20,16 @@ std::string Model::element_text(const RawElement& element) const {
 bool read_numbers(Model& model, const Block& block, const Line& line, std::span<double> values) {
   const std::vector<std::string_view> fields = split(line.text);
   if (fields.size() > values.size()) {
-    model.fault(fmt::format("{}: {} values where at most {} are known", block.title, fields.size(), values.size()),
-                line, "see the data lines of the keyword");
+    model.fault(
+        fmt::format("{}: the line has {} values, expected at most {}", block.title, fields.size(), values.size()), line,
+        "compare the line with the manual of the keyword");
     return false;
   }
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (fields[i].empty()) continue;
     const std::optional<double> value = to_number(fields[i]);
     if (!value) {
-      model.fault(fmt::format("{}: '{}' is no number", block.title, fields[i]), line, "write a finite number");
+      model.fault(fmt::format("{}: '{}' is not a number", block.title, fields[i]), line, "write a finite number");
       return false;
     }
     values[i] = *value;

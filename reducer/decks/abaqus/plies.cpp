@@ -25,9 +25,10 @@ double side_of_normals(Model& model, int scope, const Block& block, const Eigen:
     const auto x = [&](int k) -> const Eigen::Vector3d& { return model.positions[nodes[k]]; };
     const double height = (x(2) - x(0)).cross(x(element.count - 1) - x(1)).dot(axis);
     if (side * height < 0.0)
-      throw Error(fmt::format("layers with orientations on both sides of their axis, for example {}",
+      throw Error(fmt::format("the layers use orientations, but normals of the set point to both sides of their axis, "
+                              "for example that of {}",
                               model.element_text(element)),
-                  where, "let the normals of the set point to one side, or give angles in degrees");
+                  where, "give all elements of the set normals to the same side, or give angles in degrees");
     if (height != 0.0) side = height > 0.0 ? 1.0 : -1.0;
   }
   return side == 0.0 ? 1.0 : side;
@@ -71,8 +72,8 @@ class Composite {
     const std::optional<Projection> own = look_up(name, line);
     if (!own) return std::nullopt;
     if (own->normal.dot(base_->normal) < 1.0 - 1e-12)
-      throw Error(fmt::format("orientation '{}' of a layer has another axis than the layers before it", name),
-                  model_.where(line), "let the orientations of all layers share the axis near the normal");
+      throw Error(fmt::format("orientation '{}' of a layer has a different axis from the layers before it", name),
+                  model_.where(line), "give the orientations of all layers the same axis near the normal");
     return side_ * std::atan2(base_->x.cross(own->x).dot(base_->normal), base_->x.dot(own->x));
   }
 
@@ -82,7 +83,7 @@ class Composite {
     const std::string where = model_.where(line);
     const std::optional<double> thickness = fields.empty() ? std::nullopt : to_number(fields[0]);
     if (!thickness || !(*thickness > 0.0) || fields.size() < 3)
-      return model_.refuse(fmt::format("{}: '{}' is no layer", block_.title, line.text.substr(0, 60)), where,
+      return model_.refuse(fmt::format("{}: '{}' is not a layer", block_.title, line.text.substr(0, 60)), where,
                            "write thickness, number of points, material, angle in degrees");
     const AbaqusMaterial* material = find_material(model_, std::string(fields[2]), where);
     if (material == nullptr) return std::nullopt;

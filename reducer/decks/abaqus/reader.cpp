@@ -23,23 +23,23 @@ std::string with_counts(const std::map<std::string, long>& counts) {
   return join(words, ", ");
 }
 
-void tell_unknown(Model& model, const std::string& path, UnknownCards unknown) {
+void report_unknown(Model& model, const std::string& path, UnknownCards unknown) {
   if (!model.skipped.empty())
     model.deck.mesh.warnings.push_back(
-        fmt::format("keywords without effect on stiffness and mass are not used: {}", with_counts(model.skipped)));
+        fmt::format("keywords without effect on stiffness and mass are ignored: {}", with_counts(model.skipped)));
   if (model.unknown.empty()) return;
   const std::string text = fmt::format("not understood: {}", with_counts(model.unknown));
   switch (unknown) {
     case UnknownCards::refuse:
-      model.fault(text, path, "remove them, or write `unknown: ignore` under mesh if the part can do without");
+      model.fault(text, path, "remove them, or write `unknown: ignore` under mesh if the part does not need them");
       break;
     case UnknownCards::ignore:
-      model.deck.mesh.warnings.push_back(text + "; ignored as wished");
+      model.deck.mesh.warnings.push_back(text + "; ignored because of `unknown: ignore`");
       break;
   }
 }
 
-void tell_massless_materials(Model& model) {
+void report_massless_materials(Model& model) {
   for (const auto& [name, material] : model.materials)
     if (material.kind != AbaqusMaterial::Kind::none && material.density == 0.0)
       model.deck.mesh.warnings.push_back(
@@ -69,8 +69,8 @@ Deck read_abaqus(const std::string& path, const DeckOptions& options) {
   abaqus::fill_elements(model);
   abaqus::for_each_scope(model, abaqus::read_ties);
   abaqus::read_boundary(model);
-  abaqus::tell_massless_materials(model);
-  abaqus::tell_unknown(model, path, options.unknown);
+  abaqus::report_massless_materials(model);
+  abaqus::report_unknown(model, path, options.unknown);
   model.faults.raise();
   abaqus::publish_sets(model);
   if (model.positions.empty()) throw Error("the deck has no nodes", path, "is it an Abaqus or CalculiX deck?");

@@ -54,10 +54,10 @@ class Sorter {
   void run() {
     for (const Block& block : model_.input.blocks) take(block);
     if (part_ != nullptr || instance_ >= 0 || in_step_)
-      model_.fault(fmt::format("the deck ends inside of {}", in_step_           ? "*STEP"
-                                                             : part_ != nullptr ? "*PART"
-                                                                                : "*INSTANCE"),
-                   model_.input.paths[0], "is the file truncated? close it with *END ...");
+      model_.fault(fmt::format("the deck ends inside {}", in_step_           ? "*STEP"
+                                                          : part_ != nullptr ? "*PART"
+                                                                             : "*INSTANCE"),
+                   model_.input.paths[0], "is the file truncated? add the missing *END ... keyword");
     for (const auto& [name, part] : parts_)
       if (!part.is_used) model_.deck.mesh.warnings.push_back(fmt::format("part '{}' has no instance", name));
   }
@@ -107,7 +107,7 @@ class Sorter {
     const auto found = parts_.find(part);
     if (found == parts_.end()) {
       model_.fault(fmt::format("*INSTANCE '{}': there is no part '{}'", scope.name, part), block,
-                   "define it before with *PART, NAME=...");
+                   "define the part before its instance, with *PART, NAME=...");
     } else {
       scope.blocks = found->second.blocks;
       found->second.is_used = true;

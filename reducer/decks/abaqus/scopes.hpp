@@ -6,7 +6,7 @@
 
 namespace tisserand::reducer::abaqus {
 
-/// Sets Model::scopes, ::steps, ::unknown and ::skipped.
+/// Sorts the blocks of the deck: sets Model::scopes, ::steps, ::unknown and ::skipped.
 void sort_into_scopes(Model& model);
 
 }  // namespace tisserand::reducer::abaqus

@@ -26,7 +26,7 @@ bool refuse_parameters(Model& model, const Block& block, std::initializer_list<c
   for (const char* name : names)
     if (block.find(name) != nullptr) {
       model.fault(fmt::format("{}: parameter {} is not understood", block.title, name), block,
-                  "give constant values, set by set");
+                  "give constant values for each set");
       found = true;
     }
   return found;
@@ -143,11 +143,12 @@ void read_solid(Model& model, int scope, const Block& block, const AbaqusMateria
     if (orientation == nullptr) return;
     if (!orientation->is_rectangular && material.kind != Kind::isotropic)
       throw Error(fmt::format("orientation '{}' is not rectangular with DEFINITION=COORDINATES", *name),
-                  orientation->where, "give rectangular axes, set by set");
+                  orientation->where, "give rectangular axes for each set");
     axes = orientation->axes;
   } else if (material.kind != Kind::isotropic) {
-    throw Error(fmt::format("*SOLID SECTION: material '{}' has directions, but there is no ORIENTATION", material.name),
-                model.where(block), "add ORIENTATION=...");
+    throw Error(
+        fmt::format("*SOLID SECTION: material '{}' is not isotropic, but there is no ORIENTATION", material.name),
+        model.where(block), "add ORIENTATION=...");
   }
   if (material.kind == Kind::lamina)
     throw Error(fmt::format("*SOLID SECTION: material '{}' is a LAMINA, which only shells can use", material.name),
@@ -229,7 +230,7 @@ void read_spring(Model& model, int scope, const Block& block) {
     if (block.data.size() < 2 || !read_numbers(model, block, block.data[0], dofs)) return;
     for (std::size_t k = 0; k < 2; ++k) {
       if (dofs[k] < 1.0 || dofs[k] > 6.0 || dofs[k] != std::floor(dofs[k]))
-        throw Error(fmt::format("*SPRING: there is no degree of freedom {}", dofs[k]), where,
+        throw Error(fmt::format("*SPRING: degree of freedom {} does not exist", dofs[k]), where,
                     "write two numbers from 1 to 6");
       use.components[k] = static_cast<int>(dofs[k]) - 1;
     }
@@ -254,7 +255,7 @@ std::optional<double> number_at(Model& model, const Block& block, std::size_t li
   const std::optional<double> value = field < fields.size() ? to_number(fields[field]) : std::nullopt;
   if (!value)
     model.fault(fmt::format("{}: {} {}", block.title, meaning,
-                            field < fields.size() ? fmt::format("'{}' is no number", fields[field]) : "is missing"),
+                            field < fields.size() ? fmt::format("'{}' is not a number", fields[field]) : "is missing"),
                 line < block.data.size() ? model.where(block.data[line]) : model.where(block),
                 "write a finite number in the data lines");
   return value;
@@ -271,11 +272,11 @@ void give_section(Model& model, int scope, const Block& block, const SectionUse&
     RawElement& element = model.elements[row];
     if (element.type->kind != use.kind)
       model.fault(fmt::format("{}, ELSET={} does not fit {}", block.title, set, model.element_text(element)), where,
-                  "name a set with elements of one kind");
+                  "name a set that holds only elements of this kind");
     else if (element.section >= 0 && element.section != section)
       model.fault(fmt::format("{} has two sections, of '{}' and of '{}'", model.element_text(element),
                               model.sections[element.section].name, set),
-                  where, "let the sets of sections not overlap");
+                  where, "give each element one section: the sets must not overlap");
     else
       element.section = section;
   }

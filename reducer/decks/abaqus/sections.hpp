@@ -6,32 +6,40 @@
 
 namespace tisserand::reducer::abaqus {
 
-/// Reads *SHELL SECTION, *SOLID SECTION, *BEAM SECTION, *BEAM GENERAL SECTION, *MASS, *ROTARY INERTIA, *SPRING.
+/// Reads the section keywords of a scope: *SHELL SECTION, *SOLID SECTION, *BEAM SECTION, *BEAM GENERAL SECTION, *MASS,
+/// *ROTARY INERTIA and *SPRING.
 void read_sections(Model& model, int scope);
 
-/// Reads *BEAM SECTION or *BEAM GENERAL SECTION, the block at `index` of the scope; the next blocks may belong to it.
+/// Reads *BEAM SECTION or *BEAM GENERAL SECTION, the block with the index `index` of the scope. Blocks after it may
+/// belong to it.
 void read_beam_section(Model& model, int scope, std::size_t index);
 
-/// Axis near the normal and projected axis of an orientation. Throws Error if it has no second data line.
+/// Directions of an orientation for a shell: the axis that is near to the normal, and the axis whose projection is the
+/// material x.
 struct Projection {
   Eigen::Vector3d normal;
   Eigen::Vector3d x;
 };
+/// Directions of `orientation` for a shell. Throws Error if it is not rectangular or has no second data line. `name`:
+/// name of the orientation for the message.
 Projection projection_of(const Orientation& orientation, std::string_view name);
 
-/// Layers of *SHELL SECTION, COMPOSITE, with angles from `x`, which is zero without orientations.
+/// Layers of *SHELL SECTION, COMPOSITE. Their angles count from the direction `x`, which is zero without an
+/// orientation.
 struct Layers {
   std::vector<Ply> plies;
   Eigen::Vector3d x = Eigen::Vector3d::Zero();
 };
-/// Layers of a section; empty, with faults, if a layer is faulty. Throws Error for orientations that cannot be used.
+/// Reads the layers of *SHELL SECTION, COMPOSITE. Returns nothing, after faults, if a layer is faulty. Throws Error
+/// for orientations that cannot be used.
 std::optional<Layers> read_layers(Model& model, int scope, const Block& block);
 
-/// Appends the section and assigns it to the elements of its set that are of its kind. Adds faults for elements of
-/// other kinds and those with two sections.
+/// Appends the section `use` to the model, and assigns it to those elements of the set of `block` that are of its
+/// kind. Adds faults for elements of other kinds and for elements with two sections.
 void give_section(Model& model, int scope, const Block& block, const SectionUse& use);
 
-/// Number in a field of a data line; empty, with a fault, if it is absent or no number.
+/// Number in the field `field` of the data line `line` of `block`. Returns nothing, after a fault, if it is absent or
+/// no number. `meaning`: name of the quantity for the message.
 std::optional<double> number_at(Model& model, const Block& block, std::size_t line, std::size_t field,
                                 std::string_view meaning);
 

@@ -54,11 +54,11 @@ std::optional<std::vector<int>> find_members(Model& model, int scope, std::strin
   const auto set = sets.find(lower(place.rest));
   if (set != sets.end() && !set->second.empty()) return set->second;
   if (kind.ids == &Scope::elements && model.has_unknown_elements) return std::nullopt;
-  return model.refuse(
-      fmt::format("{} {} '{}' {}", kind.word, to_integer(place.rest) ? "number" : "set", text,
-                  set == sets.end() ? "does not exist" : "is empty"),
-      where,
-      fmt::format("define it before, with *{}", kind.ids == &Scope::nodes ? "NODE or *NSET" : "ELEMENT or *ELSET"));
+  return model.refuse(fmt::format("{} {} '{}' {}", kind.word, to_integer(place.rest) ? "number" : "set", text,
+                                  set == sets.end() ? "does not exist" : "is empty"),
+                      where,
+                      fmt::format("define it before this line, with *{}",
+                                  kind.ids == &Scope::nodes ? "NODE or *NSET" : "ELEMENT or *ELSET"));
 }
 
 /// Adds the existing ids of first, last, step. It visits ids or steps, whichever are fewer.
@@ -68,7 +68,7 @@ void add_range(Model& model, const Scope& scope, const SetKind& kind, const Line
   const std::optional<long> last = fields.size() < 2 ? first : to_integer(fields[1]);
   const std::optional<long> step = fields.size() < 3 || fields[2].empty() ? 1L : to_integer(fields[2]);
   if (!first || !last || !step || *step <= 0 || *first <= 0 || *last < *first || fields.size() > 3)
-    return model.fault(fmt::format("GENERATE: '{}' is no range", line.text.substr(0, 60)), line,
+    return model.fault(fmt::format("GENERATE: '{}' is not a range", line.text.substr(0, 60)), line,
                        "write first, last, step with first <= last and step > 0");
   const auto& ids = scope.*kind.ids;
   const std::size_t before = members.size();
@@ -86,7 +86,7 @@ void add_range(Model& model, const Scope& scope, const SetKind& kind, const Line
     for (const auto& [id, row] : inside) members.push_back(row);
   }
   if (members.size() == before && (kind.ids == &Scope::nodes || !model.has_unknown_elements))
-    model.fault(fmt::format("GENERATE: no {} from {} to {} exists", kind.word, *first, *last), line,
+    model.fault(fmt::format("GENERATE: there is no {} from {} to {}", kind.word, *first, *last), line,
                 "correct the range");
 }
 

@@ -70,7 +70,7 @@ bool add_faces(Model& model, const std::vector<int>& elements, int face, const L
                                          (face < 0 || !face_nodes(element.type->shape, face).empty());
     if (!has_face) {
       model.fault(fmt::format("*SURFACE: {} has no such face", model.element_text(element)), line,
-                  "name faces of shells SPOS or SNEG, of solids S1 to S6");
+                  "use SPOS or SNEG for faces of shells, S1 to S6 for faces of solids");
       return false;
     }
     if (face >= 0) surface.faces.push_back({row, face});
@@ -107,7 +107,7 @@ bool read_second_line(Model& model, const Block& block, Orientation& orientation
   std::array<double, 2> values{1.0, 0.0};
   if (!read_numbers(model, block, block.data[1], values)) return false;
   if (values[0] != 1.0 && values[0] != 2.0 && values[0] != 3.0) {
-    model.fault(fmt::format("*ORIENTATION: there is no axis {}", values[0]), block.data[1],
+    model.fault(fmt::format("*ORIENTATION: axis {} does not exist", values[0]), block.data[1],
                 "write 1, 2 or 3 and an angle in degrees");
     return false;
   }
@@ -132,7 +132,7 @@ void set_cylindrical_axes(Model& model, int scope, const std::vector<int>& nodes
   for (const int node : nodes) {
     const Eigen::Vector3d arm = model.positions[node] - start, away = arm - z * z.dot(arm);
     if (away.norm() <= 1e-9 * std::max(arm.norm(), along.norm())) {
-      model.undirected[node] = "it lies on the axis of its *TRANSFORM, TYPE=C, where no direction leads away from it";
+      model.undirected[node] = "it lies on the axis of its *TRANSFORM, TYPE=C, where the radial direction is undefined";
       continue;
     }
     Eigen::Matrix3d axes;
@@ -163,7 +163,7 @@ void read_surface(Model& model, int scope, const Block& block) {
     const std::optional<int> face = face_number(fields.size() > 1 ? fields[1] : std::string_view());
     if (!face) {
       model.fault(fmt::format("*SURFACE '{}': face '{}' is not understood", name, fields[1]), where,
-                  "name faces of shells SPOS or SNEG, of solids S1 to S6");
+                  "use SPOS or SNEG for faces of shells, S1 to S6 for faces of solids");
       continue;
     }
     if (const auto elements = find_elements(model, scope, fields[0], where))
@@ -194,7 +194,7 @@ bool has_directions(Model& model, int node, const std::string& where) {
   const auto found = model.undirected.find(node);
   if (found == model.undirected.end()) return true;
   model.fault(fmt::format("node {}: {}", model.node_ids[node], found->second), where,
-              "use rectangular axes, TYPE=R, for this node");
+              "use rectangular axes (*TRANSFORM, TYPE=R) for this node");
   return false;
 }
 

@@ -38,7 +38,8 @@ void add_spider(Model& model, const Block& block, Spider spider, const std::vect
   for (const int node : nodes)
     if (node != spider.reference) spider.nodes.push_back(node);
   if (spider.nodes.empty())
-    model.fault(fmt::format("{} '{}' grabs no node", block.title, spider.name), block, "check its surface or its set");
+    model.fault(fmt::format("{} '{}' connects no nodes", block.title, spider.name), block,
+                "check its surface or its set");
   else
     model.deck.mesh.spiders.push_back(std::move(spider));
 }
@@ -56,7 +57,7 @@ void make_distributing(Model& model, const Block& block, const Block& kind, Spid
   const std::string* method = kind.find("WEIGHTINGMETHOD");
   if (method != nullptr && upper_without_blanks(*method) != "UNIFORM")
     return model.fault(fmt::format("*DISTRIBUTING, WEIGHTING METHOD={} is not understood", *method), kind,
-                       "use UNIFORM: weights by area");
+                       "use UNIFORM, which takes weights from areas");
   const std::optional<Components> components = components_of(model, kind, 0);
   if (!components) return;
   spider.kind = SpiderKind::averaging;
@@ -79,7 +80,7 @@ void read_coupling(Model& model, int scope, std::size_t index) {
   const std::string where = model.where(block);
   const Block* kind = index + 1 < blocks.size() ? blocks[index + 1] : nullptr;
   if (kind == nullptr || (kind->keyword != "KINEMATIC" && kind->keyword != "DISTRIBUTING"))
-    return model.fault("*COUPLING without *KINEMATIC or *DISTRIBUTING", where, "write one of them after it");
+    return model.fault("*COUPLING without *KINEMATIC or *DISTRIBUTING", where, "write one of them directly after it");
   const std::optional<int> reference = find_one_node(model, scope, block.name_of("REFNODE"), where);
   const Surface* surface = find_surface(model, scope, block.name_of("SURFACE"), where);
   const std::optional<Eigen::Matrix3d> axes = coupling_axes(model, scope, block);
@@ -163,7 +164,7 @@ void read_rigid_body(Model& model, int scope, const Block& block) {
       add(nodes_of_elements(model, *elements), all_components, name);
   }
   if (!has_nodes && model.deck.mesh.spiders.size() == before)
-    model.fault("*RIGID BODY grabs no node", where, "give ELSET, TIE NSET or PIN NSET");
+    model.fault("*RIGID BODY connects no nodes", where, "give ELSET, TIE NSET or PIN NSET");
 }
 
 struct MpcKind {
@@ -183,10 +184,10 @@ void read_mpc_pair(Model& model, const Block& block, const Line& line, const Mpc
   const double distance = (model.positions[pair[0]] - model.positions[pair[1]]).norm();
   const double size = model.positions[pair[1]].norm() + distance;
   if (kind.must_coincide && distance > 1e-6 * size)
-    return model.fault(fmt::format("*MPC: {} and {} are {:.6g} apart, so that equal motions hold the part against "
-                                   "turning",
+    return model.fault(fmt::format("*MPC: {} and {} are {:.6g} apart: equal displacements would prevent rotation of "
+                                   "the part",
                                    model.node_text(pair[0]), model.node_text(pair[1]), distance),
-                       line, "use BEAM, or let the nodes coincide");
+                       line, "use BEAM, or place both nodes at the same point");
   Spider spider;
   spider.reference = pair[1];
   spider.node_components = kind.components;
@@ -209,8 +210,8 @@ void read_mpc(Model& model, int scope, const Block& block) {
     const auto reference = find_nodes(model, scope, fields[2], where);
     if (!dependent || !reference) continue;
     if (reference->size() != 1 && reference->size() != dependent->size()) {
-      model.fault(fmt::format("*MPC: {} nodes follow {}", dependent->size(), reference->size()), where,
-                  "give one reference node, or as many as dependent ones");
+      model.fault(fmt::format("*MPC: {} dependent nodes, but {} reference nodes", dependent->size(), reference->size()),
+                  where, "give one reference node, or as many reference nodes as dependent nodes");
       continue;
     }
     for (std::size_t i = 0; i < dependent->size(); ++i)
@@ -227,8 +228,8 @@ std::optional<Components> read_components(Model& model, const Line& line, std::s
   const std::optional<long> first = blank(field) ? std::nullopt : to_integer(fields[field]);
   const std::optional<long> last = blank(field + 1) ? first : to_integer(fields[field + 1]);
   if (!first || !last || *first < 1 || *last > 6 || *first > *last)
-    return model.refuse(fmt::format("'{}' names no degrees of freedom", line.text.substr(0, 60)), line,
-                        "write the first and the last one, from 1 to 6");
+    return model.refuse(fmt::format("'{}' does not name degrees of freedom", line.text.substr(0, 60)), line,
+                        "write the first and the last degree of freedom, from 1 to 6");
   Components result = 0;
   for (long k = *first; k <= *last; ++k) result = static_cast<Components>(result | (1 << (k - 1)));
   return result;
@@ -238,8 +239,8 @@ std::optional<int> find_one_node(Model& model, int scope, std::string_view text,
   const auto nodes = find_nodes(model, scope, text, where);
   if (!nodes) return std::nullopt;
   if (nodes->size() == 1) return nodes->front();
-  return model.refuse(fmt::format("set '{}' has {} nodes where one is meant", text, nodes->size()), where,
-                      "name a single node");
+  return model.refuse(fmt::format("set '{}' has {} nodes, expected one", text, nodes->size()), where,
+                      "name a single node, or a set of one node");
 }
 
 void read_ties(Model& model, int scope) {

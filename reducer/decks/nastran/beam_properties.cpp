@@ -37,7 +37,7 @@ void judge(CardFields& f, const formats::Section& s) {
     return f.fault(fmt::format("I1 {:g}, I2 {:g}, J {:g} must not be negative", Iz, Iy, s.torsion_constant),
                    "correct them");
   if (Iyz * Iyz > Iy * Iz)
-    f.fault(fmt::format("I12 {:g} exceeds the root of I1 I2 = {:g}", Iyz, std::sqrt(Iy * Iz)), "correct I12");
+    f.fault(fmt::format("I12 {:g} exceeds the square root of I1 I2, {:g}", Iyz, std::sqrt(Iy * Iz)), "correct I12");
 }
 
 /// Section of A, I1, I2 and so on: I1 = ∫y² dA bends in plane 1 (x-y), I2 = ∫z² dA in plane 2.
@@ -104,7 +104,7 @@ BeamSections read_pbeaml(NastranModel& model, CardFields& f) {
   for (int i = 9 + sizes; i < f.size() && f.ok(); i += sizes + 3) {
     const double at = f.real(i + 1, "X/XB", 1.0);
     if (at < 1.0) {
-      model.remarks.add("stations between the ends of tapered beams are left out: the taper is that of the ends",
+      model.remarks.add("stations between the ends of tapered beams are ignored; the taper follows from both ends",
                         f.label());
       continue;
     }
@@ -154,8 +154,8 @@ void read_pbeam_tail(NastranModel& model, CardFields& f, int tail, BeamSections&
     for (int i = from; i < to; ++i) any = any || f.real(i, "value", 0.0) != 0.0;
     return any;
   };
-  if (given(tail + 2, tail + 4)) model.remarks.add("shear relief S1, S2 of tapered beams is left out", f.label());
-  if (given(tail + 6, tail + 8)) model.remarks.add("warping CW is left out", f.label());
+  if (given(tail + 2, tail + 4)) model.remarks.add("shear relief S1, S2 of tapered beams is ignored", f.label());
+  if (given(tail + 6, tail + 8)) model.remarks.add("warping CW is ignored", f.label());
   place_centroid(f, tail + 12, {}, b.first);
   place_centroid(f, tail + 14, b.first, b.second);
 }
@@ -171,7 +171,7 @@ BeamSections read_pbeam(NastranModel& model, CardFields& f) {
   int line = is_station(f.text(8)) ? 8 : 16;
   while (f.ok() && is_station(f.text(line))) {
     if (f.real(line + 1, "X/XB", 1.0) < 1.0) {
-      model.remarks.add("stations between the ends of tapered beams are left out: the taper is that of the ends",
+      model.remarks.add("stations between the ends of tapered beams are ignored; the taper follows from both ends",
                         f.label());
     } else {
       b.second = pbeam_end(f, line + 2, b.first);
@@ -202,7 +202,7 @@ int read_beam_property(NastranModel& model, CardFields& f) {
   const AddedMass& added = b.added;
   if (f.ok() && !(added.first >= 0.0 && added.second >= 0.0 && added.inertia >= 0.0))
     f.fault(fmt::format("NSM {:g}, {:g} and NSI {:g} must not be negative", added.first, added.second, added.inertia),
-            "give masses from 0 on");
+            "give values >= 0");
   if (!f.ok()) return -1;
   BeamProperty property;
   property.name = f.label();
@@ -223,12 +223,12 @@ int read_beam_property(NastranModel& model, CardFields& f) {
 int add_rod_property(NastranModel& model, CardFields& f, int material_index, const RodConstants& rod) {
   const NastranMaterial* m = material(model, f, material_index, "MID");
   if (m != nullptr && m->kind != NastranMaterial::Kind::isotropic)
-    f.fault(fmt::format("{} is no material of rods", m->label), "use MAT1");
+    f.fault(fmt::format("{} is not a material for rods", m->label), "use MAT1");
   if (f.ok() && !(rod.area >= 0.0 && rod.torsion_constant >= 0.0 && rod.mass_per_length >= 0.0))
     f.fault(fmt::format("A {:g}, J {:g}, NSM {:g} must not be negative", rod.area, rod.torsion_constant,
                         rod.mass_per_length),
-            "correct them");
-  if (f.ok() && !(rod.area > 0.0)) f.fault("A is zero", "give the area");
+            "give values >= 0");
+  if (f.ok() && !(rod.area > 0.0)) f.fault("A is zero", "give an area > 0");
   if (m == nullptr || !f.ok()) return -1;
   BeamProperty property;
   property.name = f.label();

@@ -27,7 +27,7 @@ OffsetFrames read_offt(CardFields& f, const BeamDefaults& defaults) {
   if (word.empty() || word == "0" || word == "1" || word == "2") return {};  // numbers: F of old decks, X or G0
   const auto either = [](char c, char a, char b) { return c == a || c == b; };
   if (word.size() != 3 || !either(word[0], 'G', 'B') || !either(word[1], 'G', 'O') || !either(word[2], 'G', 'O')) {
-    f.fault(fmt::format("OFFT '{}' is not understood", word), "give three letters: G or B, G or O, G or O");
+    f.fault(fmt::format("OFFT '{}' is not understood", word), "give three letters: G or B, then G or O, then G or O");
     return {};
   }
   return {word[0], word[1], word[2]};
@@ -56,7 +56,7 @@ std::optional<Eigen::Matrix3d> axes_or_fault(CardFields& f, const Eigen::Vector3
   const std::optional<Eigen::Matrix3d> axes = v.norm() > 0.0 ? beam_axes(axis, v) : std::nullopt;
   if (!axes)
     f.fault(fmt::format("orientation ({:g}, {:g}, {:g}) is zero or parallel to the axis", v.x(), v.y(), v.z()),
-            "give X1, X2, X3 or G0 away from the axis");
+            "give X1, X2, X3 or G0 so that the vector is not parallel to the axis");
   return axes;
 }
 
@@ -91,7 +91,7 @@ void add_beam(NastranModel& model, CardFields& f, const BeamDefaults& defaults) 
   beam.R_PE = *axes;
   beam.released = static_cast<std::uint16_t>(PA | (PB << 6));
   if (f.id_or_none(16, "SA") + f.id_or_none(17, "SB") > 0)
-    model.remarks.add("warping coordinates SA, SB are left out", f.label());
+    model.remarks.add("warping degrees of freedom SA, SB are ignored", f.label());
   beam.property = beam_property(model, f, pid);
   if (beam.property < 0) return;
   model.of_property[pid].beams.push_back(add_row(model.deck.mesh.beams, beam));
@@ -100,7 +100,7 @@ void add_beam(NastranModel& model, CardFields& f, const BeamDefaults& defaults) 
 BeamDefaults read_defaults(NastranModel& model, const char* name) {
   BeamDefaults defaults;
   model.for_each(name, [&](CardFields& f) {
-    if (defaults.card) f.fault(fmt::format("a deck has one {}", name), "remove the others");
+    if (defaults.card) f.fault(fmt::format("a deck can have only one {}", name), "remove the others");
     defaults.card = f;
   });
   return defaults;
@@ -176,7 +176,8 @@ void add_rods(NastranModel& model) {
         mesh.beam_properties.back().data.section.torsion_constant = 0.0;
       }
       beam.property = row->second;
-      model.remarks.add("torsion of rods is left out where nothing else turns an end", fmt::format("{}", beam.id));
+      model.remarks.add("torsion of rods is ignored where no other element has rotations at an end",
+                        fmt::format("{}", beam.id));
     }
     const int row = add_row(mesh.beams, beam);
     if (rod.pid > 0) model.of_property[rod.pid].beams.push_back(row);

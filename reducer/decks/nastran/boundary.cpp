@@ -191,15 +191,16 @@ void add_boundary(NastranModel& model) {
     Components c = entry.components;
     CardFields f = model.card(entry.card);
     if (c != translations_only && c != rotations_only && c != all_components) {
-      f.fault(fmt::format("GRID {}: components {} alone cannot be boundary", id, digits(c)), "give 123, 456 or 123456");
+      f.fault(fmt::format("GRID {}: components {} alone cannot be boundary coordinates", id, digits(c)),
+              "give 123, 456 or 123456");
       continue;
     }
     if ((c & rotations_only) != 0 && (attached[entry.node] & rotations_only) == 0) {
-      model.remarks.add("boundary rotations without stiffness and mass are left out, GRID", std::to_string(id));
+      model.remarks.add("boundary rotations without stiffness and mass are ignored at GRID", std::to_string(id));
       c &= translations_only;
     }
     if (model.displacement_frame[entry.node] != 0)
-      model.remarks.add("boundary coordinates have the axes of the part, not those of CD, GRID", std::to_string(id));
+      model.remarks.add("boundary coordinates have the axes of the part, not those of CD, at GRID", std::to_string(id));
     if (c != 0)
       model.deck.mesh.boundary.push_back(
           {fmt::format("node_{}", id), entry.node, (c & translations_only) != 0, (c & rotations_only) != 0});
@@ -224,7 +225,7 @@ void judge_supports(NastranModel& model) {
     drop_idle(model, attached, normals, held);
     const long id = model.grid_id[held.node];
     if (held.components == 0) {
-      model.remarks.add("supports of components without stiffness and mass have no effect, GRID",
+      model.remarks.add("supports of components without stiffness and mass are ignored at GRID",
                         fmt::format("{} ({})", id, digits(entry.components)));
       continue;
     }
@@ -233,9 +234,8 @@ void judge_supports(NastranModel& model) {
   }
   for (const auto& [card, support] : supports) {
     CardFields f = model.card(card);
-    f.fault(
-        fmt::format("holds GRID {} to ground, but a superelement floats", listed(support.nodes, ", ", support.number)),
-        "put the support into the scene");
+    f.fault(fmt::format("fixes GRID {} to the ground", listed(support.nodes, ", ", support.number)),
+            "a superelement has no supports: define the support in the scene");
   }
 }
 

@@ -83,7 +83,8 @@ std::string_view CardReader::load(const std::string& path, const std::string& fr
   const std::uintmax_t size = fs::file_size(path, code);
   bytes_ += code ? 0 : size;
   if (code || bytes_ > most_bytes)
-    throw Error(fmt::format("{}: the deck has more than 4 GiB of text", path), from, "divide the part");
+    throw Error(fmt::format("{}: the deck has more than 4 GiB of text", path), from,
+                "divide the part into several parts");
   auto text = std::make_unique<std::string>(static_cast<std::size_t>(size), '\0');
   std::ifstream stream(path, std::ios::binary);
   if (!stream.read(text->data(), static_cast<std::streamsize>(size)) && size > 0)
@@ -113,7 +114,7 @@ void CardReader::read_file(const std::string& path, const std::string& from) {
   std::error_code code;
   const fs::path real = fs::weakly_canonical(path, code);
   if (std::find(open_.begin(), open_.end(), real) != open_.end())
-    throw Error(fmt::format("INCLUDE of {} goes in a circle", path), from, "remove one of the INCLUDEs");
+    throw Error(fmt::format("INCLUDE of {}: this file includes itself", path), from, "remove this INCLUDE");
   if (open_.size() >= most_levels || cards_.files.size() >= most_files)
     throw Error(fmt::format("INCLUDE of {}: more than {} levels or {} files", path, most_levels, most_files), from,
                 "join some of the files");
@@ -175,7 +176,8 @@ void CardReader::include(std::string_view rest) {
       ++line_;
     }
     const std::size_t close = name.find(quote, 1);
-    if (close == std::string::npos) return faults_.add("INCLUDE: no closing quote", from, "close the quote");
+    if (close == std::string::npos)
+      return faults_.add("INCLUDE: the closing quote is missing", from, "close the quote");
     name = name.substr(1, close - 1);
   } else {
     name = name.substr(0, name.find('$'));
@@ -227,7 +229,7 @@ bool CardReader::split_free(std::string_view line, Line& out) {
     if (count < part.size())
       part[count] = field;
     else if (!field.empty()) {
-      faults_.add(fmt::format("free field line of more than {} fields", part.size()), here(),
+      faults_.add(fmt::format("the free-field line has more than {} fields", part.size()), here(),
                   "continue on the next line");
       return false;
     }
@@ -246,7 +248,7 @@ bool CardReader::split_free(std::string_view line, Line& out) {
     out.fields[tail - 1] = {};
   }
   if (!mark.empty() && mark.find_first_of("0123456789.-") == 0) {
-    faults_.add(fmt::format("'{}' stands where a continuation mark belongs", mark), here(),
+    faults_.add(fmt::format("'{}' is in the field of the continuation mark", mark), here(),
                 "continue on the next line");
     return false;
   }
@@ -305,7 +307,7 @@ void CardReader::repeat(const std::array<std::string_view, 8>& pattern) {
       const std::optional<std::string> sum = incremented(before, field);
       if (!sum)
         return faults_.add(fmt::format("replication: '{}' cannot be added to '{}'", field, before), here(),
-                           "give numbers");
+                           "give a number");
       line.fields[i] = keep(*sum);
     } else {
       line.fields[i] = field;
@@ -319,7 +321,8 @@ void CardReader::repeat(const std::array<std::string_view, 8>& pattern) {
 bool CardReader::replicate(const Line& line) {
   if (line.name.empty() || line.name[0] != '=') return false;
   if (!has_card_ || cards_.cards.back().count > 8) {
-    faults_.add(fmt::format("'{}' repeats no card of one line", line.name), here(), "write the cards out");
+    faults_.add(fmt::format("replication '{}' does not follow a card of one line", line.name), here(),
+                "write the cards in full");
     return true;
   }
   std::string_view count = line.name.substr(1);
@@ -333,7 +336,7 @@ bool CardReader::replicate(const Line& line) {
   const std::optional<long> times = parse_integer(count);
   if (!times || *times < 1 || *times > most_repeated)
     faults_.add(fmt::format("replication '{}' is not understood", line.name), here(),
-                fmt::format("give = and a number from 1 to {}", most_repeated));
+                fmt::format("write the number of repetitions as =N, with N from 1 to {}", most_repeated));
   else
     for (long k = 0; k < *times; ++k) repeat(pattern_);
   return true;
@@ -372,8 +375,8 @@ void CardReader::append(const Line& line) {
       return faults_.add(fmt::format("continuation '{}' without a card before it", line.name), here(),
                          "put it after the card that it continues");
     if (!mark.empty() && !mark_.empty() && mark != mark_)
-      faults_.add(fmt::format("continuation '{}' follows a line that asks for '+{}'", line.name, mark_), here(),
-                  "put continuations after the card that they continue");
+      faults_.add(fmt::format("continuation '{}' follows a line with the mark '+{}'", line.name, mark_), here(),
+                  "put it after the card that it continues");
     const auto step = static_cast<std::size_t>(line.count);
     position_ = (position_ + step - 1) / step * step;
   } else {

@@ -12,28 +12,30 @@ namespace tisserand::reducer {
 
 inline constexpr double degree = std::numbers::pi / 180.0;
 
-/// Coordinates: x y z; r θ z; ρ θ φ with θ from the z axis. Angles in degrees.
+/// Kind of a coordinate system, by its coordinates: x y z (rectangular), r θ z (cylindrical), or ρ θ φ with θ from the
+/// z axis (spherical). Angles are in degrees.
 enum class FrameKind { rectangular, cylindrical, spherical };
 
 struct NastranFrame {
   FrameKind kind = FrameKind::rectangular;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();    ///< part frame
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();    ///< origin in the part frame
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: x, y, z in part axes
 };
 
-/// Position in the part frame of a point with these coordinates.
+/// Position in the part frame of the point with the coordinates `coordinates` in `frame`.
 Eigen::Vector3d frame_point(const NastranFrame& frame, const Eigen::Vector3d& coordinates);
 
-/// Axes (columns, part axes) of vector components at a position: x y z; e_r e_θ e_z; e_ρ e_θ e_φ. On the z axis of a
-/// cylindrical or spherical system, where they are not defined, they are those of the half-plane θ = 0 (φ = 0).
+/// Axes (columns, part axes) of the components of a vector at `position` (part frame): x y z, e_r e_θ e_z, or e_ρ e_θ
+/// e_φ. On the z axis of a cylindrical or spherical system they are not defined. There they are those of the
+/// half-plane θ = 0 (spherical: φ = 0).
 Eigen::Matrix3d frame_axes_at(const NastranFrame& frame, const Eigen::Vector3d& position);
 
-/// Coordinate systems. Index 0 is the basic system: the part frame.
+/// Coordinate systems of a deck. Index 0 is the basic system, which is the part frame.
 struct NastranFrames {
   std::vector<NastranFrame> frames{NastranFrame{}};
   std::map<long, int> row_of_id{{0, 0}};
 
-  /// Index of a system, or −1.
+  /// Index in `frames` of the system with the number `id`, or −1.
   int find(long id) const {
     const auto found = row_of_id.find(id);
     return found == row_of_id.end() ? -1 : found->second;

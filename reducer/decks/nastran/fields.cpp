@@ -105,7 +105,7 @@ long CardFields::id(int index, std::string_view name) {
 long CardFields::id_or_none(int index, std::string_view name) {
   const long value = integer(index, name, 0);
   if (value >= 0) return value;
-  field_fault(index, name, "must not be negative", "give a number from 1 on or leave it blank");
+  field_fault(index, name, "must not be negative", "give a number >= 1 or leave the field blank");
   return 0;
 }
 
@@ -113,7 +113,7 @@ long CardFields::integer(int index, std::string_view name, long if_blank) {
   if (blank(index)) return if_blank;
   const std::optional<long> value = parse_integer(text(index));
   if (value) return *value;
-  field_fault(index, name, "is not a whole number", "give a number without point and exponent");
+  field_fault(index, name, "is not a whole number", "give a number without decimal point and exponent");
   return if_blank;
 }
 

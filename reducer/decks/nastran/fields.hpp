@@ -12,20 +12,22 @@
 
 namespace tisserand::reducer {
 
-/// Integer of up to 18 digits. Empty for any other text.
+/// Integer that the text holds, of up to 18 digits. Returns nothing for any other text.
 std::optional<long> parse_integer(std::string_view text);
 
-/// A finite number: 7.0, .7, 7., 0.7E1, 70.-1, 7.+2, 7D3; also 7 without a point, and blanks before and in the
-/// exponent. Empty for any other text.
+/// Finite number that the text holds: 7.0, .7, 7., 0.7E1, 70.-1, 7.+2, 7D3. 7 without a point, and blanks before and
+/// in the exponent are also allowed. Returns nothing for any other text.
 std::optional<double> parse_real(std::string_view text);
 
 /// Whether the text is written as a real number, with a point or an exponent.
 bool is_real(std::string_view text);
 
-/// Digits 1 to 6, each at most once, blanks between them, as bits 0 to 5; 0 alone is none. Empty for any other text.
+/// Set of components from the digits 1 to 6, which become the bits 0 to 5. Each digit may occur once, with blanks
+/// between them. 0 alone means no component. Returns nothing for any other text.
 std::optional<Components> parse_components(std::string_view text);
 
-/// Access to the fields of a card. A fault is added once and clears ok(). Positions as in NastranCards.
+/// Reader of the fields of one card as numbers. A fault is added to the faults of the deck and clears ok(). After
+/// that, no further fault of a field is added. Fields are counted as in NastranCards.
 class CardFields {
  public:
   CardFields(const NastranCards& cards, const NastranCard& card, DeckFaults& faults)
@@ -35,31 +37,33 @@ class CardFields {
   std::string_view text(int index) const { return cards_->field(*card_, index); }
   int size() const { return static_cast<int>(card_->count); }
 
-  /// Required number greater than 0, for ids of every kind. 0 after a fault.
+  /// Number greater than 0 that identifies something, in a field that must not be blank. Returns 0 after a fault.
+  /// `name`: name of the field for the message.
   long id(int index, std::string_view name);
 
-  /// Id that may be blank or 0 (both give 0).
+  /// Number that identifies something, or 0 if the field is blank or 0.
   long id_or_none(int index, std::string_view name);
   long integer(int index, std::string_view name, long if_blank);
 
-  /// Real number; NaN after a fault.
+  /// Real number in a field that must not be blank. Returns NaN after a fault.
   double real(int index, std::string_view name);
   double real(int index, std::string_view name, double if_blank);
   Components components(int index, std::string_view name, Components if_blank);
-  Eigen::Vector3d vector(int index, std::string_view name);  ///< blanks are 0
+  Eigen::Vector3d vector(int index, std::string_view name);  ///< vector in three fields; blanks are 0
 
-  /// Ids from `index` on. Blanks are skipped; "a THRU b" stands for the numbers in this range that `known` accepts.
+  /// Identifying numbers in the fields from `index` on, without blanks. "a THRU b" stands for the numbers of this
+  /// range that exist: known(a, b, ids) must append these to `ids`.
   template <class Known>
   std::vector<long> id_list(int index, std::string_view name, const Known& known);
 
-  /// Card with its first field, "CQUAD4 17".
+  /// Name of the card with its first field for messages, such as "CQUAD4 17".
   std::string label() const;
   std::string where() const { return cards_->where(*card_); }
   const NastranCard& card() const { return *card_; }
   bool ok() const { return ok_; }
-  void mark_faulty() { ok_ = false; }  ///< after a fault that the caller adds itself
+  void mark_faulty() { ok_ = false; }  ///< clears ok() after a fault that the caller adds itself
   void fault(const std::string& what, const std::string& remedy);
-  /// Adds the fault and returns nothing, for functions that end with it.
+  /// Adds the fault and returns nothing, as the return value of functions that end with this fault.
   std::nullopt_t refuse(const std::string& what, const std::string& remedy) {
     fault(what, remedy);
     return std::nullopt;

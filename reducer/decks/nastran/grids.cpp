@@ -59,7 +59,7 @@ void Placement::add_frame(FrameCard card) {
   if (!card.fields.ok()) return;
   const int row = count_of(model_.frames.frames);
   if (!model_.frames.row_of_id.emplace(card.id, row).second)
-    return card.fields.fault(fmt::format("coordinate system {} is given twice", card.id), "remove one of the cards");
+    return card.fields.fault(fmt::format("coordinate system {} is defined twice", card.id), "remove one of the cards");
   NastranFrame frame;
   frame.kind = card.kind;
   model_.frames.frames.push_back(frame);
@@ -105,7 +105,7 @@ GridDefaults Placement::read_defaults() {
   GridDefaults defaults;
   bool seen = false;
   model_.for_each("GRDSET", [&](CardFields& fields) {
-    if (seen) fields.fault("a deck has one GRDSET", "remove the others");
+    if (seen) fields.fault("a deck can have only one GRDSET", "remove the others");
     seen = true;
     defaults.position_frame = frame_field(fields, 1, "CP", 0);
     defaults.displacement_frame = frame_field(fields, 5, "CD", 0);
@@ -134,7 +134,7 @@ void Placement::read_grids() {
   model_.for_each("GRID", [&](CardFields& fields) { read_grid(fields, defaults); });
   for (const int row : model_.grid_rows.build(model_.grid_id)) {
     CardFields fields = model_.card(model_.grid_card[row]);
-    fields.fault("this grid point is given twice", "remove one of the cards");
+    fields.fault("this grid point is defined twice", "remove one of the cards");
   }
 }
 
@@ -163,8 +163,8 @@ bool Placement::resolve(int row, CardFields& asked, int depth) {
   if (card.state == FrameCard::State::busy || depth > deepest_chain) {
     asked.fault(card.state == FrameCard::State::busy
                     ? fmt::format("coordinate system {} depends on itself", card.id)
-                    : fmt::format("chain of more than {} coordinate systems", deepest_chain),
-                "give one of the systems in basic coordinates");
+                    : fmt::format("more than {} coordinate systems depend on each other in a chain", deepest_chain),
+                "define one of the systems in basic coordinates");
     card.state = FrameCard::State::failed;
     return false;
   }

@@ -10,7 +10,7 @@ namespace tisserand::reducer {
 
 class IdTable {
  public:
-  /// Builds the table ids[row] -> row. Returns the rows whose id occurs in an earlier row.
+  /// Builds the table from identifying number ids[row] to row. Returns the rows whose number occurs in an earlier row.
   std::vector<int> build(const std::vector<long>& ids) {
     sorted_.clear();
     sorted_.reserve(ids.size());
@@ -23,14 +23,14 @@ class IdTable {
     return again;
   }
 
-  /// First row of an id, or −1.
+  /// First row with the number `id`, or −1.
   int find(long id) const {
     if (!dense_.empty()) return id < 0 || id >= static_cast<long>(dense_.size()) ? -1 : dense_[id];
     const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair<long, int>(id, 0));
     return at != sorted_.end() && at->first == id ? at->second : -1;
   }
 
-  /// Appends the existing ids from first to last.
+  /// Appends to `ids` the numbers from `first` to `last` that the table has.
   void between(long first, long last, std::vector<long>& ids) const {
     auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair<long, int>(first, 0));
     for (long before = first - 1; at != sorted_.end() && at->first <= last; ++at) {

@@ -24,7 +24,8 @@ void read_mat1(CardFields& f, NastranMaterial& m) {
   if (!has_E && has_G && has_nu) m.E = 2.0 * (1.0 + m.nu) * m.G;
   if (!(m.E > 0.0)) return f.fault(fmt::format("E {:g} must be positive", m.E), "give two of E, G and NU");
   if (!(m.G >= 0.0) || !(m.nu > -1.0) || !std::isfinite(m.G))
-    return f.fault(fmt::format("E {:g}, G {:g}, NU {:g} do not go together", m.E, m.G, m.nu), "NU lies above -1");
+    return f.fault(fmt::format("E {:g}, G {:g}, NU {:g} are not consistent", m.E, m.G, m.nu),
+                   "give G >= 0 and NU > -1");
   const double plane = m.E / (1.0 - m.nu * m.nu);
   m.Q << plane, m.nu * plane, 0.0, m.nu * plane, plane, 0.0, 0.0, 0.0, m.G;
   m.shear = m.G * Eigen::Matrix2d::Identity();
@@ -47,7 +48,7 @@ void read_mat8(CardFields& f, NastranMaterial& m) {
   const double nu21 = nu12 * E2 / E1, d = 1.0 - nu12 * nu21;
   if (!(E1 > 0.0 && E2 > 0.0 && G12 >= 0.0 && d > 0.0))
     return f.fault(fmt::format("E1 {:g}, E2 {:g}, NU12 {:g}, G12 {:g} are not a stable material", E1, E2, nu12, G12),
-                   "E1, E2 > 0, G12 >= 0 and NU12² < E1/E2");
+                   "give E1, E2 > 0, G12 >= 0 and NU12² < E1/E2");
   m.Q << E1 / d, nu12 * E2 / d, 0.0, nu12 * E2 / d, E2 / d, 0.0, 0.0, 0.0, G12;
   m.shear << (G1z > 0.0 ? G1z : G12), 0.0, 0.0, (G2z > 0.0 ? G2z : G12);
   m.ply = {E1, E2, nu12, G12, m.shear(0, 0), m.shear(1, 1), m.density, 0.0, 0.0};
@@ -77,7 +78,7 @@ std::optional<NastranMaterial> read_material(NastranModel& model, std::size_t ro
     m.kind = NastranMaterial::Kind::solid;
     read_mat9(f, m);
   }
-  if (f.ok() && m.density < 0.0) f.fault(fmt::format("RHO {:g} is negative", m.density), "give a density from 0 on");
+  if (f.ok() && m.density < 0.0) f.fault(fmt::format("RHO {:g} is negative", m.density), "give a density >= 0");
   m.density *= model.mass_scale;
   m.ply.density = m.density;
   return f.ok() ? std::optional(m) : std::nullopt;
@@ -90,7 +91,7 @@ void index_materials(NastranModel& model) {
     model.for_each(name, [&](CardFields& f) {
       const long id = f.id(0, "MID");
       if (id > 0 && !model.materials.card.emplace(id, model.row(f)).second)
-        f.fault(fmt::format("material {} is given twice", id), "remove one of the cards");
+        f.fault(fmt::format("material {} is defined twice", id), "remove one of the cards");
     });
 }
 

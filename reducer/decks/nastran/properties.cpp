@@ -18,7 +18,7 @@ void index_cards(NastranModel& model, PropertyCards<Read>& cards) {
     model.for_each(name, [&](CardFields& f) {
       const long id = f.id(0, "PID");
       if (id > 0 && !cards.card.emplace(id, model.row(f)).second)
-        f.fault(fmt::format("property {} is given twice", id), "remove one of the cards");
+        f.fault(fmt::format("property {} is defined twice", id), "remove one of the cards");
     });
 }
 
@@ -48,7 +48,7 @@ void read_pelas(NastranModel& model) {
       ElasticProperty property;
       property.stiffness = f.real(start + 1, "K", 0.0);
       if (f.ok() && !model.properties.elastic.emplace(id, property).second)
-        f.fault(fmt::format("property {} is given twice", id), "remove one of the cards");
+        f.fault(fmt::format("property {} is defined twice", id), "remove one of the cards");
     }
   });
 }
@@ -75,7 +75,7 @@ std::optional<Eigen::Matrix3d> solid_axes(NastranModel& model, CardFields& f) {
   const long id = f.integer(2, "CORDM", 0);
   if (id == 0 || !f.ok()) return Eigen::Matrix3d::Identity();
   if (id < 0)
-    return f.refuse("CORDM -1: material axes that follow each element are not understood", "name a CORD2R system");
+    return f.refuse("CORDM -1 (material axes that follow each element) is not understood", "name a CORD2R system");
   const int row = model.frames.find(id);
   if (row < 0)
     return f.refuse(fmt::format("CORDM names coordinate system {}, which is missing", id), "add its CORD card");
@@ -105,7 +105,7 @@ int read_solid(NastranModel& model, CardFields& f) {
         f.fault(fmt::format("{}: {}", m->label, error.message()), error.remedy());
       }
   } else {
-    f.fault(fmt::format("{} is no material of solids", m->label), "use MAT1 or MAT9");
+    f.fault(fmt::format("{} is not a material for solids", m->label), "use MAT1 or MAT9");
   }
   if (!f.ok()) return -1;
   return add_row(model.deck.mesh.solid_properties, property);
@@ -121,7 +121,7 @@ std::optional<BushProperty> read_bush(CardFields& f) {
     for (int i = 0; i < 6; ++i)
       if (same_word(f.text(line + 2 + i), "RIGID")) f.fault("RIGID stiffness is not understood", "use RBE2 or RBAR");
   }
-  if (f.ok() && !(property.stiffness.minCoeff() >= 0.0)) f.fault("a stiffness K is negative", "give K from 0 on");
+  if (f.ok() && !(property.stiffness.minCoeff() >= 0.0)) f.fault("a stiffness K is negative", "give K >= 0");
   return f.ok() ? std::optional(property) : std::nullopt;
 }
 

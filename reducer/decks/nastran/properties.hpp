@@ -15,32 +15,33 @@ namespace tisserand::reducer {
 struct NastranModel;
 class CardFields;
 
-/// Row of the mesh's properties; −1 after a fault.
+/// Index of a property in its vector of the mesh; −1 after a fault.
 struct PropertyRow {
   int row = -1;
   double offset = 0.0;  ///< shells: offset of the middle surface from the reference surface (PCOMP with Z0)
 };
 
-/// PELAS. Zero stiffness is permitted, as in the original program.
+/// Spring stiffness of PELAS. Zero is permitted, as in Nastran.
 struct ElasticProperty {
   double stiffness = 0.0;
 };
 
-/// PBUSH: stiffness along and about the axes of the bushing.
+/// Stiffness of PBUSH along the axes of the bushing (3) and about them (3).
 struct BushProperty {
   Eigen::Matrix<double, 6, 1> stiffness = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
-/// Property cards of one kind, and the results of reading them.
+/// Property cards of one kind of element, and the properties read from them so far.
 template <class Read>
 struct PropertyCards {
   std::vector<std::string> names;
-  std::string kinds;                                  ///< their names in words
-  std::map<long, std::size_t> card = {};              ///< key: id, value: index in NastranCards::cards
-  std::map<std::pair<long, double>, Read> read = {};  ///< key: id and thickness of the element (0: that of the card)
+  std::string kinds;                      ///< names of the cards in words, for messages
+  std::map<long, std::size_t> card = {};  ///< key: id, value: index in NastranCards::cards
+  /// Properties read so far. The key is the id of the property and the thickness of the element (0: that of the card).
+  std::map<std::pair<long, double>, Read> read = {};
 };
 
-/// Properties. They are read when the first element needs them, so unused ones are not checked.
+/// Properties of a deck. A property is read when the first element needs it, so unused ones are not checked.
 struct NastranProperties {
   PropertyCards<PropertyRow> beam{{"PBAR", "PBARL", "PBEAM", "PBEAML"}, "PBAR, PBARL, PBEAM or PBEAML"};
   PropertyCards<PropertyRow> rod{{"PROD", "PTUBE"}, "PROD or PTUBE"};
@@ -50,25 +51,28 @@ struct NastranProperties {
   std::map<long, ElasticProperty> elastic;
 };
 
-/// Finds the property cards and reads PELAS; faults for duplicate ids.
+/// Finds the property cards, reads PELAS, and adds faults for duplicate ids.
 void index_properties(NastranModel& model);
 
-/// Rows for an element with this property; −1 after a fault (added once; a missing card for every element).
+/// Index in Mesh::beam_properties of the property `id` for a beam; −1 after a fault. A fault of the property card is
+/// added once, a missing card for every element. The next functions do this for other kinds of elements.
 int beam_property(NastranModel& model, CardFields& element, long id);
 int rod_property(NastranModel& model, CardFields& element, long id);
 PropertyRow shell_property(NastranModel& model, CardFields& element, long id, double thickness);
 int solid_property(NastranModel& model, CardFields& element, long id);
 const BushProperty* bush_property(NastranModel& model, CardFields& element, long id);
 
-/// A rod of these constants as a beam without bending stiffness; -1 after a fault. `card` names the material.
+/// Constants of a rod, which becomes a beam without bending stiffness.
 struct RodConstants {
   double area = 0.0;
   double torsion_constant = 0.0;
-  double mass_per_length = 0.0;  ///< non-structural
+  double mass_per_length = 0.0;  ///< non-structural mass per length
 };
+/// Adds the property of a rod to Mesh::beam_properties and returns its index; −1 after a fault. `material_index`:
+/// field of `card` with the id of the material.
 int add_rod_property(NastranModel& model, CardFields& card, int material_index, const RodConstants& rod);
 
-/// Called by the functions above; in files of their own.
+/// Reads the card of a beam property for beam_property(), and returns its index; −1 after a fault.
 int read_beam_property(NastranModel& model, CardFields& card);
 PropertyRow read_shell_property(NastranModel& model, CardFields& card, double thickness);
 

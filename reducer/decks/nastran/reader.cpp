@@ -31,8 +31,8 @@ void judge_ids(NastranModel& model) {
     const auto& [kind_before, id_before, row_before] = ids[i - 1];
     if (kind != kind_before || id != id_before) continue;
     CardFields f(model.cards, card_of(row), model.faults);
-    f.fault(fmt::format("element {} is given twice, first at {}", id, model.cards.where(card_of(row_before))),
-            "give elements different numbers");
+    f.fault(fmt::format("element {} is defined twice, first at {}", id, model.cards.where(card_of(row_before))),
+            "give the elements different numbers");
   }
 }
 
@@ -42,7 +42,7 @@ void require_grids(const NastranModel& model, const std::string& path) {
   if (std::any_of(cards.begin(), cards.end(), [](const NastranCard& card) { return same_word(card.name, "GRID"); }))
     return;
   if (cards.empty()) model.faults.raise();
-  throw Error("no GRID in the deck", path, "name a file with Nastran bulk data");
+  throw Error("the deck has no GRID", path, "name a file with Nastran bulk data");
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ Deck read_nastran(const std::string& path, const DeckOptions& options) {
   model.cards = read_nastran_cards(path, model.faults);
   require_grids(model, path);
   if (!model.cards.complete)
-    model.deck.mesh.warnings.push_back(path + ": BEGIN BULK without ENDDATA: is the end of the file cut off?");
+    model.deck.mesh.warnings.push_back(path + ": BEGIN BULK without ENDDATA: is the file truncated?");
   sort_cards(options, model);
   place_grids(model);
   index_materials(model);

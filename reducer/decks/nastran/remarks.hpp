@@ -9,12 +9,12 @@
 
 namespace tisserand::reducer {
 
-/// Remarks by kind: their number and the first few names, reported in one line ("3 GRID: 1, 2, 3").
+/// Remarks on a deck by kind. Each kind keeps its number and its first few names, and is reported in one line.
 class NastranRemarks {
  public:
   void add(const std::string& kind, const std::string& name);
 
-  /// One text per kind: "<kind>: <names> (<number>)".
+  /// One text per kind of remark: "<kind>: <names> (<number>)".
   std::vector<std::string> texts() const;
 
  private:

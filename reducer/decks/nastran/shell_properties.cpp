@@ -15,11 +15,11 @@ const NastranMaterial* plane_material(NastranModel& model, CardFields& f, int in
   if (f.blank(index) || parse_integer(f.text(index)) == 0) return nullptr;
   const NastranMaterial* m = material(model, f, index, name);
   if (m == nullptr) {
-    if (f.ok()) f.fault(fmt::format("{} {} has faults", name, f.text(index)), "correct the material");
+    if (f.ok()) f.fault(fmt::format("{} {} has errors", name, f.text(index)), "correct the material");
     return nullptr;
   }
   if (m->kind == NastranMaterial::Kind::solid)
-    f.fault(fmt::format("{} names {}, a material of solids", name, m->label), "use MAT1, MAT2 or MAT8");
+    f.fault(fmt::format("{} names {}, a material for solids", name, m->label), "use MAT1, MAT2 or MAT8");
   else if (m->kind == NastranMaterial::Kind::isotropic && !(m->G > 0.0 && m->nu < 1.0))
     f.fault(fmt::format("{} has G {:g} and NU {:g}", m->label, m->G, m->nu), "shells need G > 0 and NU below 1");
   return f.ok() ? m : nullptr;
@@ -37,8 +37,9 @@ std::optional<ShellSection> pshell_section(NastranModel& model, CardFields& f, d
   const double inertia = f.real(4, "12I/T**3", 1.0), ratio = f.real(6, "TS/T", 5.0 / 6.0), nsm = f.real(7, "NSM", 0.0);
   if (f.ok() && membrane == nullptr && bending == nullptr) f.fault("MID1 and MID2 are blank", "give a material");
   if (f.ok() && !(inertia > 0.0 && ratio >= 0.0 && nsm >= 0.0))
-    f.fault(fmt::format("12I/T**3 {:g}, TS/T {:g}, NSM {:g} must not be negative", inertia, ratio, nsm),
-            "correct them");
+    f.fault(
+        fmt::format("12I/T**3 {:g} must be positive; TS/T {:g} and NSM {:g} must not be negative", inertia, ratio, nsm),
+        "correct them");
   if (!f.ok()) return std::nullopt;
   ShellSection s;
   s.thickness = T;
@@ -72,7 +73,7 @@ std::optional<Stack> read_plies(NastranModel& model, CardFields& f) {
     const NastranMaterial* m = id > 0 ? material_of(model, f, id, "MID") : nullptr;
     if (f.ok() && (m == nullptr ||
                    (m->kind != NastranMaterial::Kind::isotropic && m->kind != NastranMaterial::Kind::orthotropic)))
-      f.fault(fmt::format("ply {}: MID {} is not a sound MAT1 or MAT8", stack.plies.size() + 1, id),
+      f.fault(fmt::format("ply {}: MID {} is not a valid MAT1 or MAT8", stack.plies.size() + 1, id),
               "correct the material");
     if (!f.ok()) break;
     Ply ply = m->ply;
@@ -80,7 +81,7 @@ std::optional<Stack> read_plies(NastranModel& model, CardFields& f) {
     ply.angle = angle * degree;
     stack.plies.push_back(ply);
   }
-  if (f.ok() && stack.plies.empty()) f.fault("no plies", "give MID and T of each ply");
+  if (f.ok() && stack.plies.empty()) f.fault("there are no plies", "give MID and T of each ply");
   if (!f.ok()) return std::nullopt;
   const std::string_view kind = f.text(7);
   if (same_word(kind, "SYM")) {
@@ -97,7 +98,7 @@ std::optional<ShellSection> pcomp_section(NastranModel& model, CardFields& f, do
   if (!stack) return std::nullopt;
   const double nsm = f.real(2, "NSM", 0.0);
   offset = f.real(1, "Z0", -0.5 * stack->thickness) + 0.5 * stack->thickness;
-  if (f.ok() && nsm < 0.0) f.fault(fmt::format("NSM {:g} is negative", nsm), "give a mass from 0 on");
+  if (f.ok() && nsm < 0.0) f.fault(fmt::format("NSM {:g} is negative", nsm), "give a value >= 0");
   if (!f.ok()) return std::nullopt;
   try {
     check_plies(stack->plies, f.where());

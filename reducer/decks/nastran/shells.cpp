@@ -21,7 +21,8 @@ void read_material_axis(NastranModel& model, CardFields& f, int index, ShellElem
     for (const int node : nodes_of(shell)) middle += model.position(node) / shell.corners();
     shell.material_x = frame_axes_at(model.frames.frames[row], middle).col(0);
     if (!(shell.material_x.cross(n).norm() > 1e-6))
-      f.fault(fmt::format("the x axis of coordinate system {} is normal to the element", *id), "choose another MCID");
+      f.fault(fmt::format("the x axis of coordinate system {} is perpendicular to the element", *id),
+              "choose another MCID");
     return;
   }
   const double angle = f.real(index, "THETA") * degree;
@@ -55,7 +56,7 @@ double read_thickness(NastranModel& model, CardFields& f, long pid, int corners)
     most = i == 0 ? t : std::max(most, t);
   }
   if (f.ok() && most > least * (1.0 + 1e-9))
-    model.remarks.add("shells whose thickness varies from corner to corner get the mean", f.label());
+    model.remarks.add("shells with different thickness at their corners get the mean thickness", f.label());
   return sum / corners;
 }
 
@@ -68,7 +69,7 @@ void add_shell(NastranModel& model, CardFields& f, int corners) {
   for (int i = 0; i < corners; ++i)
     for (int j = 0; j < i; ++j)
       if (shell.nodes[i] == shell.nodes[j])
-        return f.fault(fmt::format("GRID {} stands at two corners", f.text(2 + i)), "use a triangle");
+        return f.fault(fmt::format("GRID {} is at two corners", f.text(2 + i)), "give each corner its own grid point");
   read_material_axis(model, f, 2 + corners, shell);
   shell.offset = f.real(3 + corners, "ZOFFS", 0.0);
   const double thickness = read_thickness(model, f, pid, corners);

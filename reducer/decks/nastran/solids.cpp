@@ -34,9 +34,10 @@ void add_solid(NastranModel& model, CardFields& f, const SolidCard& card) {
   int edge_nodes = 0;
   for (int i = card.corners; i < card.most; ++i) edge_nodes += f.blank(2 + i) ? 0 : 1;
   if (edge_nodes != 0 && edge_nodes != card.most - card.corners)
-    return f.fault(fmt::format("{} of {} edge nodes", edge_nodes, card.most - card.corners),
+    return f.fault(fmt::format("{} of {} edge nodes are given", edge_nodes, card.most - card.corners),
                    "give all of them or none");
-  if (f.size() > 2 + card.most) return f.fault(fmt::format("more than {} grid points", card.most), "remove the rest");
+  if (f.size() > 2 + card.most)
+    return f.fault(fmt::format("more than {} grid points are given", card.most), "remove the others");
   solid.shape = edge_nodes == 0 ? card.linear : card.quadratic;
   const int count = edge_nodes == 0 ? card.corners : card.most;
   for (int i = 0; i < count; ++i) solid.nodes[i] = model.node(f, 2 + card.order[i], "G");

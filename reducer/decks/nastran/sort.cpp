@@ -17,12 +17,12 @@ namespace {
 /// Cards that build the mesh.
 const std::set<std::string>& understood() {
   static const std::set<std::string> names{
-      "GRID",   "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R",  "CORD2C", "CORD2S", "CBAR",   "CBEAM", "CROD",
-      "CONROD", "CTUBE",  "CQUAD4", "CQUADR", "CTRIA3", "CTRIAR",  "CTETRA", "CHEXA",  "CPENTA", "PBAR",  "PBARL",
-      "PBEAM",  "PBEAML", "PROD",   "PTUBE",  "PSHELL", "PCOMP",   "PSOLID", "MAT1",   "MAT2",   "MAT8",  "MAT9",
-      "CONM2",  "CELAS1", "CELAS2", "PELAS",  "CBUSH",  "PBUSH",   "RBE1",   "RBE2",   "RBE3",   "RBAR",  "MPC",
-      "ASET",   "ASET1",  "BSET",   "BSET1",  "BNDFIX", "BNDFIX1", "SPC",    "SPC1",   "PARAM",  "BAROR", "BEAMOR",
-      "SPCADD", "MPCADD"};
+      "GRID", "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "CBAR",   "CBEAM",
+      "CROD", "CONROD", "CTUBE",  "CQUAD4", "CQUADR", "CTRIA3", "CTRIAR", "CTETRA", "CHEXA",  "CPENTA",
+      "PBAR", "PBARL",  "PBEAM",  "PBEAML", "PROD",   "PTUBE",  "PSHELL", "PCOMP",  "PSOLID", "MAT1",
+      "MAT2", "MAT8",   "MAT9",   "CONM2",  "CELAS1", "CELAS2", "PELAS",  "CBUSH",  "PBUSH",  "RBE1",
+      "RBE2", "RBE3",   "RBAR",   "MPC",    "ASET",   "ASET1",  "BSET",   "BSET1",  "BNDFIX", "BNDFIX1",
+      "SPC",  "SPC1",   "PARAM",  "BAROR",  "BEAMOR", "SPCADD", "MPCADD"};
   return names;
 }
 
@@ -43,31 +43,31 @@ void read_mass_parameters(NastranModel& model) {
     if (same_word(f.text(0), "WTMASS")) {
       model.mass_scale = f.real(1, "WTMASS");
       if (f.ok() && !(model.mass_scale > 0.0))
-        f.fault(fmt::format("{:g} must be positive", model.mass_scale), "correct it");
+        f.fault(fmt::format("{:g} must be positive", model.mass_scale), "give a value > 0");
     } else if (same_word(f.text(0), "COUPMASS")) {
       const long value = f.integer(1, "COUPMASS", -1);
       model.mass_matrix = value > 0 ? formats::MassMatrix::consistent : formats::MassMatrix::lumped;
     } else {
-      model.remarks.add("PARAM without effect here", capitals(f.text(0)));
+      model.remarks.add("PARAM cards without effect on the mesh are ignored", capitals(f.text(0)));
     }
   });
 }
 
 /// Number of fields of cards after which none may follow, from the manuals.
 const std::map<std::string, int>& field_count() {
-  static const std::map<std::string, int> counts{
-      {"GRID", 8},    {"CBAR", 16}, {"CROD", 8},    {"CONROD", 8}, {"CELAS1", 6}, {"CELAS2", 8},  {"CONM2", 14},
-      {"PROD", 6},    {"PBAR", 19}, {"PSHELL", 11}, {"MAT1", 12},  {"RBAR", 8},   {"CORD2R", 11}, {"CORD2C", 11},
-      {"CORD2S", 11}};
+  static const std::map<std::string, int> counts{{"GRID", 8},    {"CBAR", 16},   {"CROD", 8},   {"CONROD", 8},
+                                                 {"CELAS1", 6},  {"CELAS2", 8},  {"CONM2", 14}, {"PROD", 6},
+                                                 {"PBAR", 19},   {"PSHELL", 11}, {"MAT1", 12},  {"RBAR", 8},
+                                                 {"CORD2R", 11}, {"CORD2C", 11}, {"CORD2S", 11}};
   return counts;
 }
 
-void tell_extra_fields(NastranModel& model) {
+void report_extra_fields(NastranModel& model) {
   for (const auto& [name, count] : field_count())
     model.for_each(name, [&, most = count](CardFields& f) {
       for (int i = most; i < f.size(); ++i)
         if (!f.blank(i))
-          model.remarks.add("values in fields that the card does not have",
+          model.remarks.add("values in fields that the card does not have are ignored",
                             fmt::format("{} (line {}, field {}: '{}')", f.label(), i / 8 + 1, i % 8 + 2, f.text(i)));
     });
 }
@@ -81,7 +81,7 @@ void judge_unknown(const std::map<std::string, std::size_t>& unknown, const std:
   if (options.unknown == UnknownCards::ignore)
     model.deck.mesh.warnings.push_back(text);
   else
-    model.faults.add(text, where, "remove them, or write `unknown: ignore` under mesh if the part can do without");
+    model.faults.add(text, where, "remove them, or write `unknown: ignore` under mesh if the part does not need them");
 }
 
 }  // namespace
@@ -109,10 +109,10 @@ void sort_cards(const DeckOptions& options, NastranModel& model) {
     if (last_rows != nullptr) last_rows->push_back(i);
   }
   for (const auto& [name, count] : other)
-    model.remarks.add("cards that do not belong to a superelement are left out", fmt::format("{} ({})", name, count));
+    model.remarks.add("cards without effect on stiffness and mass are ignored", fmt::format("{} ({})", name, count));
   judge_unknown(unknown, where, options, model);
   read_mass_parameters(model);
-  tell_extra_fields(model);
+  report_extra_fields(model);
 }
 
 bool NastranModel::holds(CardFields& fields, const std::string& kind) {
@@ -124,8 +124,8 @@ bool NastranModel::holds(CardFields& fields, const std::string& kind) {
     if (!selected.contains(std::string(f.text(0)))) return;
     for (int i = 1; i < f.size(); ++i) found = found || f.text(i) == set;
   });
-  if (!found && told.insert(kind + set).second)
-    remarks.add(fmt::format("sets of {} that case control does not select are left out", kind), set);
+  if (!found && reported.insert(kind + set).second)
+    remarks.add(fmt::format("sets of {} that case control does not select are ignored", kind), set);
   return found;
 }
 

@@ -52,8 +52,8 @@ void add_elastic(NastranModel& model, CardFields& f, double stiffness, long pid,
   const Eigen::Vector3d between = model.position(second.node) - model.position(first.node);
   const bool apart = between.norm() > 1e-6 * size;
   if (rigid_motion_defect(spring.stiffness, apart ? between : Eigen::Vector3d::Zero()) > 1e-9)
-    return f.fault("this spring resists rigid motion of the part, like a support",
-                   "use CBUSH, or grid points that coincide or lie on the line of the spring");
+    return f.fault("this spring resists rigid-body motion of the part, like a support",
+                   "use CBUSH, or grid points that coincide or lie on a line along the spring");
   const int row = add_row(model.deck.mesh.springs, spring);
   if (pid > 0) model.of_property[pid].springs.push_back(row);
 }
@@ -134,10 +134,11 @@ void add_mass(NastranModel& model, CardFields& f) {
   Eigen::Matrix3d J;
   J << I[0], -I[1], -I[3], -I[1], I[2], -I[4], -I[3], -I[4], I[5];
   mass.inertia = axes * J * axes.transpose();
-  if (mass.mass < 0.0) return f.fault(fmt::format("M {:g} is negative", mass.mass), "give a mass from 0 on");
+  if (mass.mass < 0.0) return f.fault(fmt::format("M {:g} is negative", mass.mass), "give a mass >= 0");
   if (!(I[0] >= 0.0 && I[2] >= 0.0 && I[5] >= 0.0 && I[1] * I[1] <= I[0] * I[2] * (1 + 1e-9) &&
         I[3] * I[3] <= I[0] * I[5] * (1 + 1e-9) && I[4] * I[4] <= I[2] * I[5] * (1 + 1e-9)))
-    return f.fault("the moments of inertia belong to no body", "I21² must not exceed I11 I22, and so on");
+    return f.fault("no body can have these moments of inertia",
+                   "give I11, I22, I33 >= 0, I21² <= I11 I22, I31² <= I11 I33 and I32² <= I22 I33");
   mass.name = f.label();
   if (mass.mass > 0.0 || !mass.inertia.isZero(0.0)) model.deck.mesh.masses.push_back(mass);
 }

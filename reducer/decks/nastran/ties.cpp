@@ -30,12 +30,12 @@ struct Follower {
 /// Adds rigid spiders from `reference`, one per run of followers with the same components in the same axes (CD).
 void add_rigid(NastranModel& model, CardFields& f, int reference, const std::vector<Follower>& followers) {
   if (!f.ok()) return;
-  if (followers.empty()) return f.fault("no dependent grid points", "name at least one");
+  if (followers.empty()) return f.fault("there are no dependent grid points", "name at least one");
   std::vector<Spider> spiders;
   for (const Follower& follower : followers) {
     if (follower.node == reference)
       return f.fault(fmt::format("GRID {} depends on itself", model.grid_id[reference]),
-                     "remove it from the dependent ones");
+                     "remove it from the dependent grid points");
     const Eigen::Matrix3d axes =
         free_of_axes(follower.components) ? Eigen::Matrix3d::Identity() : model.displacement_axes(follower.node);
     if (spiders.empty() || spiders.back().node_components != follower.components ||
@@ -101,7 +101,7 @@ void add_rbe1(NastranModel& model, CardFields& f) {
     }
     const int node = model.node(f, i, "G");
     const Components components = f.components(i + 1, "C", 0);
-    if (f.ok() && components == 0) f.fault("a grid point without components", "give its components");
+    if (f.ok() && components == 0) f.fault("the components of a grid point are blank", "give its components");
     (dependent ? followers : leaders).push_back({node, components});
     ++i;
   }
@@ -131,9 +131,9 @@ AveragingGroups read_groups(NastranModel& model, CardFields& f) {
       weight = f.real(i, "WT");
       while (++i < f.size() && f.blank(i)) continue;
       const Components components = f.components(i, "C", 0);
-      if (f.ok() && !(weight >= 0.0)) f.fault(fmt::format("weight {:g} is negative", weight), "give it from 0 on");
+      if (f.ok() && !(weight >= 0.0)) f.fault(fmt::format("weight {:g} is negative", weight), "give a weight >= 0");
       if (f.ok() && (components == 0 || (groups.components != 0 && groups.components != components)))
-        f.fault("components are blank or differ from group to group", "give all groups the same components");
+        f.fault("components are blank or differ between the groups", "give all groups the same components");
       groups.components = components;
       continue;
     }
@@ -169,15 +169,16 @@ void add_rbe3(NastranModel& model, CardFields& f) {
     f.fault("REFC is blank", "give the components of the reference point");
   AveragingGroups groups = read_groups(model, f);
   if (!f.ok()) return;
-  if (groups.nodes.empty()) return f.fault("no grid points to average", "give a weight, components and grid points");
+  if (groups.nodes.empty())
+    return f.fault("there are no grid points to average", "give a weight, components and grid points");
   if (std::find(groups.nodes.begin(), groups.nodes.end(), spider.reference) != groups.nodes.end())
-    return f.fault("the reference point is averaged itself", "remove it from the groups");
+    return f.fault("the reference point is also one of the averaged points", "remove it from the groups");
   spider.node_components = groups.components;
   if (!free_of_axes(spider.node_components) || !free_of_axes(spider.reference_components)) {
     const std::optional<Eigen::Matrix3d> axes = common_axes(model, spider.reference, groups.nodes);
     if (!axes)
-      return f.fault("some components of grid points whose CD differ",
-                     "give the points the same CD, or components 123");
+      return f.fault("components 123 or 456 are incomplete, and CD differs between the grid points",
+                     "give the points the same CD, or use components 123 or 123456");
     spider.axes = *axes;
   }
   spider.nodes = std::move(groups.nodes);
@@ -212,7 +213,7 @@ void add_mpc(NastranModel& model, CardFields& f) {
         return f.fault(fmt::format("C '{}' must be one component", f.text(i + 1)), "give a digit from 1 to 6");
       if (coefficient != 0.0) append_term(model, node, std::countr_zero(components), coefficient, equation);
     }
-  if (equation.terms.empty()) return f.fault("no terms", "give G, C and A of each term");
+  if (equation.terms.empty()) return f.fault("the equation has no terms", "give G, C and A of each term");
   equation.name = f.label();
   model.deck.mesh.equations.push_back(equation);
 }
@@ -220,13 +221,14 @@ void add_mpc(NastranModel& model, CardFields& f) {
 /// Adds a fault for several sets of MPC without case control, which would select one.
 void judge_sets(NastranModel& model) {
   std::string first;
-  bool told = false;
+  bool reported = false;
   if (model.cards.has_case_control) return;
   model.for_each("MPC", [&](CardFields& f) {
     if (first.empty()) first = std::string(f.text(0));
-    if (f.text(0) != first && !told) {
-      f.fault(fmt::format("sets {} and {} of MPC in one deck", first, f.text(0)), "keep the set that holds");
-      told = true;
+    if (f.text(0) != first && !reported) {
+      f.fault(fmt::format("the deck has sets {} and {} of MPC, but no case control to select one", first, f.text(0)),
+              "keep one set");
+      reported = true;
     }
   });
 }

@@ -83,7 +83,7 @@ void check_shape(const Mesh& mesh, const BeamElement& beam, ShapeFindings& findi
     return;
   }
   if ((beam.R_PE.col(0) - axis / length).norm() > 1e-6 || !beam.R_PE.isUnitary(1e-6))
-    findings.errors.push_back("its axes do not follow the line between its ends");
+    findings.errors.push_back("its axes are not aligned with the line between its ends");
   const BeamElementData data = data_of(mesh, beam);
   if (!is_plain(data)) {
     if (const std::optional<std::string> fault = general_beam_fault(data)) {
@@ -100,7 +100,7 @@ void check_shape(const Mesh& mesh, const BeamElement& beam, ShapeFindings& findi
   BeamMatrices matrices = at_the_ends(data);
   if (release_ends(beam.released, matrices) > 0)
     findings.errors.push_back("its released end forces (" + released_text(beam.released) +
-                              ") leave it loose: a motion of the element between its nodes that nothing resists");
+                              ") make it a mechanism: the element can move between its nodes without any stiffness");
 }
 
 }  // namespace tisserand::reducer

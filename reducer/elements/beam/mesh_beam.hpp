@@ -9,16 +9,16 @@
 
 namespace tisserand::reducer {
 
-/// Vector from end to end of the beam axis, part axes.
+/// Vector of the beam axis from its first end to its second, offsets included, in part axes.
 Eigen::Vector3d axis_of(const Mesh& mesh, const BeamElement& beam);
 
-/// Data of the beam: its property with the length of this element.
+/// Section, material and length of the beam: the data of its property, with the length of this element.
 BeamElementData data_of(const Mesh& mesh, const BeamElement& beam);
 
-/// Motions of the ends of the axis, element axes, from those of the nodes, part axes.
+/// Transformation from motions of the nodes (part axes) to motions of the ends of the beam axis (element axes).
 Matrix12 ends_from_nodes(const BeamElement& beam);
 
-/// Matrices about the ends in element axes, without releases.
+/// Stiffness and mass of a beam about its ends, in element axes, without releases.
 BeamMatrices at_the_ends(const BeamElementData& data);
 
 }  // namespace tisserand::reducer

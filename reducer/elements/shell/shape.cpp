@@ -68,10 +68,11 @@ template <int Corners>
 void check_warp(const ShellGeometry<Corners>& geometry, ShapeFindings& findings) {
   const double warp = geometry.height.cwiseAbs().maxCoeff() / std::sqrt(geometry.area);
   if (warp > largest_warp)
-    findings.errors.push_back(
-        fmt::format("warped: corners {:.3g} of the element's size off its plane (allowed: {:g})", warp, largest_warp));
+    findings.errors.push_back(fmt::format(
+        "warped: corners are out of its plane by {:.3g} of the element's size (allowed: {:g})", warp, largest_warp));
   else if (warp > warned_warp)
-    findings.warnings.push_back(fmt::format("warped: corners {:.3g} of the element's size off its plane", warp));
+    findings.warnings.push_back(
+        fmt::format("warped: corners are out of its plane by {:.3g} of the element's size", warp));
 }
 
 /// Checks the material direction: within 1e-3 rad of the normal it has no meaningful projection.

@@ -8,8 +8,8 @@ namespace tisserand::reducer {
 
 using ShellTurn = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
-/// Rotation of the mean plane of the middle surface (`offset` above the nodes) for the coordinates of the nodes, both
-/// in part axes: 3 x 6 Corners. A rigid rotation gives itself.
+/// Rotation of the mean plane of the middle surface for the coordinates of the nodes, both in part axes (3 x (6
+/// corners)). `offset`: height of the middle surface above the nodes. A rigid rotation gives itself.
 template <int Corners>
 ShellTurn shell_turn(const ShellGeometry<Corners>& geometry, double offset);
 

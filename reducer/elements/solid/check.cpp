@@ -117,14 +117,14 @@ void find_errors(const Mesh& mesh, const SolidElement& solid, const Jacobians& J
     findings.errors.push_back("position of a node is not a finite number");
   } else if (J.most <= 0.0 && J.volume < -collapsed_volume * cube) {
     findings.errors.push_back(
-        fmt::format("inverted: volume {:.4g}; its nodes are numbered the other way round (mirrored)", J.volume));
+        fmt::format("inverted: volume {:.4g}; its nodes are numbered in the opposite order (mirrored)", J.volume));
   } else if (J.volume <= collapsed_volume * cube) {
     findings.errors.push_back(fmt::format("collapsed: volume {:.4g} is {:.2g} of the cube of its longest edge {:.4g}",
                                           J.volume, cube > 0.0 ? J.volume / cube : 0.0, longest));
   } else if (J.least <= 0.0) {
     const std::string place = J.least_at_node <= 0.0 ? " at " + node_text(mesh, solid.nodes[J.worst_node])
                                                      : std::string(" inside, at a quadrature point");
-    findings.errors.push_back(fmt::format("folded over itself: Jacobian {:.2g} of its mean{}",
+    findings.errors.push_back(fmt::format("folded over itself: its least Jacobian is {:.2g} of the mean Jacobian{}",
                                           (J.least_at_node <= 0.0 ? J.least_at_node : J.least) / J.mean, place));
   }
 }
@@ -135,8 +135,9 @@ void find_warnings(const Mesh& mesh, const SolidElement& solid, const Jacobians&
   const double cube = edges.longest * edges.longest * edges.longest;
   const double quality = 6.0 * std::sqrt(2.0) * J.volume / cube;
   if (SolidBasis<shape>::corners == 4 && quality < sliver_quality)
-    findings.warnings.push_back(fmt::format(
-        "sliver: 6√2 volume/(longest edge)³ = {:.2g} (1 if regular, below {} warned)", quality, sliver_quality));
+    findings.warnings.push_back(
+        fmt::format("sliver: 6√2 volume/(longest edge)³ = {:.2g} (1 for a regular element; warning below {})", quality,
+                    sliver_quality));
   if (edges.longest > long_aspect * edges.shortest) {
     const auto [a, b] = SolidBasis<shape>::edges[edges.shortest_edge];
     findings.warnings.push_back(fmt::format("longest edge {:.4g}, shortest {:.4g} between {} and {}: aspect {:.3g}",
@@ -145,7 +146,7 @@ void find_warnings(const Mesh& mesh, const SolidElement& solid, const Jacobians&
   }
   if (J.least < uneven_jacobian * J.mean)
     findings.warnings.push_back(
-        fmt::format("distorted: Jacobian falls to {:.2g} of its mean{}", J.least / J.mean,
+        fmt::format("distorted: the Jacobian falls to {:.2g} of its mean{}", J.least / J.mean,
                     J.least_at_node <= J.least ? " at " + node_text(mesh, solid.nodes[J.worst_node]) : std::string()));
 }
 
@@ -156,7 +157,7 @@ void check(const Mesh& mesh, const SolidElement& solid, ShapeFindings& findings)
   for (std::size_t a = 0; a < nodes; ++a) {
     for (std::size_t b = 0; b < a; ++b)
       if (solid.nodes[a] == solid.nodes[b]) {
-        findings.errors.push_back(fmt::format("collapsed: {} stands in it twice (places {} and {})",
+        findings.errors.push_back(fmt::format("collapsed: it contains {} twice (positions {} and {})",
                                               node_text(mesh, solid.nodes[a]), b + 1, a + 1));
         return;
       }

@@ -16,7 +16,8 @@
 
 namespace tisserand::reducer {
 
-/// Natural gradients g of the incompatible displacements, and the centre where J0 is evaluated.
+/// Incompatible displacements of a solid: their number, their gradients by the natural coordinates, and the centre
+/// where their Jacobian J0 is evaluated. Most shapes have none.
 template <SolidShape shape>
 struct IncompatibleModes {
   static constexpr std::size_t size = 0;
@@ -24,7 +25,7 @@ struct IncompatibleModes {
   static constexpr std::array<NaturalPoint, 0> gradients(const NaturalPoint&) { return {}; }
 };
 
-/// Incompatible displacements 1 − r², 1 − s², 1 − t² (halved, sign reversed).
+/// Incompatible displacements 1 − r², 1 − s², 1 − t² of the eight-node hexahedron, times −½.
 template <>
 struct IncompatibleModes<SolidShape::hexahedron8> {
   static constexpr std::size_t size = 3;
@@ -34,7 +35,8 @@ struct IncompatibleModes<SolidShape::hexahedron8> {
   }
 };
 
-/// 1 − t² for bending along t. r², rs, s² minus their mean gradients for the linear strains across it.
+/// Incompatible displacements of the six-node prism, up to constant factors: 1 − t² for bending along t, and r², rs,
+/// s² minus their mean gradients for the linear strains across t.
 template <>
 struct IncompatibleModes<SolidShape::prism6> {
   static constexpr std::size_t size = 4;
@@ -45,7 +47,7 @@ struct IncompatibleModes<SolidShape::prism6> {
   }
 };
 
-/// Gradients by r, s, t of all functions of a shape at one point: [k][function].
+/// Derivatives of all functions of a shape by r, s, t at one point: [natural coordinate][function].
 template <std::size_t Functions>
 using NaturalGradients = std::array<std::array<double, Functions>, 3>;
 
@@ -85,13 +87,14 @@ using GradientMap = Eigen::Map<const Eigen::Matrix<double, Functions, 3>>;
 template <int Nodes>
 using NodePositions = Eigen::Matrix<double, 3, Nodes>;
 
-/// J(i, k) = ∂x_i/∂ξ_k.
+/// Jacobian matrix J(i, k) = ∂x_i/∂ξ_k at a point, from the positions of the nodes and the natural gradients there.
 template <int Nodes>
 Eigen::Matrix3d jacobian(const NodePositions<Nodes>& x, const NaturalGradients<Nodes>& gradient) {
   return x.lazyProduct(GradientMap<Nodes>(gradient[0].data()));
 }
 
-/// ∂N/∂x (one row per function) times √(weight det J). Each point has one column with rows k · functions + a.
+/// Gradients ∂N/∂x of all functions at all integration points, times `root` = √(weight det J) of the point. Each point
+/// has one column; the derivative of function a by x_k is in row k · functions + a.
 template <int Functions, int Points>
 struct WeightedGradients {
   Eigen::Matrix<double, 3 * Functions, Points> slope;
@@ -130,7 +133,8 @@ auto weighted_gradients(const NodePositions<count_of(SolidBasis<shape>::nodes)>&
   return G;
 }
 
-/// S(3a + i, 3b + j) = Σ_kl c_ikjl H_kl(a, b) for every pair of functions.
+/// Stiffness S(3a + i, 3b + j) = Σ_kl c_ikjl H_kl(a, b) for every pair a, b of functions. `C`: elasticity (6 x 6) in
+/// the order xx yy zz xy yz zx. `H`: products of gradients, gram() of the weighted gradients.
 template <int Functions>
 Eigen::Matrix<double, 3 * Functions, 3 * Functions> contract(
     const Eigen::Matrix<double, 6, 6>& C, const Eigen::Matrix<double, 3 * Functions, 3 * Functions>& H) {
@@ -154,7 +158,8 @@ Eigen::Matrix<double, 3 * Functions, 3 * Functions> contract(
   return S;
 }
 
-/// Strain [xx yy zz xy yz zx] of functions with the gradients `slope` (one row per function): 6 x 3 functions.
+/// Rows that give the strain [xx yy zz xy yz zx] for displacements of functions with the gradients `slope` (6 x (3
+/// functions)). `slope` has one row per function.
 template <int Functions>
 Eigen::Matrix<double, 6, 3 * Functions> strain_rows(const Eigen::Matrix<double, Functions, 3>& slope) {
   constexpr int pair[3][2] = {{0, 1}, {1, 2}, {2, 0}};
@@ -168,12 +173,12 @@ Eigen::Matrix<double, 6, 3 * Functions> strain_rows(const Eigen::Matrix<double, 
   return rows;
 }
 
-/// H = G Gᵀ. It is no template, so that the compiler sees one matrix product instead of six.
+/// Computes H = G Gᵀ. It is no template, so that the compiler sees one matrix product instead of six.
 inline void gram(const Eigen::Ref<const Eigen::MatrixXd>& G, Eigen::Ref<Eigen::MatrixXd> H) {
   H.noalias() = G * G.transpose();
 }
 
-/// Positions of the nodes relative to the first one, so that far from the origin no digits cancel.
+/// Positions of the nodes of a solid relative to its first node (3 x nodes). So no digits cancel far from the origin.
 template <SolidShape shape>
 auto node_positions(const Mesh& mesh, const SolidElement& solid) {
   constexpr int nodes = count_of(SolidBasis<shape>::nodes);

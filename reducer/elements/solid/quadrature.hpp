@@ -10,7 +10,7 @@
 
 namespace tisserand::reducer {
 
-/// ∫ f over the reference element ≈ Σ weight f(point).
+/// Quadrature rule ∫ f ≈ Σ weight f(point) over the reference element.
 template <std::size_t Size>
 struct QuadratureRule {
   std::array<NaturalPoint, Size> point{};
@@ -22,7 +22,8 @@ struct TrianglePoint {
   double s;
   double weight;
 };
-/// Rules of degree 2 and 5 on the triangle of area 1/2 ([Cow73]: three points inside, seven points).
+/// Quadrature rule of degree 2 with three inner points on the triangle of area 1/2. `triangle7` is the rule of degree
+/// 5 with seven points ([Cow73]).
 inline constexpr std::array<TrianglePoint, 3> triangle3{
     {{1.0 / 6.0, 1.0 / 6.0, 1.0 / 6.0}, {2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0}, {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0}}};
 inline constexpr double triangle7_a = 0.10128650732345633880, triangle7_b = 0.47014206410511508977;
@@ -61,7 +62,8 @@ constexpr QuadratureRule<Triangle * Line> prism_rule(const std::array<TrianglePo
   return rule;
 }
 
-/// Adds the four points with barycentric coordinates (1 − 3a, a, a, a), each with this weight.
+/// Sets the four points with barycentric coordinates (1 − 3a, a, a, a) and permutations in `rule`, from index `first`
+/// on, each with this weight.
 constexpr void add_corner_orbit(double a, double weight, std::size_t first, auto& rule) {
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t k = 0; k < 3; ++k) rule.point[first + i][k] = k + 1 == i ? 1.0 - 3.0 * a : a;
@@ -71,14 +73,14 @@ constexpr void add_corner_orbit(double a, double weight, std::size_t first, auto
 
 constexpr QuadratureRule<1> tetrahedron1() { return {{{{0.25, 0.25, 0.25}}}, {1.0 / 6.0}}; }
 
-/// Rule of degree 2, a = (5 − √5)/20 ([HS56]).
+/// Quadrature rule of degree 2 on the tetrahedron, with four points at a = (5 − √5)/20 ([HS56]).
 constexpr QuadratureRule<4> tetrahedron4_rule() {
   QuadratureRule<4> rule;
   add_corner_orbit(0.13819660112501051518, 1.0 / 24.0, 0, rule);
   return rule;
 }
 
-/// Rule of degree 5 with 14 points inside and positive weights ([Wal00]).
+/// Quadrature rule of degree 5 on the tetrahedron, with 14 inner points and positive weights ([Wal00]).
 constexpr QuadratureRule<14> tetrahedron14() {
   QuadratureRule<14> rule;
   add_corner_orbit(0.31088591926330060980, 0.11268792571801585080 / 6.0, 0, rule);
@@ -92,10 +94,10 @@ constexpr QuadratureRule<14> tetrahedron14() {
   return rule;
 }
 
-/// Rules of the stiffness: as few points as keep the rank (6 points ≥ 3 nodes − 6) and the patch test on distorted
-/// meshes with straight edges. The ten-node tetrahedron needs four, 24 = 30 − 6. The 20-node hexahedron gets 27: eight
-/// (48 < 54) leave six spurious modes. The 14 of [Iro71] (degree 5) have the rank, but not degree 3 in each direction,
-/// which the forces of a constant stress in a distorted element have.
+/// Quadrature rule of the stiffness of a shape. It has as few points as keep the rank (6 points ≥ 3 nodes − 6) and the
+/// patch test on distorted meshes with straight edges. The ten-node tetrahedron needs four, since 24 = 30 − 6. The
+/// 20-node hexahedron gets 27: eight (48 < 54) leave six spurious modes. The 14 of [Iro71] (degree 5) keep the rank.
+/// But they lack degree 3 in each direction, which the forces of a constant stress in a distorted element need.
 template <SolidShape shape>
 constexpr auto stiffness_rule() {
   if constexpr (shape == SolidShape::tetrahedron4) return tetrahedron1();
@@ -106,7 +108,8 @@ constexpr auto stiffness_rule() {
   if constexpr (shape == SolidShape::prism15) return prism_rule(triangle3, gauss3);
 }
 
-/// Rules of the mass, exact for elements with straight edges and, except for quadratic shapes, with any edges.
+/// Quadrature rule of the mass of a shape. It is exact for elements with straight edges. For shapes that are not
+/// quadratic it is exact with any edges.
 template <SolidShape shape>
 constexpr auto mass_rule() {
   if constexpr (shape == SolidShape::tetrahedron4) return tetrahedron4_rule();

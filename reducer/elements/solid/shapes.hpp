@@ -15,7 +15,7 @@ namespace tisserand::reducer {
 
 using NaturalPoint = std::array<double, 3>;
 
-/// Value with its derivatives by r, s, t.
+/// Value of a function at a point, and its derivatives by r, s, t.
 struct Jet {
   double value = 0.0;
   std::array<double, 3> slope{};
@@ -35,14 +35,15 @@ constexpr Jet operator*(const Jet& a, const Jet& b) {
   return product;
 }
 
-/// The three natural coordinates as jets.
+/// Natural coordinates r, s, t of the point `p` as jets, each with its unit derivative.
 constexpr std::array<Jet, 3> natural_jets(const NaturalPoint& p) {
   return {Jet{p[0], {1.0, 0.0, 0.0}}, Jet{p[1], {0.0, 1.0, 0.0}}, Jet{p[2], {0.0, 0.0, 1.0}}};
 }
 
 using Edge = std::array<std::size_t, 2>;
 
-/// Edges between corners, in the order in which gmsh numbers the nodes in their middles.
+/// Edges of the tetrahedron as pairs of corners, in the order in which gmsh numbers the nodes in the middles of the
+/// edges.
 inline constexpr std::array<Edge, 6> tetrahedron_edges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}}};
 inline constexpr std::array<Edge, 12> hexahedron_edges{
     {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}}};
@@ -55,7 +56,7 @@ inline constexpr std::array<NaturalPoint, 8> hexahedron_corners{
 inline constexpr std::array<NaturalPoint, 6> prism_corners{
     {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}};
 
-/// Corners, then the middles of the edges.
+/// Natural coordinates of the nodes of a second-order shape: the corners, then the middles of the edges.
 template <std::size_t Corners, std::size_t Edges>
 constexpr std::array<NaturalPoint, Corners + Edges> with_middles(const std::array<NaturalPoint, Corners>& corners,
                                                                  const std::array<Edge, Edges>& edges) {
@@ -67,8 +68,8 @@ constexpr std::array<NaturalPoint, Corners + Edges> with_middles(const std::arra
   return points;
 }
 
-/// Data of a shape: `corners`, `edges`, natural coordinates of its `nodes`, and functions(r, s, t), one per node, with
-/// functions_i(nodes_j) = δ_ij and Σ functions = 1.
+/// Data of a solid shape: number of its `corners`, its `edges`, natural coordinates of its `nodes`, and functions(r,
+/// s, t). functions() gives one shape function per node, with functions_i(nodes_j) = δ_ij and Σ functions = 1.
 template <SolidShape shape>
 struct SolidBasis;
 
@@ -114,7 +115,8 @@ struct SolidBasis<SolidShape::hexahedron20> {
   static constexpr std::size_t corners = 8;
   static constexpr auto edges = hexahedron_edges;
   static constexpr auto nodes = with_middles(hexahedron_corners, hexahedron_edges);
-  /// Factor for node i: 1 − x² along its edge, where its natural coordinate is 0, otherwise 1 + x x_i.
+  /// Shape functions of the 20-node hexahedron. Along the coordinate x of an edge, the factor of its middle node is 1
+  /// − x². Every other factor of node i is 1 + x x_i.
   static constexpr std::array<Jet, 20> functions(const Jet& r, const Jet& s, const Jet& t) {
     const std::array<Jet, 3> x{r, s, t};
     std::array<Jet, 20> N{};
@@ -165,7 +167,7 @@ struct SolidBasis<SolidShape::prism15> {
   }
 };
 
-/// Calls work with the shape as a template argument.
+/// Calls `work` with the shape as a template argument, and returns its result.
 auto with_shape(SolidShape shape, const auto& work) {
   switch (shape) {
     case SolidShape::tetrahedron4:

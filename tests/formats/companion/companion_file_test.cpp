@@ -222,9 +222,9 @@ TEST(CompanionFile, EveryRuleIsChecked) {
       {"/H[2]: has 13 x 13", [](Companion& c) { c.H[2].conservativeResize(13, 13); }},
       {"/H[4]: [1, 2] = nan", [nan](Companion& c) { c.H[4](1, 2) = nan; }},
       {"/H[4]: is not symmetric", [](Companion& c) { c.H[4](1, 2) += 1.0; }},
-      {"/H: a rigid motion has stress: moving in x",
+      {"/H: a rigid-body motion causes stress: moving in x",
        [](Companion& c) { c.H[0](4, 4) += 1e-5 * c.H[0].cwiseAbs().maxCoeff(); }},
-      {"/Lambda[0]: a rigid motion bends",
+      {"/Lambda[0]: a rigid-body motion causes membrane stress",
        [](Companion& c) {
          c.Lambda = with_trapped_stress().Lambda;
          c.Lambda[0](4, 4) *= 1.001;
@@ -248,8 +248,8 @@ TEST(CompanionFile, EveryRuleIsChecked) {
          c.W = with_relative_turns().W;
          c.W[2](3, 5) += 0.1;
        }},
-      {"kinetic energy is not positive: spinning about (", [](Companion& c) { c.E[0] *= 0.999; }},
-      {"kinetic energy is not positive: spinning about (0, 0.707, 0.707)",
+      {"kinetic energy is not positive: for rotation about (", [](Companion& c) { c.E[0] *= 0.999; }},
+      {"kinetic energy is not positive: for rotation about (0, 0.707, 0.707)",
        [](Companion& c) {
          const Eigen::MatrixXd half = 0.01 * (c.E[1] + c.E[2]);
          c.E[1] += half;
@@ -259,8 +259,10 @@ TEST(CompanionFile, EveryRuleIsChecked) {
       {"/load_cases/push/force: has 12 x 1", [](Companion& c) { c.load_cases[0].force.conservativeResize(12); }},
       {"/load_cases/push/force: [3] = nan", [nan](Companion& c) { c.load_cases[0].force[3] = nan; }},
       {"/load_cases/push/stiffness: is not symmetric", [](Companion& c) { c.load_cases[0].stiffness(0, 1) += 1.0; }},
-      {"no name of its own", [](Companion& c) { c.load_cases[0].name = "a b"; }},
-      {"no name of its own", [](Companion& c) { c.load_cases.push_back(c.load_cases[0]); }},
+      {"is not a valid name of a load case, or is not in ascending order",
+       [](Companion& c) { c.load_cases[0].name = "a b"; }},
+      {"is not a valid name of a load case, or is not in ascending order",
+       [](Companion& c) { c.load_cases.push_back(c.load_cases[0]); }},
   };
   for (const Case& c : cases) {
     Companion companion = network().companion;
@@ -286,7 +288,8 @@ TEST(CompanionFile, RefusesForeignAndDamagedFiles) {
   for (const char* dataset :
        {"/frame/reference_point", "/frame/weights", "/H", "/C", "/E", "/N", "/T", "/S0", "/S1", "/mass"})
     EXPECT_THAT(spoiled([dataset](hid_t f) { H5Ldelete(f, dataset, H5P_DEFAULT); }), HasSubstr(dataset)) << dataset;
-  EXPECT_THAT(spoiled([](hid_t f) { H5Ldelete(f, "/load_cases/push/force", H5P_DEFAULT); }), HasSubstr("stands alone"));
+  EXPECT_THAT(spoiled([](hid_t f) { H5Ldelete(f, "/load_cases/push/force", H5P_DEFAULT); }),
+              HasSubstr("has no dataset 'force' in its group"));
   EXPECT_THAT(spoiled([](hid_t f) {
                 H5Ldelete(f, "/S1", H5P_DEFAULT);
                 const std::vector<double> zeros(3 * 501, 0.0);

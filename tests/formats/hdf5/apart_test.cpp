@@ -92,7 +92,7 @@ TEST(Apart, MayOnlyCompute) {
   EXPECT_EQ(open, (std::set<std::string>{"0", "1", "2", "3", "4"})) << "nothing, the socket and the file";
 }
 
-TEST(Apart, ItsCrashIsToldAndEndsIt) {
+TEST(Apart, ItsCrashIsReportedAndEndsIt) {
   const TemporaryFolder folder;
   const std::string path = superelement_in(folder);
   const hdf5::InputFile file(path, hdf5::Completeness::closed);
@@ -244,8 +244,8 @@ TEST(WithoutSeccomp, FilesAreReadWithOneNote) {
     GTEST_SKIP() << "not tested: this kernel lacks seccomp, by which the test takes it away";
   EXPECT_EQ(WEXITSTATUS(status), 0);
   EXPECT_EQ(test_support::text_of(said),
-            "note: HDF5 files are read by a process that keeps all its rights: this system lacks seccomp or forbids it. "
-            "A crafted file could do more harm\n");
+            "note: HDF5 files are read without a sandbox, because this system lacks seccomp or forbids it. "
+            "A malicious file could do more harm\n");
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ TEST(VariableTexts, TheExampleOfThePageIsRead) {
 TEST(VariableTexts, ATextLongerThanItsReferenceIsRefused) {
   EXPECT_EQ(error_of(crafted),
             crafted +
-                ": /boundary/name: has a text of 4104 bytes, which is said to have 4; the file is damaged, or made "
-                "to do harm: do not use it");
+                ": /boundary/name: has a string of 4104 bytes, but its reference says 4 bytes; the file is damaged or "
+                "malicious: do not use it");
 }
 
 /// Some bytes changed each time, most of them in the structures of the file: an error or a superelement, whatever

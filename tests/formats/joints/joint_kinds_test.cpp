@@ -78,16 +78,16 @@ std::vector<std::string> cells(const std::string& header, std::string_view word)
 
 TEST(JointKinds, ThePageSaysWhatTheTableSays) {
   for (const JointKindRow& row : joint_kinds()) {
-    const std::vector<std::string> told = cells("| `type` | what it holds | equations | coordinates |", row.word);
-    ASSERT_EQ(told.size(), 4u) << row.word;
-    EXPECT_EQ(told[1], row.holds);
-    EXPECT_EQ(told[2], row.key == JointKey::hold ? "1-6" : std::to_string(row.equations)) << row.word;
+    const std::vector<std::string> reported = cells("| `type` | what it holds | equations | coordinates |", row.word);
+    ASSERT_EQ(reported.size(), 4u) << row.word;
+    EXPECT_EQ(reported[1], row.holds);
+    EXPECT_EQ(reported[2], row.key == JointKey::hold ? "1-6" : std::to_string(row.equations)) << row.word;
     std::vector<std::string> names;
     for (const std::string_view name : row.coordinates) names.push_back(fmt::format("`{}`", name));
     if (row.key == JointKey::hold)
-      for (const std::string& name : names) EXPECT_THAT(told[3], HasSubstr(name));
+      for (const std::string& name : names) EXPECT_THAT(reported[3], HasSubstr(name));
     else
-      EXPECT_EQ(told[3], names.empty() ? "-" : join(names, ", ")) << row.word;
+      EXPECT_EQ(reported[3], names.empty() ? "-" : join(names, ", ")) << row.word;
   }
 }
 
@@ -100,7 +100,7 @@ std::string not_for(Lacks lacks) {
   return fmt::format("[length]; not for {} |", join(words, ", "));
 }
 
-TEST(JointKinds, ThePageTellsWhatFrictionNeeds) {
+TEST(JointKinds, ThePageReportsWhatFrictionNeeds) {
   const std::string page = content("/formats/SCENE.md");
   EXPECT_THAT(page, HasSubstr("| `radius` | r of the contact surface " +
                               not_for([](const FrictionKeys& keys) { return !keys.radius; })));

@@ -153,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         BadText{"modes: 4", "mods: 4", "part.yaml:11:1: unknown key 'mods'; did you mean 'modes'?"},
         BadText{"modes: 4", "colour: red",
-                "part.yaml:11:1: unknown key 'colour'; known are part, units, mesh, materials, sections, points, "
+                "part.yaml:11:1: unknown key 'colour'; use one of part, units, mesh, materials, sections, points, "
                 "groups, plates, discs, cylinders, extrusions, shells, solids, beams, point_masses, "
                 "springs, spiders, boundary, modes, cutoff, accuracy, moments, method, eigensolver, mechanism, "
                 "recovery, second_order, double_curvature, modal_body, supports, load_cases"},
@@ -185,7 +185,8 @@ INSTANTIATE_TEST_SUITE_P(
             "2.1e5", "^210 GPa",
             "^: material 'steel': E must be a number, not '210 GPa'; give the number alone, in the units of the file"},
         BadText{"E: 2.1e5, nu: 0.3", "nu: 0.3, E: ^'2,1'",
-                "^: material 'steel': E must be a number, not the text \"2,1\"; write decimals with a point"},
+                "^: material 'steel': E must be a number, not the text \"2,1\"; write a decimal point instead of the "
+                "comma"},
         BadText{"2.1e5", "^.inf", "^: material 'steel': E must be finite, not '.inf'"},
         BadText{"2.1e5", "^.nan", "^: material 'steel': E must be finite, not '.nan'"},
         BadText{"2.1e5", "^nan", "^: material 'steel': E must be finite, not 'nan'"},
@@ -244,20 +245,20 @@ INSTANTIATE_TEST_SUITE_P(
                 "{shape: circle, radius: ^-2}", "^: section 'own': radius -2 mm must be positive"},
         BadText{"{A: 9, Iy: 6.75, Iz: 6.5, J: 13.5, shear_area_y: 7.5, shear_area_z: 7.25}",
                 "{shape: circle, radius: 2, ^thickness: 1}",
-                "^: section 'own': unknown key 'thickness'; known are shape, radius"},
+                "^: section 'own': unknown key 'thickness'; use one of shape, radius"},
         BadText{"{A: 9, Iy: 6.75, Iz: 6.5, J: 13.5, shear_area_y: 7.5, shear_area_z: 7.25}",
                 "{shape: ^cirlce, radius: 2}", "^: section 'own': unknown shape 'cirlce'; did you mean 'circle'?"},
         BadText{"section: own", "section: ^owm", "^: beam 'rod': there is no section 'owm'; did you mean 'own'?"},
         BadText{"material: steel,", "material: ^stel,",
                 "^: beam 'rod': there is no material 'stel'; did you mean 'steel'?"},
         BadText{"to: tip", "to: ^top", "^: beam 'rod': there is no point 'top'; did you mean 'tip'?"},
-        BadText{"at: tip", "at: ^xyz", "^: point mass 'engine': there is no point 'xyz'; known are base, tip, up"},
+        BadText{"at: tip", "at: ^xyz", "^: point mass 'engine': there is no point 'xyz'; use one of base, tip, up"},
         BadText{"[base, tip]", "[base, ^tipp]",
                 "^: boundary node 'tipp': there is no point 'tipp'; did you mean 'tip'?"},
         BadText{"[base, tip]", "[base, ^base]", "^: boundary node 'base': the name is used twice; rename one"},
         BadText{
             "[base, tip]", "^[]",
-            "^: the part has no boundary node; list the points at which it is joined or loaded, boundary: [base, tip]"},
+            "^: the part has no boundary node; list the points at which it is joined or loaded: boundary: [base, tip]"},
         BadText{
             "  rod: {from: base, to: tip, section: own, material: steel, elements: 40}\n", "",
             "part.yaml:7:1: the part has no elements; give beams, plates, discs, cylinders, extrusions, or a mesh file "
@@ -271,8 +272,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"elements: 40", "elements: 4, orientation: ^[0, 0, 0]",
                 "^: beam 'rod': orientation has zero length; give the direction of the local y axis"},
         BadText{"elements: 40", "elements: 4, orientation: ^[-3, 0, 0]",
-                "^: beam 'rod': orientation (-3, 0, 0) is parallel to the beam; give a direction across the beam: the "
-                "local y axis"},
+                "^: beam 'rod': orientation (-3, 0, 0) is parallel to the beam; give the direction of the local y "
+                "axis, not parallel to the beam"},
         BadText{"elements: 40", "elements: 4, through: ^[70, 0, 0]",
                 "^: beam 'rod': the point (70, 0, 0) of the arc lies on the line through its ends; move it off the "
                 "line, or remove 'through' for a straight beam"},
@@ -281,23 +282,25 @@ INSTANTIATE_TEST_SUITE_P(
                 "line, or remove 'through' for a straight beam"},
         BadText{"elements: 40", "elements: 4, through: ^upp", "^: beam 'rod': unknown point 'upp'; did you mean 'up'?"},
         BadText{"mass: 3", "mass: ^-3", "^: point mass 'engine': mass -3 must not be negative"},
-        BadText{"[1, 2, 2.5]", "^[1, 2, 4]",
-                "^: point mass 'engine': principal moments of inertia 1, 2, 4: the largest exceeds the sum of the "
-                "others, which no body can have; check values, order and units"},
-        BadText{"[1, 2, 2.5]", "^[1, 2, -1]", "^: point mass 'engine': inertia has the negative principal moment -1"},
+        BadText{
+            "[1, 2, 2.5]", "^[1, 2, 4]",
+            "^: point mass 'engine': the largest of the principal moments of inertia 1, 2, 4 exceeds the sum of the "
+            "other two, which is impossible for a body; check values, order and units"},
+        BadText{"[1, 2, 2.5]", "^[1, 2, -1]",
+                "^: point mass 'engine': inertia has the negative principal moment -1; check values, order and units"},
         BadText{"[1, 2, 2.5]", "^[[1, 0.2, 0], [0, 1, 0], [0, 0, 1]]",
-                "^: point mass 'engine': inertia is not symmetric"},
+                "^: point mass 'engine': inertia is not symmetric; give a symmetric matrix"},
         BadText{"modes: 4", "double_curvature: ^-1",
-                "^: double_curvature -1 must be 0 to 100 shapes; 20 hold what plates need"},
+                "^: double_curvature -1 must be 0 to 100 shapes; 20 shapes are enough for plates"},
         BadText{"modes: 4", "double_curvature: ^101",
-                "^: double_curvature 101 must be 0 to 100 shapes; 20 hold what plates need"},
-        BadText{"modes: 4", "modes: ^-1", "^: modes -1 must not be negative; modes: 0 gives Guyan reduction"},
+                "^: double_curvature 101 must be 0 to 100 shapes; 20 shapes are enough for plates"},
+        BadText{"modes: 4", "modes: ^-1", "^: modes -1 must not be negative; write modes: 0 for Guyan reduction"},
         BadText{"modes: 4", "cutoff: ^0", "^: cutoff 0 must be positive"},
         BadText{"modes: 4", "modes: 4\nmethod: rubin\nmoments: ^3",
                 "^: 'moments' needs modes with the boundary held; remove it, or write method: craig_bampton"},
         BadText{"modes: 4", "^accuracy: {error: 1e-3, up_to: 50}\nmoments: 3",
-                "^: 'accuracy' chooses how many moment vectors there are; remove `moments`, or write moments: 0 for "
-                "internal modes alone"},
+                "^: 'accuracy' chooses the number of moment vectors itself; remove `moments`, or write moments: 0 for "
+                "internal modes only"},
         BadText{"up: [", "^2nd: [",
                 "^: point '2nd': not a valid name; use letters, digits, _ and -, and begin with a letter or _"},
         BadText{"up: [", "^a/b: [",
@@ -307,16 +310,16 @@ INSTANTIATE_TEST_SUITE_P(
     ModalBodies, BadPart,
     ::testing::Values(
         BadText{"modes: 4", "^modal_body: {modes: 3}", "^: modal_body: missing key 'reference'"},
-        BadText{
-            "modes: 4", "modal_body: {reference: tip, modes: ^0}",
-            "^: modal_body: modes 0 must be 1 or more; the superelement beside it, or a rigid body of the scene, has "
-            "none"},
+        BadText{"modes: 4", "modal_body: {reference: tip, modes: ^0}",
+                "^: modal_body: modes 0 must be 1 or more; for a body without modes, use the superelement, or a rigid "
+                "body of the scene"},
         BadText{"modes: 4", "modal_body: {reference: tip, modes: 3, damping: ^-1}",
                 "^: modal_body: damping -1 must not be negative"},
         BadText{"modes: 4", "modal_body: {reference: ^tipp, modes: 3}",
                 "^: modal_body: there is no place 'tipp'; did you mean 'tip'?"},
         BadText{"modes: 4", "modal_body: {reference: ^{base: [x, y, z], tip: [y, z]}, modes: 3}",
-                "^: modal_body: 5 components are held; hold six: fewer leave the frame loose, more stiffen the body"},
+                "^: modal_body: 5 components are held; hold six components: fewer do not fix the frame, more stiffen "
+                "the body"},
         BadText{"modes: 4", "modal_body: {reference: {base: [x, ^ry2]}, modes: 3}",
                 "^: modal_body: unknown component 'ry2'; did you mean 'ry'?"},
         BadText{"modes: 4", "supports: {base: [x, ^q]}", "^: support 'base': unknown direction 'q'; did you mean 'x'?"},
@@ -329,9 +332,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "^: support 'left': both 'on' and a place are given; give one of them"},
         BadText{"modes: 4", "supports: {left: {at: base, symmetry: ^w}}",
                 "^: support 'left': unknown symmetry 'w'; did you mean 'x'?"},
-        BadText{"modes: 4", "supports: {left: {at: ^{centroid: rim}, directions: all}}",
-                "^: support 'left': a centroid has no node of the part; put a spider there and name it: spiders: {pad: "
-                "{kind: averaging, on: ...}}"},
+        BadText{
+            "modes: 4", "supports: {left: {at: ^{centroid: rim}, directions: all}}",
+            "^: support 'left': a centroid is not a node of the part; put a spider there and name it: spiders: {pad: "
+            "{kind: averaging, on: ...}}"},
         BadText{"modes: 4", "load_cases: {^w: {}}",
                 "^: load case 'w' has no loads; give forces, pressures, line_loads or gravity"},
         BadText{"modes: 4", "load_cases: {w: {^gravitiy: [0, 0, 1]}}",

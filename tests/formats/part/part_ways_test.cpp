@@ -189,11 +189,12 @@ INSTANTIATE_TEST_SUITE_P(
                       Change{"file: sub/a.step, ", "", "missing key 'file'"},
                       Change{"unknown: ignore", "unknown: skip", "unknown unknown 'skip'"},
                       Change{"{node: 17}", "{node: 17, near: a}", "more than one of 'node', 'near', 'centroid'"},
-                      Change{"{node: 17}", "{node: 17, tolerance: 1}", "'tolerance' without 'near'"},
+                      Change{"{node: 17}", "{node: 17, tolerance: 1}", "'tolerance' has no effect without 'near'"},
                       Change{"{node: 17}", "{}", "none of 'node', 'near', 'centroid' is given"},
                       Change{"near: a, tolerance: 0.1", "near: n", "point 'n' is a node of the mesh file"},
                       Change{"faces: [3, 4]", "faces: [3, 4], edges: [1]", "entities of different kinds"},
-                      Change{"faces: [3, 4]", "faces: [3, 4], of: faces", "'of' beside numbers of entities"},
+                      Change{"faces: [3, 4]", "faces: [3, 4], of: faces",
+                             "'of' cannot be combined with numbers of entities"},
                       Change{"bore: {faces: [3, 4]}", "bore: {of: faces}", "group 'bore': selects nothing"},
                       Change{"box: [[1, 1, 1], [0, 0, 0]]", "box: [1, 1, 1]", "box must be two corners"},
                       Change{"to: [0, 0, 1], radius", "to: a, radius", "the axis of the cylinder has zero length"},
@@ -205,36 +206,36 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Shells, BadWayIn,
-    ::testing::Values(Change{"nu12: 0.3", "nu12: 4", "nu12 4 must be below sqrt(E1/E2) = 3.8"},
-                      Change{"G23: 3e9", "G23: 0", "material 'ply': G23 0 must be positive"},
-                      Change{"corners: [a, b, c]", "corners: [a, b]", "2 corners; give four corners in order"},
-                      Change{"corners: [a, b, c]", "corners: [a, b, b]", "the inner angle at corner"},
-                      Change{"corners: [a, b, c]", "corners: [a, b, [0, 1, 0], c]", "the inner angle at corner"},
-                      Change{"elements: [2, 3]", "elements: [2]", "elements must be two counts"},
-                      Change{"elements: [2, 3]", "elements: [2, 0]", "elements 0 must be 1 or more"},
-                      Change{"elements: [2, 3]", "elements: [20000, 20000]", "the limit is 1e+07"},
-                      Change{"elements: [2, 3]", "elements: [2, 3], size: 1", "both 'elements' and 'size'"},
-                      Change{"thickness: 0.1, material: steel, offset", "thickness: 0, material: steel, offset",
-                             "'deck': thickness 0 must be positive"},
-                      Change{"thickness: 0.1, material: steel, offset", "thickness: 1, material: stel, offset",
-                             "'deck': there is no material 'stel'; did you mean 'steel'?"},
-                      Change{"inner_radius: 1", "inner_radius: 2",
-                             "inner_radius 2 must be at least 0 and below radius 2"},
-                      Change{"start: [1, 0, 0]", "start: [0, 3, 0]", "start is parallel to the axis"},
-                      Change{"angle_deg: 90, elements", "angle_deg: 400, elements", "angle_deg 400 must be within 360"},
-                      Change{"along: [0, 0, 1]", "along: [0, 0, 0]", "along must be a direction"},
-                      Change{"along: [0, 0, 1], ", "", "neither 'along' nor 'arc' is given"},
-                      Change{"profile: [b, c]", "profile: [b, b]", "points 1 and 2 are at the same place"},
-                      Change{"x: [1, 0, 0], mass", "x: [0, 0, 0], mass", "x must be a direction"},
-                      Change{"laminate: [{", "thickness: 1, laminate: [{", "both 'laminate' and 'thickness' are given"},
-                      Change{"thickness: 0.2", "thickness: -0.2", "laminate.0.thickness -0.2 must be positive"},
-                      Change{"body: {on: all, material: steel", "body: {on: all, material: ply",
-                             "solid 'body': there is no material 'ply'"}));
+    ::testing::Values(
+        Change{"nu12: 0.3", "nu12: 4", "nu12 4 must be below sqrt(E1/E2) = 3.8"},
+        Change{"G23: 3e9", "G23: 0", "material 'ply': G23 0 must be positive"},
+        Change{"corners: [a, b, c]", "corners: [a, b]", "2 corners; give four corners in order"},
+        Change{"corners: [a, b, c]", "corners: [a, b, b]", "the inner angle at corner"},
+        Change{"corners: [a, b, c]", "corners: [a, b, [0, 1, 0], c]", "the inner angle at corner"},
+        Change{"elements: [2, 3]", "elements: [2]", "elements must be two counts"},
+        Change{"elements: [2, 3]", "elements: [2, 0]", "elements 0 must be 1 or more"},
+        Change{"elements: [2, 3]", "elements: [20000, 20000]", "the limit is 1e+07"},
+        Change{"elements: [2, 3]", "elements: [2, 3], size: 1", "both 'elements' and 'size'"},
+        Change{"thickness: 0.1, material: steel, offset", "thickness: 0, material: steel, offset",
+               "'deck': thickness 0 must be positive"},
+        Change{"thickness: 0.1, material: steel, offset", "thickness: 1, material: stel, offset",
+               "'deck': there is no material 'stel'; did you mean 'steel'?"},
+        Change{"inner_radius: 1", "inner_radius: 2", "inner_radius 2 must be at least 0 and below radius 2"},
+        Change{"start: [1, 0, 0]", "start: [0, 3, 0]", "start is parallel to the axis"},
+        Change{"angle_deg: 90, elements", "angle_deg: 400, elements", "angle_deg 400 must be between -360 and 360"},
+        Change{"along: [0, 0, 1]", "along: [0, 0, 0]", "along must be a direction"},
+        Change{"along: [0, 0, 1], ", "", "neither 'along' nor 'arc' is given"},
+        Change{"profile: [b, c]", "profile: [b, b]", "points 1 and 2 are at the same place"},
+        Change{"x: [1, 0, 0], mass", "x: [0, 0, 0], mass", "x must be a direction"},
+        Change{"laminate: [{", "thickness: 1, laminate: [{", "both 'laminate' and 'thickness' are given"},
+        Change{"thickness: 0.2", "thickness: -0.2", "laminate.0.thickness -0.2 must be positive"},
+        Change{"body: {on: all, material: steel", "body: {on: all, material: ply",
+               "solid 'body': there is no material 'ply'"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Attachments, BadWayIn,
     ::testing::Values(
-        Change{"on: [top], section", "on: [top], elements: 3, section", "'elements' beside 'on'"},
+        Change{"on: [top], section", "on: [top], elements: 3, section", "'elements' cannot be combined with 'on'"},
         Change{"start: ry", "start: rw", "unknown release 'rw'"},
         Change{"to_section: thin", "to_section: thick", "there is no section 'thick'"},
         Change{"[1, 2, 3, 4, 5, 6]", "[1, 2, 3]", "stiffness has 3 numbers instead of 6"},
@@ -248,7 +249,7 @@ INSTANTIATE_TEST_SUITE_P(
                "[[1, 2, 0, 0, 0, 0], [2, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, "
                "0, 1, 0], [0, 0, 0, 0, 0, 1]]",
                "stiffness is not positive semidefinite"},
-        Change{"pin: {kind: rigid, on: bore}", "pin: {kind: rigid, on: []}", "spider 'pin': is on nothing"},
+        Change{"pin: {kind: rigid, on: bore}", "pin: {kind: rigid, on: []}", "spider 'pin': is attached to nothing"},
         Change{"pin: {kind: rigid, on: bore}", "pin: {on: bore}", "missing key 'kind'"},
         Change{"kind: rigid, on: bore", "kind: rigid, on: bore, weights: equal", "a rigid spider has no weights"},
         Change{"  mean: {", "  a: {", "spider 'a': the name is used twice"}));
@@ -261,8 +262,8 @@ TEST(WaysIn, WithoutAMeshFileGroupsMustBeDrawn) {
   EXPECT_THAT(error(part + "spiders: {s: {kind: rigid, on: deck/edge5}}\nboundary: [s]\n"),
               HasSubstr("spider 's': there is no group 'deck/edge5'; did you mean 'deck/edge1'?"));
   EXPECT_THAT(error(part + "spiders: {s: {kind: rigid, on: [7]}}\nboundary: [s]\n"),
-              HasSubstr("numbers of nodes without a mesh file"));
-  EXPECT_THAT(error(part + "boundary: {b: {near: [0, 0, 0]}}\n"), HasSubstr("'near' without a mesh file"));
+              HasSubstr("node numbers are given, but there is no mesh file"));
+  EXPECT_THAT(error(part + "boundary: {b: {near: [0, 0, 0]}}\n"), HasSubstr("'near' needs a mesh file"));
   EXPECT_THAT(error(part), HasSubstr("missing key 'boundary'"));
   EXPECT_THAT(error(replaced(part, ", thickness: 1, material: steel", "") + "boundary: [a]\n"),
               HasSubstr("neither thickness and material nor a laminate"));

@@ -207,12 +207,14 @@ TEST(RecoveryFile, AppliedLoadsAreChecked) {
   };
   EXPECT_EQ(fault([](RecoveryLoads&) {}), "no error");
   EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied.pop_back(); }), HasSubstr("/loads/share"));
-  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied[1].node = ""; }), HasSubstr("a node, or neither"));
-  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied[0].node = "tip"; }), HasSubstr("a node, or neither"));
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied[1].node = ""; }),
+              HasSubstr("must name either a load case or a node"));
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied[0].node = "tip"; }),
+              HasSubstr("must name either a load case or a node"));
   EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied[1].component = 6; }), HasSubstr("/applied/component"));
   EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied[0].component = 1; }), HasSubstr("/applied/component"));
   EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied[1] = loads.applied[0]; }), HasSubstr("given twice"));
-  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied[0].load_case = "a\nb"; }), HasSubstr("no line"));
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.applied[0].load_case = "a\nb"; }), HasSubstr("must be one line"));
 }
 
 TEST(RecoveryFile, ForcesOnNodesAreChecked) {
@@ -276,7 +278,7 @@ TEST(RecoveryFile, DisplacementOfSecondOrderIsChecked) {
   EXPECT_THAT(fault([](SecondOrderForms& forms) { forms.of_coordinate[0](0, 0) = std::nan(""); }),
               HasSubstr("/second_order/coordinate_form: entry 0 is nan"));
   EXPECT_THAT(fault([](SecondOrderForms& forms) { forms.coordinate[0] = 0; }),
-              HasSubstr("a coordinate of the boundary"));
+              HasSubstr("a boundary coordinate, expected an internal coordinate"));
   EXPECT_THAT(fault([](SecondOrderForms& forms) { forms.coordinate[0] = 99; }), HasSubstr("entry 0 is 99"));
   EXPECT_THAT(fault([](SecondOrderForms& forms) { forms.coordinate.clear(); }),
               HasSubstr("/second_order/coordinate: has 0 entries"));
@@ -411,7 +413,7 @@ std::vector<Fault> faults() {
 INSTANTIATE_TEST_SUITE_P(Faults, SpoiledRecovery, ::testing::ValuesIn(faults()),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
-TEST(RecoveryFile, OtherSuperelementIsRefusedAndImagesAreTold) {
+TEST(RecoveryFile, OtherSuperelementIsRefusedAndImagesAreReported) {
   const Recovery r = small_recovery();
   EXPECT_EQ(require_same_superelement(r, r.content_id, "a", "rod"), Eigen::Vector3d(1, 1, 1));
   EXPECT_EQ(require_same_superelement(r, r.mirror_content_id[0], "a", "rod"), Eigen::Vector3d(-1, 1, 1));

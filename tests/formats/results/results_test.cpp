@@ -209,7 +209,7 @@ TEST(Results, SingleNodesAreChosenWithTheirDatasets) {
   EXPECT_EQ(chosen({"energy"}), (Nodes{true, true, true}));
   EXPECT_EQ(chosen({}), (Nodes{true, true, true}));
   EXPECT_THAT(error_of([&] { (void)chosen({"nodes/position/beam/tup"}); }),
-              AllOf(HasSubstr("there is no node 'beam/tup'"), HasSubstr("the nearest nodes are beam/tip, ")));
+              AllOf(HasSubstr("there is no node 'beam/tup'"), HasSubstr("nodes with similar names are beam/tip, ")));
 
   layout.channels = {"nodes/*/beam/tip"};
   EXPECT_EQ(chosen_blocks(layout, "").size(), 1u + 6);  // time, and all datasets of nodes
@@ -333,10 +333,10 @@ TEST(Results, InterruptedRunIsAPartialFileWithItsReason) {
     ResultsWriter writer(folder.file("b.h5"), layout);
     writer.append(row);
   }
-  const ResultsReader told(folder.file("a.h5")), dropped(folder.file("b.h5"));
-  EXPECT_FALSE(told.completed());
-  EXPECT_EQ(told.reason(), "interrupted by the user");
-  EXPECT_EQ(told.rows(), 1u);
+  const ResultsReader reported(folder.file("a.h5")), dropped(folder.file("b.h5"));
+  EXPECT_FALSE(reported.completed());
+  EXPECT_EQ(reported.reason(), "interrupted by the user");
+  EXPECT_EQ(reported.rows(), 1u);
   EXPECT_FALSE(dropped.completed());
   EXPECT_THAT(dropped.reason(), HasSubstr("ended before it was complete"));
   EXPECT_EQ(dropped.rows(), 1u);
@@ -351,7 +351,7 @@ TEST(Results, RunningFileIsReadBesideItsWriter) {
   const ResultsReader early(folder.file("a.h5"));  // finds a.h5.part
   EXPECT_EQ(early.rows(), 0u);
   EXPECT_FALSE(early.completed());
-  EXPECT_THAT(early.reason(), HasSubstr("still runs"));
+  EXPECT_THAT(early.reason(), HasSubstr("is still running"));
   writer.append(row);
   writer.finish(true, "", "{}");
 }
@@ -390,7 +390,7 @@ TEST(Results, CheckpointThatCountsNothingIsRefused) {
     hdf5::write_attribute({file, path}, ".", name, std::numeric_limits<double>::quiet_NaN());
     H5Fclose(file);
     EXPECT_THAT(error_of([&] { read_checkpoint(path); }),
-                HasSubstr("attribute '" + std::string(name) + "' is nan, which counts nothing"));
+                HasSubstr("attribute '" + std::string(name) + "' is nan, which is not a valid number of items"));
   }
 }
 

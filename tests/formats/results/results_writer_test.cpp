@@ -133,8 +133,8 @@ TEST(ResultsWriter, NameThatAWriterHoldsIsRefused) {
   {
     ResultsWriter writer(path, layout);
     EXPECT_THAT(error_of([&] { ResultsWriter second(path, layout); }),
-                AllOf(HasSubstr("a.h5"), HasSubstr("a running program writes these results")));
-    EXPECT_THAT(error_of([&] { require_unheld_results(path); }), HasSubstr("a running program writes"));
+                AllOf(HasSubstr("a.h5"), HasSubstr("another program is writing these results now")));
+    EXPECT_THAT(error_of([&] { require_unheld_results(path); }), HasSubstr("another program is writing"));
     EXPECT_EQ(error_of([&] { ResultsWriter other(folder.file("b.h5"), layout); }), "no error");
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);  // nothing is left over
     writer.finish(true, "", "{}");
@@ -166,11 +166,18 @@ TEST(ResultsWriter, BeginsWithTheRowsOfAnOlderFile) {
                 ResultsWriter writer(folder.file("b.h5"), layout, {folder.file("old.h5"), 6001});
               }),
               HasSubstr("holds 6000 instants, 6001 were expected"));
+  ResultsLayout other = layout;
+  other.stiffened.back() = 1 - other.stiffened.back();
+  EXPECT_THAT(error_of([&] {
+                ResultsWriter writer(folder.file("b.h5"), other, {folder.file("old.h5"), 10});
+              }),
+              AllOf(HasSubstr("old.h5: body " + other.superelements.back()),
+                    HasSubstr(layout.stiffened.back() != 0 ? "it has geometric" : "it has no geometric")));
   layout.channels = {"energy"};
   EXPECT_THAT(error_of([&] {
                 ResultsWriter writer(folder.file("b.h5"), layout, {folder.file("old.h5"), 10});
               }),
-              AllOf(HasSubstr("old.h5"), HasSubstr("holds other channels")));
+              AllOf(HasSubstr("old.h5"), HasSubstr("has channels or units that differ from those of this run")));
 }
 }  // namespace
 }  // namespace tisserand::formats::results_writer_test

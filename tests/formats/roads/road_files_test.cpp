@@ -49,21 +49,24 @@ TEST(HeightGridFile, HoldsHeightsAloneOnARegularGrid) {
 
 TEST(HeightGridFile, TellsHolesWithLineAndColumn) {
   EXPECT_EQ(grid_error(replaced(with_axes, "0.2", "nan")),
-            "road.csv:3: 'nan' in column 3 is not a finite number; give a height there: a grid has no holes");
+            "road.csv:3: 'nan' in column 3 is not a finite number; give a height at each point of the grid");
   EXPECT_THAT(grid_error(replaced(with_axes, "0.2", "")), HasSubstr("road.csv:3: '' in column 3 is not a finite"));
   EXPECT_THAT(grid_error(replaced(with_axes, "0.2", "inf")), HasSubstr("'inf' in column 3"));
-  EXPECT_THAT(grid_error(replaced(with_axes, ", 0.3", "")), HasSubstr("road.csv:3: has 3 cells instead of 4"));
-  EXPECT_THAT(grid_error(replaced(with_axes, "0.3\n", "0.3, 4\n")), HasSubstr("has 5 cells instead of 4"));
+  EXPECT_THAT(grid_error(replaced(with_axes, ", 0.3", "")), HasSubstr("road.csv:3: the line has 3 cells instead of 4"));
+  EXPECT_THAT(grid_error(replaced(with_axes, "0.3\n", "0.3, 4\n")), HasSubstr("the line has 5 cells instead of 4"));
   EXPECT_THAT(grid_error(replaced(with_axes, "0.3\n", "0.3\n\n")),
-              HasSubstr("road.csv:4: is an empty line between lines of heights"));
+              HasSubstr("road.csv:4: the line is empty, but lines of heights follow"));
   EXPECT_THAT(grid_error(replaced(with_axes, "2.5, ", "-2.5, ")),
-              HasSubstr("road.csv:4: x must ascend, but -2.5 follows 0"));
-  EXPECT_THAT(grid_error(replaced(with_axes, "0.5", "-5")), HasSubstr("road.csv:2: y must ascend, but -5 follows -1"));
-  EXPECT_THAT(grid_error("0, -1, 1\n0, 0, 0\n1, 0, 0\n"), HasSubstr("begins with the number 0 instead of a word"));
-  EXPECT_THAT(grid_error("x, 1\n1, 2\n2, 3\n"), HasSubstr("fewer than two columns"));
+              HasSubstr("road.csv:4: x must increase, but -2.5 follows 0"));
+  EXPECT_THAT(grid_error(replaced(with_axes, "0.5", "-5")),
+              HasSubstr("road.csv:2: y must increase, but -5 follows -1"));
+  EXPECT_THAT(grid_error("0, -1, 1\n0, 0, 0\n1, 0, 0\n"),
+              HasSubstr("the line begins with the number 0 instead of a word"));
+  EXPECT_THAT(grid_error("x, 1\n1, 2\n2, 3\n"), HasSubstr("the line gives fewer than two values of y"));
   EXPECT_THAT(grid_error("x, 1, 2\n1, 2, 3\n"), HasSubstr("the grid has 1 x 2 heights"));
   EXPECT_THAT(grid_error(""), HasSubstr("the grid has 0 x 0 heights"));
-  EXPECT_THAT(grid_error("1, 2\n3\n", RegularGrid{0, 0, 1}), HasSubstr("road.csv:2: has 1 cells instead of 2"));
+  EXPECT_THAT(grid_error("1, 2\n3\n", RegularGrid{0, 0, 1}),
+              HasSubstr("road.csv:2: the line has 1 cells instead of 2"));
   EXPECT_THAT(grid_error("1, 2\n3, x\n", RegularGrid{0, 0, 1}), HasSubstr("'x' in column 2"));
 }
 
@@ -196,22 +199,23 @@ TEST(Crg, AllowsSettingsThatChangeNothing) {
 TEST(Crg, TellsWhatItDoesNotReadWithItsLine) {
   EXPECT_EQ(
       crg_error("#:LRFI", "#:KRBI"),
-      "road.crg:13: the data are binary (KRBI); write the file anew in clear text, as #:LRFI or #:LDFI (crg_write "
-      "of the OpenCRG tools does)");
-  EXPECT_THAT(crg_error("#:LRFI", "#:XXXX"), HasSubstr("road.crg:13: the format of data 'XXXX' is not known"));
-  EXPECT_THAT(crg_error("$ROAD_CRG\n", "$ROAD_CRG_FILE\n"), HasSubstr("refers to another file, which is not followed"));
+      "road.crg:13: the data are binary (KRBI); convert the file to the text format #:LRFI or #:LDFI, for example with "
+      "crg_write of the OpenCRG tools");
+  EXPECT_THAT(crg_error("#:LRFI", "#:XXXX"), HasSubstr("road.crg:13: the data format 'XXXX' is not known"));
+  EXPECT_THAT(crg_error("$ROAD_CRG\n", "$ROAD_CRG_FILE\n"),
+              HasSubstr("refers to another file, which is not supported"));
   EXPECT_THAT(crg_error("$ROAD_CRG\n", "$ROAD_CRX\n"), HasSubstr("road.crg:4: the section $road_crx is not known"));
   EXPECT_THAT(crg_error("LONG_SECTION_V_INCREMENT", "LONG_SECTION_V_INCREMEND"),
               HasSubstr("road.crg:9: the keyword 'long_section_v_incremend' is not known in $road_crg; did you mean "
                         "'long_section_v_increment'?"));
   const std::string mods = "$ROAD_CRG_MODS\n#\n$\n$KD_DEFINITION";
   EXPECT_THAT(crg_error("$KD_DEFINITION", replaced(mods, "#", "SCALE_Z_GRID = 2")),
-              HasSubstr("road.crg:13: scale_z_grid = 2 is not provided for"));
+              HasSubstr("road.crg:13: scale_z_grid = 2 is not supported"));
   EXPECT_THAT(crg_error("$KD_DEFINITION", replaced(mods, "#", "grid_nan_mode = 1")), HasSubstr("grid_nan_mode = 1"));
   EXPECT_THAT(crg_error("$KD_DEFINITION", "$ROAD_CRG_OPTS\nborder_mode_v = 3\n$\n$KD_DEFINITION"),
-              HasSubstr("border_mode_v = 3 is not provided for"));
+              HasSubstr("border_mode_v = 3 is not supported"));
   EXPECT_THAT(crg_error("START_Z = 2.0\n$", "START_Z = 2.0\n$\n$ROAD_CRG_MODS\nREFPOINT_X = 0\n$", curved),
-              HasSubstr("road.crg:10: the modifiers refpoint_... move the start"));
+              HasSubstr("road.crg:10: the modifiers refpoint_... would move the start"));
   EXPECT_THAT(crg_error("D:long section 2,m", "D:reference line x,m"),
               HasSubstr("road.crg:16: the column 'reference line x' is not known"));
   EXPECT_THAT(crg_error("D:reference line phi,rad", "D:reference line phi,deg", curved),
@@ -219,17 +223,18 @@ TEST(Crg, TellsWhatItDoesNotReadWithItsLine) {
 }
 
 TEST(Crg, TellsContradictions) {
-  EXPECT_THAT(crg_error("u,m,0,2.0", "u,m,0,1.0"), HasSubstr("road.crg:14: U: says 1, the parameters"));
+  EXPECT_THAT(crg_error("u,m,0,2.0", "u,m,0,1.0"), HasSubstr("road.crg:14: the line U: gives 1, but the parameters"));
   EXPECT_THAT(crg_error("increment = 2.0", "increment = -2.0", replaced(straight, "U:", "* U:")),
-              HasSubstr("must be positive"));
+              HasSubstr("REFERENCE_LINE_INCREMENT -2 must be greater than 1e-6 m"));
   EXPECT_THAT(crg_error("V_LEFT = 1.0", "V_LEFT = 1.5"), HasSubstr("road.crg:8: long_section_v_left = 1.5"));
   EXPECT_THAT(crg_error("$ROAD_CRG\n", "$ROAD_CRG\nREFERENCE_LINE_END_U = 6.0\n"),
               HasSubstr("road.crg:5: reference_line_end_u = 6, but 3 rows of data end at u = 4"));
-  EXPECT_THAT(crg_error("section 2", "section 5"), HasSubstr("long section 5 stands in the place of 2"));
-  EXPECT_THAT(crg_error("section 2", "section at v = 0.0"), HasSubstr("by number and by position"));
-  EXPECT_THAT(crg_error("at v = 2.000", "at v = -1.000", curved), HasSubstr("two long sections stand at v = -1"));
+  EXPECT_THAT(crg_error("section 2", "section 5"), HasSubstr("long section 5 is given where 2 is expected"));
+  EXPECT_THAT(crg_error("section 2", "section at v = 0.0"),
+              HasSubstr("some long sections are given by number, others by position"));
+  EXPECT_THAT(crg_error("at v = 2.000", "at v = -1.000", curved), HasSubstr("two long sections are at v = -1"));
   EXPECT_THAT(crg_error("$ROAD_CRG\n", "$ROAD_CRG\nREFERENCE_LINE_END_X = 4.5\nREFERENCE_LINE_END_Y = 0\n"),
-              HasSubstr("the heading leads to an end 0.5 m away"));
+              HasSubstr("the end computed from the heading is 0.5 m away"));
   EXPECT_THAT(crg_error("$ROAD_CRG\n", "$ROAD_CRG\nREFERENCE_LINE_END_X = 4\n"), HasSubstr("only one of"));
   EXPECT_THAT(crg_error("$ROAD_CRG\n", "$ROAD_CRG\nREFERENCE_LINE_END_B = 0.1\n"),
               HasSubstr("reference_line_end_b = 0.1 differs from reference_line_start_b = 0"));
@@ -239,22 +244,27 @@ TEST(Crg, TellsContradictions) {
 TEST(Crg, TellsDamageWithItsLine) {
   EXPECT_THAT(crg_error(" 5.0000000", " 5.0x00000"), HasSubstr("road.crg:22:11: '5.0x00000' is not a finite number"));
   EXPECT_THAT(crg_error(" 6.0000000", ""), HasSubstr("road.crg:22:21: '' is not a finite number"));
-  EXPECT_THAT(crg_error(" 4.0000000 5", "\n 4.0000000 5"), HasSubstr("road.crg:22: is an empty line within the data"));
+  EXPECT_THAT(crg_error(" 4.0000000 5", "\n 4.0000000 5"),
+              HasSubstr("road.crg:22: the line is empty, but data follow"));
   EXPECT_THAT(crg_error(" 4.0000000 5.0000000 6.0000000\n 7.0000000 8.0000000-9.0000000\n", ""),
-              HasSubstr("has 1 rows of data"));
-  EXPECT_THAT(crg_error("         -0.04000000\n", "", curved), HasSubstr("ends within a row: 4 of 5 columns"));
+              HasSubstr("the number of rows of data is 1"));
+  EXPECT_THAT(crg_error("         -0.04000000\n", "", curved),
+              HasSubstr("the file ends inside a row: it has 4 of 5 columns"));
   EXPECT_THAT(crg_error("1.57079632", "*bad*     ", curved), HasSubstr("the reference line phi is missing"));
   EXPECT_THAT(crg_error("0.03000000", "*bad*     ", curved), HasSubstr("the reference line banking is missing"));
-  EXPECT_THAT(crg_error("-9.0000000\n", "-9.0000000" + std::string(60, '1') + "\n"), HasSubstr("has 90 characters"));
+  EXPECT_THAT(crg_error("-9.0000000\n", "-9.0000000" + std::string(60, '1') + "\n"),
+              HasSubstr("the line has 90 characters"));
   EXPECT_THAT(crg_error("$CT", "$CT", straight.substr(0, straight.find("$$$$"))),
               HasSubstr("no line begins with $$$$"));
   EXPECT_THAT(crg_error("D:long section 1,m\nD:long section 2,m   ! the middle\n", ""),
-              HasSubstr("has 1 columns of heights"));
+              HasSubstr("the number of long sections (columns of heights) is 1"));
   EXPECT_THAT(crg_error("$ROAD_CRG\n", "x = 3\n$ROAD_CRG\n"),
-              HasSubstr("road.crg:4: the line stands outside of all sections"));
-  EXPECT_THAT(crg_error("* comment = 3\n$", "* comment = 3"), HasSubstr("$kd_definition begins inside of $road_crg"));
+              HasSubstr("road.crg:4: the line is outside all sections"));
+  EXPECT_THAT(crg_error("* comment = 3\n$", "* comment = 3"),
+              HasSubstr("section $kd_definition begins inside section $road_crg"));
   EXPECT_THAT(crg_error("increment = 2.0", "increment = two"), HasSubstr("'two' is not a finite number"));
-  EXPECT_THAT(crg_error("increment = 2.0", "increment"), HasSubstr("no = and value follow"));
+  EXPECT_THAT(crg_error("increment = 2.0", "increment"),
+              HasSubstr("reference_line_increment has no value; write reference_line_increment = <number>"));
 }
 
 TEST(Crg, HasAHeightAtLeast) {
@@ -264,21 +274,27 @@ TEST(Crg, HasAHeightAtLeast) {
 }
 
 // Numbers that are finite but beyond all roads, and axes that hardly ascend, would overflow later.
-TEST(RoadHeights, HaveFaultsThatAreTold) {
+TEST(RoadHeights, HaveFaultsThatAreReported) {
   const RoadHeights good = crg(straight);
   const auto fault = [&good](auto change) {
     RoadHeights road = good;
     change(road);
     return fault_of(road);
   };
-  EXPECT_THAT(fault([](RoadHeights& r) { r.along = {0.0, 1.0, 1.0}; }), HasSubstr("do not ascend"));
-  EXPECT_THAT(fault([](RoadHeights& r) { r.along = {1e9, 1e9 + 0.5, 1e9 + 2.0}; }), HasSubstr("do not ascend"));
-  EXPECT_THAT(fault([](RoadHeights& r) { r.across.pop_back(); }), HasSubstr("3 x 3 heights for 3 x 2 places"));
-  EXPECT_THAT(fault([](RoadHeights& r) { r.across = {0.0}; }), HasSubstr("has 1 values across it"));
+  EXPECT_THAT(fault([](RoadHeights& r) {
+                r.along = {0.0, 1.0, 1.0};
+              }),
+              HasSubstr("they must increase by more than 1e-09"));
+  EXPECT_THAT(fault([](RoadHeights& r) {
+                r.along = {1e9, 1e9 + 0.5, 1e9 + 2.0};
+              }),
+              HasSubstr("they must increase by more than 1e-09"));
+  EXPECT_THAT(fault([](RoadHeights& r) { r.across.pop_back(); }), HasSubstr("3 x 3 heights for 3 x 2 positions"));
+  EXPECT_THAT(fault([](RoadHeights& r) { r.across = {0.0}; }), HasSubstr("has 1 positions across the road"));
   EXPECT_THAT(fault([](RoadHeights& r) { r.height(1, 1) = 1e300; }), HasSubstr("a height of 1e+300"));
-  EXPECT_THAT(fault([](RoadHeights& r) { r.height.setConstant(std::nan("")); }), HasSubstr("has no height"));
+  EXPECT_THAT(fault([](RoadHeights& r) { r.height.setConstant(std::nan("")); }), HasSubstr("has no heights"));
   EXPECT_THAT(fault([](RoadHeights& r) { r.line(0, 1) = std::numeric_limits<double>::infinity(); }),
-              HasSubstr("a line that reaches inf"));
+              HasSubstr("a reference line that reaches inf"));
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST(Analyses, EveryErrorNamesItsAnalysis) {
   EXPECT_THAT(error_of("analyses: {a: {type: dynamics}}"), HasSubstr("analysis 'a': missing key 'integrator'"));
   EXPECT_THAT(error_of("analyses: {a: {type: statik}}"), HasSubstr("statics"));
   EXPECT_THAT(error_of("analyses: {a: {type: statics, from: b}, b: {type: statics}}"),
-              HasSubstr("no analysis 'b' stands before this one"));
+              HasSubstr("there is no analysis 'b' before this one"));
   EXPECT_THAT(error_of("analyses: {rest: {type: statics}, b: {type: modes, from: res}}"),
               HasSubstr("did you mean 'rest'?"));
   EXPECT_THAT(error_of("analyses: {a: {type: modes, modes: {count: 0}}}"), HasSubstr("count 0 must be 1 or more"));

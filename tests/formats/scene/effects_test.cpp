@@ -50,7 +50,7 @@ TEST(SceneEffects, AreSwitchesOfAllAndOfBodies) {
 }
 
 // A body may have the name of an effect: a map is a body, a word a switch.
-TEST(SceneEffects, TellBodiesFromEffectsByTheirValues) {
+TEST(SceneEffects, DistinguishBodiesFromEffectsByTheirValues) {
   const Scene scene = read("effects: {friction: {gravity: off}}\n");
   ASSERT_EQ(scene.effects.size(), 1U);
   EXPECT_EQ(scene.effects[0].owner, "friction");
@@ -78,7 +78,7 @@ TEST(SceneEffects, AreAutomaticWhereARunCanChooseThem) {
 TEST(SceneEffects, AreNotAutomaticWhereNoRunCanChooseThem) {
   EXPECT_THAT(error_of("effects: {gravity: auto}\n"),
               AllOf(HasSubstr("a.scene.yaml:4:20: effects: 'gravity' cannot be 'auto'"),
-                    HasSubstr("'auto' can be flexibility, stiffening")));
+                    HasSubstr("auto is allowed for flexibility, stiffening")));
   EXPECT_THAT(error_of("effects: {arm: {damping: auto}}\n"), HasSubstr("'damping' cannot be 'auto'"));
   EXPECT_THAT(error_of("effects: {tolerance: -1}\n"), HasSubstr("'tolerance' must be positive, not -1"));
 }
@@ -86,7 +86,7 @@ TEST(SceneEffects, AreNotAutomaticWhereNoRunCanChooseThem) {
 TEST(SceneEffects, AreRefusedWithPlaceAndRemedy) {
   EXPECT_THAT(error_of("effects: {gravty: off}\n"),
               AllOf(HasSubstr("a.scene.yaml:4:11: effects: there is no effect 'gravty'"),
-                    HasSubstr("did you mean 'gravity'?"), HasSubstr("of a body write gravty: {damping: off}")));
+                    HasSubstr("did you mean 'gravity'?"), HasSubstr("if it is a body, write gravty: {damping: off}")));
   EXPECT_THAT(error_of("effects: {tolerence: 0.01}\n"), HasSubstr("did you mean 'tolerance'?"));
   EXPECT_THAT(
       error_of("effects: {gravity: ought}\n"),

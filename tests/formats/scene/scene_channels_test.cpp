@@ -93,7 +93,7 @@ TEST(SceneChannels, WhatIsWrongIsNamed) {
               HasSubstr("'axis' belongs to channels of type position and velocity"));
   EXPECT_THAT(error("a: a, b: b}", "a: a, b: b, of: hinge}"), HasSubstr("'of' belongs to channels of type coordinate"));
   EXPECT_THAT(error(", axis: z}", "}"), HasSubstr("axis"));
-  EXPECT_THAT(error("  angle:", "  t:"), HasSubstr("the name has a meaning in expressions"));
+  EXPECT_THAT(error("  angle:", "  t:"), HasSubstr("the name is reserved in expressions"));
   EXPECT_THAT(error("  angle:", "  an-gle:"), HasSubstr("expressions would read the name as a difference"));
   EXPECT_THAT(error("  angle:", "  brake:"), HasSubstr("brake"));
   EXPECT_THAT(error("value: throttle", "value: throtle"), HasSubstr("there is no column 'throtle'"));
@@ -105,7 +105,8 @@ TEST(SceneChannels, WhatIsWrongIsNamed) {
 TEST(SceneChannels, DamagedTablesAreNamedWithTheirLine) {
   EXPECT_THAT(error("1", "1", "time [s], throttle, brake\n0, 1, 2\n1, nan, 2\n"),
               HasSubstr("drive.csv:3: 'nan' in column 2 is not a finite number"));
-  EXPECT_THAT(error("1", "1", "time [s], throttle, brake\n0, 1, 2\n1\n"), HasSubstr("drive.csv:3: has 1 cells"));
+  EXPECT_THAT(error("1", "1", "time [s], throttle, brake\n0, 1, 2\n1\n"),
+              HasSubstr("drive.csv:3: the line has 1 cells, but column"));
   EXPECT_THAT(error("1", "1", "time [s], throttle, brake\n0, , 2\n1, 1, 2\n"), HasSubstr("'' in column 2"));
   EXPECT_THAT(error("1", "1", "time [s], throttle, brake\n1, 1, 2\n1, 1, 2\n"),
               HasSubstr("times of the table must increase"));
@@ -136,7 +137,7 @@ TEST(InputTable, DatasetsOfHdf5Files) {
                        [&] {
                          read_input_table({path, "time", "short"});
                        }),
-              HasSubstr("time has 3 points, short has 2"));
+              HasSubstr("time has 3 points, but short has 2"));
   EXPECT_THAT(error_of(folder, [&] { read_input_table({path, "time", "table"}); }), HasSubstr("has the shape 1 x 3"));
   EXPECT_NE(error_of(folder, [&] { read_input_table({path, "time", "nothing"}); }), "");
   EXPECT_NE(error_of(folder,

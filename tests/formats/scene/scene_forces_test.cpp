@@ -65,7 +65,7 @@ TEST(SceneForces, EveryKeyIsRead) {
 }
 
 // Zero that is written is given; nothing is free.
-TEST(SceneStart, WhatIsWrittenIsToldFromWhatIsNot) {
+TEST(SceneStart, WhatIsWrittenDiffersFromWhatIsNot) {
   const Scene scene = read(replaced(replaced(machine, "end: 1}", "end: 1}\ninitial: {hinge: {rate: 2.5, value: -0.5}}"),
                                     "gravity: [0, 0, 1.5]", "velocity: [0, 0, 0]"));
   EXPECT_EQ(std::get<RigidBodySpec>(scene.bodies[0]).start.velocity, Eigen::Vector3d(0, 0, 0));
@@ -81,10 +81,10 @@ TEST(SceneStart, WhatIsWrittenIsToldFromWhatIsNot) {
   EXPECT_THAT(error("end: 1}", "end: 1}\ninitial: {hinge: {velocity: [1, 2, 3]}}"),
               HasSubstr("initial 'hinge': there is no body of this name"));
   EXPECT_THAT(error("end: 1}", "end: 1}\ninitial: {a: {angular_velocity: [1, 2, 3], rate: 1}}"),
-              HasSubstr("initial 'a': a body has neither value nor rate"));
+              HasSubstr("initial 'a': value and rate have no effect on a body"));
   EXPECT_THAT(error("bodies:\n  a: {type: rigid,",
                     "initial: {a: {velocity: [1, 2, 3]}}\nbodies:\n  a: {type: rigid, velocity: [0, 0, 0],"),
-              HasSubstr("initial 'a': the body has a velocity of its own; remove one"));
+              HasSubstr("initial 'a': the body itself gives velocity; remove one"));
   EXPECT_THAT(error("end: 1}", "end: 1}\ninitial: {hing: {rate: 1}}"),
               HasSubstr("initial 'hing': there is no joint 'hing'; did you mean 'hinge'?"));
 }
@@ -120,7 +120,7 @@ TEST(SceneForces, PartLoads) {
 
 TEST(SceneForces, BadPartLoads) {
   EXPECT_THAT(error_of_loads("body: wing, case", "body: wheel, case"),
-              HasSubstr("load 'gust': body 'wheel' is no superelement; the superelements are wing, plate"));
+              HasSubstr("load 'gust': body 'wheel' is not a superelement; use one of wing, plate"));
   EXPECT_THAT(error_of_loads("body: wing, case", "body: wingg, case"),
               HasSubstr("load 'gust': there is no superelement 'wingg'; did you mean 'wing'?"));
   EXPECT_THAT(error_of_loads("case: wind, value: 7", "value: 7"), HasSubstr("missing key 'case'"));
@@ -182,7 +182,7 @@ TEST(SceneForces, WhatIsWrongIsNamed) {
               HasSubstr("the first column of the table of damping must increase, but -1 follows 0"));
   EXPECT_THAT(error("[[-1, -3], [0, 0], [1, 2]]", "[[0, 0]]"), HasSubstr("the table of damping has 1 points"));
   EXPECT_THAT(error("[[-1, -3], [0, 0], [1, 2]]", "[[-1, 3], [0, 0]]"),
-              HasSubstr("the table of damping drives the motion: force 3 at rate -1"));
+              HasSubstr("the table of damping adds energy: force 3 and rate -1 have opposite signs"));
   EXPECT_THAT(error("interpolation: cubic", "interpolation: cubik"), HasSubstr("cubic"));
   EXPECT_THAT(error("file: bump.csv", "file: bumb.csv"), HasSubstr("bumb.csv"));
   EXPECT_THAT(error("file: bump.csv, ", ""), HasSubstr("a curve needs either 'table' or 'file'"));
@@ -194,11 +194,11 @@ TEST(SceneForces, WhatIsWrongIsNamed) {
   EXPECT_THAT(error("[1, 2, 3, 4, 5, 6]", "[1, 2, 3]"), HasSubstr("stiffness has 3 numbers instead of 6"));
   EXPECT_THAT(error("[0, 2, 0, 0, 0, 7]", "[0, 2, 0]"), HasSubstr("stiffness[1] has 3 numbers instead of 6"));
   EXPECT_THAT(error("[0, 0, 0, 1, 1, 1]", "[0, 0, 0, 1, -1, 1]"),
-              HasSubstr("the damping matrix has the eigenvalue -1"));
+              HasSubstr("the symmetric part of the damping matrix has the negative eigenvalue -1"));
   EXPECT_THAT(error("free: [0, 0, 1, 0, 0, 0]", "free: [0, 0, 1, 3, 1, 0]"), HasSubstr("half a turn or more"));
   EXPECT_THAT(error("free: [0, 0, 1, 0, 0, 0]", "free: 3"), HasSubstr("free"));
   EXPECT_THAT(error("stiffness: [1, 2, 3, 4, 5, 6], damping: [0, 0, 0, 1, 1, 1], preload: [0, 0, 9, 0, 0, 0]", ""),
-              HasSubstr("bushing 'mount': does nothing"));
+              HasSubstr("bushing 'mount': has no effect; give"));
   EXPECT_THAT(error("a: ground, b: b, axis: [0, 0, 1]", "a: ground, b: c, axis: [0, 0, 1]"), HasSubstr("'c'"));
 }
 
@@ -225,7 +225,7 @@ TEST(SceneForces, TablesOfMotionsChooseTheirCurve) {
   };
   for (const char* analysis : {"", "analysis: inverse_dynamics", "analyses: {a: {type: statics}, b: {type: dynamics}}"})
     EXPECT_THAT(fault("{file: bump.csv, interpolation: linear}", analysis),
-                HasSubstr("motion 'drive': a table with interpolation: linear steps in velocity"))
+                HasSubstr("motion 'drive': the velocity of a linear table jumps at its points"))
         << analysis;
   const auto follows = [&](const std::string& analysis, const std::string& interpolation) {
     const Folder folder;
@@ -235,7 +235,8 @@ TEST(SceneForces, TablesOfMotionsChooseTheirCurve) {
                                       "interpolation: " + interpolation + "}}\n");
     return error_of(folder, [&] { read_scene(path, {}); });
   };
-  EXPECT_THAT(follows("", "linear"), HasSubstr("motion 'drive': input 'cam' is linear between its points"));
+  EXPECT_THAT(follows("", "linear"),
+              HasSubstr("motion 'drive': input 'cam' is linear between its points. Its velocity jumps there"));
   EXPECT_THAT(follows("", "cubic"), Not(HasSubstr("input 'cam'")));
   EXPECT_THAT(follows("analysis: statics", "linear"), Not(HasSubstr("input 'cam'")));
   EXPECT_THAT(fault("{expression: t, interpolation: natural}", ""), HasSubstr("'interpolation' belongs to tables"));

@@ -72,7 +72,7 @@ TEST(SceneJoints, EveryKeyIsRead) {
   EXPECT_EQ(std::get<TimeTable>(scene.springs[1].force.value()).value[1], 5.0);
 }
 
-TEST(SceneJoints, EveryErrorIsToldWithItsRemedy) {
+TEST(SceneJoints, EveryErrorIsReportedWithItsRemedy) {
   struct Case {
     std::string from, to, words;
   };
@@ -84,7 +84,7 @@ TEST(SceneJoints, EveryErrorIsToldWithItsRemedy) {
            {"pitch: -0.02", "pitch: 0", "pitch 0 must be a finite length that is not zero"},
            {"length: 2", "length: -2", "length -2 must be positive"},
            {"length: 2", "pitch: 2", "'pitch' belongs to joints of type screw"},
-           {"hold: [x, rz]", "hold: []", "holds no direction"},
+           {"hold: [x, rz]", "hold: []", "hold names no direction"},
            {"hold: [x, rz]", "hold: [x, rw]", "rw"},
            {"between: [hinge, nut/angle]", "between: [hinge]", "between must name two joint coordinates"},
            {"between: [hinge, nut/angle]", "between: [hnge, nut/angle]", "did you mean 'hinge'?"},
@@ -94,7 +94,7 @@ TEST(SceneJoints, EveryErrorIsToldWithItsRemedy) {
            {"stiffness: 20, damping: 3", "damping: -3", "damping -3 must not be negative"},
            {"lower: -1", "lower: 3", "lower stop 3 is not below the upper one 2"},
            {"stop_stiffness: 1e4", "stop_stiffness: -1", "stop_stiffness"},
-           {"stiffness: 20, damping: 3, free: 0.4", "free: 0.4", "does nothing"}})
+           {"stiffness: 20, damping: 3, free: 0.4", "free: 0.4", "has no effect; give stiffness"}})
     EXPECT_THAT(error(c.from, c.to), HasSubstr(c.words)) << c.from << " -> " << c.to;
 }
 

@@ -123,7 +123,7 @@ TEST(Scene, EverySetting) {
             AnalysisKind::statics);
 }
 
-TEST(Scene, StoresFromTheStartUnlessToldOtherwise) {
+TEST(Scene, StoresFromTheStartByDefault) {
   EXPECT_EQ(read(replaced(swing, "end: 20", "end: 20, start: -1")).output.from, -1.0);
   EXPECT_EQ(read(replaced(swing, "end: 20}", "end: 20, start: 2}\noutput: {every: 3}")).output.from, 2.0);
   EXPECT_EQ(read(replaced(swing, "end: 20}", "end: 20}\noutput: {from: 20}")).output.from, 20.0);  // the last instant
@@ -248,10 +248,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "^: body 'beam': orientation has 3 numbers; give a quaternion [w, x, y, z], three rows of "
                 "a matrix, {axis: [..], angle_deg: ..} or {x: [..], y: [..]}"},
         BadText{"frame: paper", "pose: {orientation: ^[[1, 0, 0], [0, 2, 0], [0, 0, 1]]}",
-                "^: body 'beam': orientation is not a rotation: RᵀR differs from 1 by 3; give orthonormal "
-                "columns, or two axes {x: [..], y: [..]}"},
+                "^: body 'beam': orientation is not a rotation matrix R: RᵀR differs from the identity by 3; give "
+                "orthonormal columns, or two axes {x: [..], y: [..]}"},
         BadText{"frame: paper", "pose: {orientation: ^[[1, 0, 0], [0, -1, 0], [0, 0, 1]]}",
-                "^: body 'beam': orientation is a reflection: its determinant is -1; flip one column"},
+                "^: body 'beam': orientation is a reflection: its determinant is -1; change the sign of one column"},
         BadText{"frame: paper", "pose: {orientation: {axis: ^[0, 0, 0], angle_deg: 3}}",
                 "^: body 'beam': orientation: axis has zero length; give a direction"},
         BadText{"frame: paper", "pose: {^orientation: {axis: [0, 0, 1]}}",
@@ -259,11 +259,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"frame: paper", "pose: {^orientation: {x: [0, 0, 1]}}",
                 "^: body 'beam': orientation: 1 of the axes x, y, z are given; give two of them"},
         BadText{"frame: paper", "pose: {^orientation: {x: [0, 0, 1], y: [0, 0, 2]}}",
-                "^: body 'beam': orientation: the two axes are parallel; give two directions"},
+                "^: body 'beam': orientation: the two axes are parallel; give two directions that are not parallel"},
         BadText{"frame: paper", "pose: {^orientation: {x: [0, 0, 1], axis: [0, 0, 2], angle_deg: 2}}",
-                "^: body 'beam': orientation: both axis and angle and two axes are given; give one form"},
+                "^: body 'beam': orientation: 'axis' or 'angle_deg' is given together with 'x', 'y' or 'z'; give axis "
+                "and angle_deg, or two of x, y and z"},
         BadText{"frame: paper", "pose: {orientation: {axis: [0, 0, 1], ^angle: 3, angle_deg: 2}}",
-                "^: body 'beam': orientation: unknown key 'angle'; known are axis, angle_deg, x, y, z"}));
+                "^: body 'beam': orientation: unknown key 'angle'; use one of axis, angle_deg, x, y, z"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Bodies, BadScene,
@@ -278,7 +279,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"frame: paper", "^farme: paper", "^: body 'beam': unknown key 'farme'; did you mean 'frame'?"},
         BadText{"frame: paper", "frame: ^kracher", "^: body 'beam': unknown frame 'kracher'; did you mean 'karcher'?"},
         BadText{"frame: paper", "frame: ^{node: \"\"}", "^: body 'beam': frame has no node; write frame: {node: name}"},
-        BadText{"frame: paper", "modes: ^-1", "^: body 'beam': modes -1 must not be negative; modes: 0 uses none"},
+        BadText{"frame: paper", "modes: ^-1",
+                "^: body 'beam': modes -1 must not be negative; write modes: 0 to use no modes"},
         BadText{"frame: paper", "cutoff: ^0", "^: body 'beam': cutoff 0 must be positive"},
         BadText{"frame: paper", "modes: 3, ^cutoff: 10",
                 "^: body 'beam': both 'modes' and 'cutoff' are given; give one of them"},
@@ -307,9 +309,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "^: body 'beam': velocity has 2 numbers instead of 3; write it as [x, y, z]"},
         BadText{"mass: 3", "mass: ^0", "^: body 'block': mass 0 must be positive"},
         BadText{"mass: 3", "mass: ^-3", "^: body 'block': mass -3 must be positive"},
-        BadText{"inertia: [1, 2, 2.5]", "inertia: ^[1, 2, 3.01]",
-                "^: body 'block': principal moments of inertia 1, 2, 3.01: the largest exceeds the sum of the others, "
-                "which no body can have; check values, order and units"},
+        BadText{
+            "inertia: [1, 2, 2.5]", "inertia: ^[1, 2, 3.01]",
+            "^: body 'block': the largest of the principal moments of inertia 1, 2, 3.01 exceeds the sum of the other "
+            "two, which is impossible for a body; check values, order and units"},
         BadText{"block: {type: rigid, mass: 3, inertia: [1, 2, 2.5],", "^block: {type: rigid, mass: 3,",
                 "^: body 'block': missing key 'inertia'"},
         BadText{"hook: {position: [1, 0, 0]}", "hook: {^positon: [1, 0, 0]}",
@@ -322,9 +325,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"elements: 2,", "elements: ^0,", "^: body 'rod': elements 0 must lie between 1 and 100000"},
         BadText{"elements: 2,", "elements: 2, nodes_per_element: ^4,",
                 "^: body 'rod': nodes_per_element 4 must be 2 or 3"},
-        BadText{"elements: 2,", "elements: 2, orientation: ^[1, 0, 0],",
-                "^: body 'rod': orientation (1, 0, 0) is parallel to the beam; give a direction across the beam: the "
-                "local y axis"},
+        BadText{
+            "elements: 2,", "elements: 2, orientation: ^[1, 0, 0],",
+            "^: body 'rod': orientation (1, 0, 0) is parallel to the beam; give the direction of the local y axis, not "
+            "parallel to the beam"},
         BadText{"elements: 2,", "elements: 2, through: ^[0.5, 0, 0],",
                 "^: body 'rod': the point (0.5, 0, 0) of the arc lies on the line through its ends; move it off the "
                 "line, or remove 'through' for a straight beam"},
@@ -338,8 +342,8 @@ INSTANTIATE_TEST_SUITE_P(
             "^: body 'rod': its section has no shear areas, which this beam needs; give shear_area_y and shear_area_z"},
         BadText{"nu: 0.3", "nu: ^0.7", "^: material 'steel': nu 0.7 must lie between -1 and 0.5"},
         BadText{"rod: {", "^ground: {",
-                "^: body 'ground': the name is taken by the fixed world; rename it\n"
-                "scene.yaml:11:30: joint 'ball': there is no body 'rod'; known are beam, ground, block, ground"}));
+                "^: body 'ground': the name is reserved for the fixed world; rename it\n"
+                "scene.yaml:11:30: joint 'ball': there is no body 'rod'; use one of beam, ground, block, ground"}));
 
 INSTANTIATE_TEST_SUITE_P(
     JointsAndLoads, BadScene,
@@ -415,15 +419,15 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"end: 20", "end: 20, method: hht, alpha: ^0.4",
                 "^: integrator: alpha 0.4 must lie between 0 and 0.3333"},
         BadText{"end: 20", "end: 20, method: hht, ^rho: 0.8",
-                "^: integrator: 'rho' has no effect with method: hht; give alpha, or method: generalised_alpha"},
+                "^: integrator: 'rho' has no effect with method: hht; give alpha, or use method: generalised_alpha"},
         BadText{"end: 20", "end: 20, ^alpha: 0.1",
-                "^: integrator: 'alpha' has no effect with method: generalised_alpha; give rho, or method: hht"},
+                "^: integrator: 'alpha' has no effect with method: generalised_alpha; give rho, or use method: hht"},
         BadText{"end: 20}", "end: 20}\noutput: {from: ^20.5}",
                 "^: output: from 20.5 is later than the end 20 of the integrator; nothing would be stored; give an "
                 "earlier time"},
         BadText{"end: 20", "end: 20, max_iterations: ^0", "^: integrator: max_iterations 0 must be 1 or more"},
         BadText{"end: 20", "end: 20, method: ^newmark",
-                "^: integrator: unknown method 'newmark'; known are generalised_alpha, hht, bdf, radau, auto"},
+                "^: integrator: unknown method 'newmark'; use one of generalised_alpha, hht, bdf, radau, auto"},
         BadText{"end: 20}", "end: 20}\nstatics: {load_steps: ^0}", "^: statics: load_steps 0 must be 1 or more"},
         BadText{"end: 20}", "end: 20}\noutput: {every: ^0}", "^: output: every 0 must be 1 or more"},
         BadText{"end: 20}", "end: 20}\noutput: {interval: ^-1}", "^: output: interval -1 must be positive"},
@@ -433,7 +437,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "^: output: channels must be a list, not 'nodes'; write it as [nodes, energy]"},
         BadText{"end: 20}", "end: 20}\ninitial_tolerance: ^0", "^: initial_tolerance 0 must be positive"},
         BadText{"end: 20}", "end: 20}\nanalysis: ^modal",
-                "^: unknown analysis 'modal'; known are dynamics, statics, "
+                "^: unknown analysis 'modal'; use one of dynamics, statics, "
                 "assembly, kinematics, inverse_dynamics, modes"},
         BadText{"[0, 0, -9.81]", "^9.81", "^: gravity must be a list of numbers, not '9.81'; write it as [1, 2, 3]"}));
 
@@ -445,8 +449,8 @@ TEST(Scene, TellsAllErrorsAtOnceInTheOrderOfTheLines) {
   text = replaced(text, "end: 20", "end: -20");
   EXPECT_EQ(error(text),
             "scene.yaml:3:36: material 'steel': nu 0.6 must lie between -1 and 0.5\n"
-            "scene.yaml:6:85: body 'beam': modes -1 must not be negative; modes: 0 uses none\n"
-            "scene.yaml:6:94: body 'beam': unknown use 'stiff'; known are flexible, rigid\n"
+            "scene.yaml:6:85: body 'beam': modes -1 must not be negative; write modes: 0 to use no modes\n"
+            "scene.yaml:6:94: body 'beam': unknown use 'stiff'; use one of flexible, rigid\n"
             "scene.yaml:8:30: body 'block': mass must be a number, not 'heavy'\n"
             "scene.yaml:11:30: joint 'ball': there is no body 'rood'; did you mean 'rod'?\n"
             "scene.yaml:14:31: integrator: end -20 must be later than start 0");
@@ -463,7 +467,7 @@ TEST(Scene, FaultyTables) {
   EXPECT_THAT(error_with("0, 1\n1, x\n"),
               HasSubstr("drive.csv:2:4: 'x' is not a finite number; give two numbers per line: time, value"));
   EXPECT_THAT(error_with("0, 1\n1, inf\n"), HasSubstr("drive.csv:2:4: 'inf' is not a finite number"));
-  EXPECT_THAT(error_with("0, 1, 2\n"), HasSubstr("drive.csv:1:1: 3 numbers instead of 2"));
+  EXPECT_THAT(error_with("0, 1, 2\n"), HasSubstr("drive.csv:1:1: the line has 3 numbers instead of 2"));
   EXPECT_THAT(error_with("time, value\n"), HasSubstr("drive.csv: the table has no line with two numbers"));
   EXPECT_THAT(error_with("0, 1\n0, 2\n"),
               HasSubstr("load 'torque': times of the table must increase, but 0 follows 0"));

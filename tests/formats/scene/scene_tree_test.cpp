@@ -88,11 +88,11 @@ TEST(SceneParameters, ErrorsNameThem) {
   EXPECT_EQ(error("parameters: {track: 1}\ngravity: [0, 0, $trakc]\n" + rest),
             "scene.yaml:3:17: there is no parameter 'trakc'; did you mean 'track'?");
   EXPECT_EQ(error("parameters: {a: 1}\n" + rest),
-            "scene.yaml:2:14: parameter 'a' is never used; remove it, or write $a");
+            "scene.yaml:2:14: parameter 'a' is never used; remove it, or use it as $a");
   EXPECT_EQ(error("parameters: {a: 1}\ngravity: [0, 0, $a]\n" + rest, {"parameters.b=1"}),
-            "--set parameters.b=1: parameter 'b' is never used; remove it, or write $b");
+            "--set parameters.b=1: parameter 'b' is never used; remove it, or use it as $b");
   EXPECT_EQ(error("parameters: {a: $b, b: $a}\ngravity: [0, 0, $a]\n" + rest),
-            "scene.yaml:2:14: parameter 'a' refers to itself; give it a value that does not depend on it");
+            "scene.yaml:2:14: parameter 'a' refers to itself; give it a value that does not depend on this parameter");
   EXPECT_EQ(error("parameters: {a: 0}\ngravity: [0, 0, \"${1 / a}\"]\n" + rest),
             "scene.yaml:3:17: expression '1 / a' is inf, not a finite number");
   EXPECT_THAT(error("parameters: {a: 0}\ngravity: [0, 0, \"${1 + b + a}\"]\n" + rest),
@@ -102,7 +102,7 @@ TEST(SceneParameters, ErrorsNameThem) {
             "scene.yaml:3:17: parameter 'a' is 'x', not a number");
   EXPECT_EQ(error("parameters: {a: -1}\nbodies: {block: {type: rigid, mass: $a, inertia: [1, 1, 1]}}\n"),
             "scene.yaml:2:17: body 'block': mass -1 must be positive");
-  EXPECT_THAT(error("gravity: [0, 0, \"${1\"]\n" + rest), HasSubstr("is followed by no name and no {formula}"));
+  EXPECT_THAT(error("gravity: [0, 0, \"${1\"]\n" + rest), HasSubstr("is not followed by a name or a {formula}"));
   EXPECT_THAT(error("gravity: [0, 0, \"${2,5 * 2}\"]\n" + rest), HasSubstr("expression '2,5 * 2': a comma"));
 }
 
@@ -113,10 +113,11 @@ TEST(SceneParameters, GrowthIsBounded) {
     for (int k = 0; k < 10; ++k) text += fmt::format("{}$a{}", k == 0 ? "" : ", ", i - 1);
     text += "]\n";
   }
-  EXPECT_THAT(error(text + "gravity: $a11\nbodies: {}\n"), HasSubstr("grows to more than 3000000 values"));
+  EXPECT_THAT(error(text + "gravity: $a11\nbodies: {}\n"),
+              HasSubstr("the scene has more than 3000000 values after its instances are expanded"));
   std::string chain = "parameters:\n  a0: 1\n";
   for (int i = 1; i < 1000; ++i) chain += fmt::format("  a{}: $a{}\n", i, i - 1);
-  EXPECT_THAT(error(chain + "gravity: [0, 0, $a999]\nbodies: {}\n"), HasSubstr("more than 50 deep"));
+  EXPECT_THAT(error(chain + "gravity: [0, 0, $a999]\nbodies: {}\n"), HasSubstr("more than 50 levels deep"));
 }
 
 // ---- include --------------------------------------------------------------------------------------------------------
@@ -169,16 +170,17 @@ TEST(SceneInclude, ErrorsNameTheFile) {
             "c.yaml: cannot open the file: No such file or directory; check path and permission; included from "
             "b.yaml:2:5");
   EXPECT_EQ(Files({{"scene.yaml", "scene: a\ninclude: b.yaml\n" + tail}, {"b.yaml", "include: scene.yaml\n"}}).error(),
-            "b.yaml:1:10: 'scene.yaml' includes itself, included from scene.yaml:2:10; break the circle");
+            "b.yaml:1:10: 'scene.yaml' includes itself, included from scene.yaml:2:10; remove this include");
   EXPECT_EQ(Files({{"scene.yaml", "scene: a\ninclude: b.yaml\n" + body + tail}, {"b.yaml", body}}).error(),
             "b.yaml:1:10: 'block' of 'bodies' is given twice (first in scene.yaml:3:10); rename or remove one");
   EXPECT_EQ(Files({{"scene.yaml", "scene: a\ninclude: b.yaml\n" + tail},
                    {"b.yaml", "bodies:\n  block: {type: rigid, mass: -1, inertia: [1, 1, 1]}\n"}})
                 .error(),
             "b.yaml:2:30: body 'block': mass -1 must be positive");
-  EXPECT_EQ(Files({{"scene.yaml", "scene: a\ninclude: b.yaml\n" + tail}, {"b.yaml", "[1, 2]\n"}}).error(),
-            "b.yaml:1:1: holds a list of 2 instead of a map of keys and values, included from scene.yaml:2:10; write "
-            "`bodies:` and the like");
+  EXPECT_EQ(
+      Files({{"scene.yaml", "scene: a\ninclude: b.yaml\n" + tail}, {"b.yaml", "[1, 2]\n"}}).error(),
+      "b.yaml:1:1: the file must be a map of keys and values, not a list of 2, included from scene.yaml:2:10; write "
+      "keys such as `bodies:`");
   EXPECT_EQ(error("include: {a: b}\n"),
             "scene.yaml:2:10: a file name is needed, not a map; write it relative to this file");
 }
@@ -187,7 +189,7 @@ TEST(SceneInclude, ChainsAreBounded) {
   std::vector<std::pair<std::string, std::string>> files{{"scene.yaml", "scene: a\ninclude: f0.yaml\n" + tail}};
   for (int i = 0; i < 30; ++i)
     files.emplace_back(fmt::format("f{}.yaml", i), fmt::format("include: f{}.yaml\n", i + 1));
-  EXPECT_THAT(Files(files).error(), HasSubstr("files include one another more than 20 deep"));
+  EXPECT_THAT(Files(files).error(), HasSubstr("included files are nested more than 20 levels deep"));
 }
 
 // ---- instances ------------------------------------------------------------------------------------------------------
@@ -371,7 +373,7 @@ TEST(SceneInstances, ErrorsNameThem) {
   EXPECT_THAT(bad("  fl: {use: corner, parameters: {mass: -1}}\n"),
               HasSubstr("body 'fl/arm': mass -1 must be positive"));
   EXPECT_THAT(error("assemblies: {a: {instances: {b: {use: a}}}}\ninstances: {a: {use: a}}\n"),
-              HasSubstr("assemblies hold one another more than 50 deep"));
+              HasSubstr("assemblies are nested more than 50 levels deep"));
   EXPECT_THAT(error("assemblies: {a: {bodies: {b: {type: rigid}}, color: red}}\ninstances: {a: {use: a}}\n"),
               HasSubstr("assembly 'a': unknown key 'color'"));
   EXPECT_THAT(error(chain, {"instances.link.first={}"}), HasSubstr("there is no parameter 'previous'"));

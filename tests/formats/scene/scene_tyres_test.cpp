@@ -87,14 +87,14 @@ void PrintTo(const BadTyre& one, std::ostream* out) { *out << one.name; }
 
 class BadTyres : public ::testing::TestWithParam<BadTyre> {};
 
-TEST_P(BadTyres, AreTold) { EXPECT_THAT(error(GetParam().from, GetParam().to), HasSubstr(GetParam().what)); }
+TEST_P(BadTyres, AreReported) { EXPECT_THAT(error(GetParam().from, GetParam().to), HasSubstr(GetParam().what)); }
 
 INSTANTIATE_TEST_SUITE_P(
     Every, BadTyres,
     ::testing::Values(
         BadTyre{"NoRoad", "road: flat", "road: flta", "tyre 'rear': there is no road 'flta'; did you mean 'flat'?"},
         BadTyre{"NoNode", "wheel: hub/wheel", "wheel: hub/whel", "no node 'whel'"},
-        BadTyre{"OnGround", "wheel: hub/wheel", "wheel: ground", "tyre 'front': is on the ground"},
+        BadTyre{"OnGround", "wheel: hub/wheel", "wheel: ground", "tyre 'front': the wheel must not be ground"},
         BadTyre{"NoRadius", "road: flat, radius: 0.3", "road: flat", "missing key 'radius'"},
         BadTyre{"Radius", "bumps, radius: 0.3", "bumps, radius: -0.3", "tyre 'front': radius -0.3 must be positive"},
         BadTyre{"Damping", "damping: 500", "damping: -5", "damping -5 must not be negative"},
@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "axis has no effect, since the marker has an orientation"},
         BadTyre{"Kind", "front: {type: comprehensive_slip", "front: {type: comprehensive", "comprehensive_slip"},
         BadTyre{"PlaneWithHeight", "{type: plane, pose:", "{type: plane, height: {shape: cosine}, pose:",
-                "'height' has no effect on a plane"},
+                "'height' has no effect on a road of type plane"},
         BadTyre{"NoTransition", "interpolation: cubic}}, transition: 0.2", "interpolation: cubic}}",
                 "missing key 'transition'"},
         BadTyre{"NeitherHeightNorTracks",
@@ -207,7 +207,7 @@ TEST(SceneRoads, OfCrgFilesTakeTheUnitsOfTheScene) {
   EXPECT_NEAR(scene.roads[3].heights->line(0, 1), 2000.0, 1e-9);
   EXPECT_EQ(scene.roads[0].heights->height(1, 0), 3.0);
   EXPECT_THAT(field_error("integrator:", "units: consistent\nintegrator:"),
-              HasSubstr("OpenCRG files are in metres, and the units of the scene are unnamed"));
+              HasSubstr("OpenCRG files are in metres, but the scene has no named units"));
 }
 
 TEST(SceneRoads, OfGridsAreRefusedWithReasons) {
@@ -216,20 +216,21 @@ TEST(SceneRoads, OfGridsAreRefusedWithReasons) {
   EXPECT_THAT(field_error("{type: crg, file: lane.crg}", "{type: crg, file: hill.csv}"), HasSubstr("hill.csv:1"));
   EXPECT_THAT(field_error(", spacing: 0.5", ""), HasSubstr("missing key 'spacing'"));
   EXPECT_THAT(field_error("spacing: 0.5", "spacing: 0"), HasSubstr("spacing 0 must be positive"));
-  EXPECT_THAT(field_error("x: [0, 1, 3]", "x: [0, 1, 1]"), HasSubstr("x must ascend, but 1 follows 1"));
+  EXPECT_THAT(field_error("x: [0, 1, 3]", "x: [0, 1, 1]"), HasSubstr("x must increase, but 1 follows 1"));
   EXPECT_THAT(field_error("y: [-1, 1]", "y: [-1]"), HasSubstr("y has 1 values"));
   EXPECT_THAT(field_error("x: [0, 1, 3], ", ""), HasSubstr("missing key 'x'"));
   EXPECT_THAT(field_error("[0, 0], ", ""), HasSubstr("z must be a list of 3 lists, one for each x"));
   EXPECT_THAT(field_error("[0.1, 0.2]", "[0.1]"), HasSubstr("z[1] has 1 heights instead of 2, one for each y"));
   EXPECT_THAT(field_error("[0.1, 0.2]", "[0.1, .nan]"), HasSubstr("must be finite"));
-  EXPECT_THAT(field_error("x: [0, 1, 3]", "x: [0, 1, 3], file: hill.csv"),
-              HasSubstr("'x' has no effect beside 'file'"));
-  EXPECT_THAT(field_error("x: [0, 1, 3]", "x: [0, 1, 3], spacing: 1"), HasSubstr("'spacing' has no effect beside 'z'"));
+  EXPECT_THAT(field_error("x: [0, 1, 3]", "x: [0, 1, 3], file: hill.csv"), HasSubstr("'x' has no effect with 'file'"));
+  EXPECT_THAT(field_error("x: [0, 1, 3]", "x: [0, 1, 3], spacing: 1"), HasSubstr("'spacing' has no effect with 'z'"));
   EXPECT_THAT(field_error("file: lane.crg", "file: lane.crg, spacing: 1"),
-              HasSubstr("'spacing' has no effect on a crg"));
-  EXPECT_THAT(field_error("file: lane.crg", "transition: 1"), HasSubstr("'transition' has no effect on a crg"));
+              HasSubstr("'spacing' has no effect on a road of type crg"));
+  EXPECT_THAT(field_error("file: lane.crg", "transition: 1"),
+              HasSubstr("'transition' has no effect on a road of type crg"));
   EXPECT_THAT(field_error("{type: crg, file: lane.crg}", "{type: crg}"), HasSubstr("missing key 'file'"));
-  EXPECT_THAT(field_error("x: [0, 1, 3]", "x: [0, 1, 1.0000000001]"), HasSubstr("do not ascend, or hardly"));
+  EXPECT_THAT(field_error("x: [0, 1, 3]", "x: [0, 1, 1.0000000001]"),
+              HasSubstr("they must increase by more than 1e-09"));
 }
 
 // ISO 8608: E[(z(x + d) − z(x))²] = 2 ∫ G (1 − cos 2πnd) dn with G = 16e-6 (n/0.1)⁻² m³. Of 300 waves over 500 m, 2 in
@@ -277,7 +278,7 @@ TEST(IsoRoad, IsReadAndRefusedWhereItCannotBe) {
               HasSubstr("needs either 'curve' or 'iso_8608'"));
   EXPECT_THAT(error(curve + "}, transition: 0.2}",
                     "iso_8608: {class: A, seed: 1, length: 30}}, transition: 0.2}\nunits: consistent"),
-              HasSubstr("the units of the scene are unnamed; name the units"));
+              HasSubstr("the spectrum of iso_8608 is in metres, but the scene has no named units; give units"));
 }
 
 // Tyres stand in assemblies, roads in the scene; the axle turns and mirrors as an axial vector, so that mirrored wheels

@@ -104,7 +104,7 @@ TEST(SceneValues, FilesCountByTheirContents) {
   EXPECT_THAT(with("a.csv", "1f"), HasSubstr("inputs.u.file: a.csv\ninputs.u.file (contents): 1f\n"));
   EXPECT_THAT(scene_changes(with("a.csv", "1f"), with("b.csv", "1f"), keys), IsEmpty());
   EXPECT_EQ(changes_text(scene_changes(with("a.csv", "1f"), with("a.csv", "2e"), keys), " "),
-            " inputs.u.file: the file has other contents");
+            " inputs.u.file: the contents of the file differ");
   EXPECT_THAT(scene_changes(with("a.csv", ""), with("a.csv", "2e"), keys), IsEmpty()) << "written before contents were";
   EXPECT_THAT(changes_text(scene_changes(with("a.csv", "1f"), with("b.csv", "2e"), keys), "\n"),
               HasSubstr("inputs.u.file: a.csv -> b.csv"));

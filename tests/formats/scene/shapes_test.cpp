@@ -61,7 +61,7 @@ TEST(Shapes, ErrorsNameTheBodyAndTheValue) {
   EXPECT_THAT(error("{type: sphere, radius: -1}"), HasSubstr("radius -1 must be positive"));
   EXPECT_THAT(error("{type: cone, from: [0, 0, 0], to: [1, 0, 0], radius: 0}"), HasSubstr("radii 0 and 0"));
   EXPECT_THAT(error("{type: tube, points: [[0, 0, 0]], radius: 1}"), HasSubstr("2 to 100000 points"));
-  EXPECT_THAT(error("{type: mesh, file: a.step}"), HasSubstr("no .stl, .obj or .recovery.h5 file"));
+  EXPECT_THAT(error("{type: mesh, file: a.step}"), HasSubstr("is not an .stl, .obj or .recovery.h5 file"));
   EXPECT_THAT(error("{type: mesh, file: a.stl, scale: 0}"), HasSubstr("scale 0 must not be 0"));
 }
 

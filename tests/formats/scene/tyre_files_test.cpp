@@ -89,7 +89,7 @@ void PrintTo(const BadFile& one, std::ostream* out) { *out << one.name; }
 
 class BadFiles : public ::testing::TestWithParam<BadFile> {};
 
-TEST_P(BadFiles, AreTold) {
+TEST_P(BadFiles, AreReported) {
   const Folder folder;
   const std::string path = folder.file("a.tir", replaced(small_tyre(), GetParam().from, GetParam().to));
   EXPECT_THAT(error_of(folder, [&] { read_tyre_property_file(path, Units::si(), {}); }), HasSubstr(GetParam().what));
@@ -98,25 +98,28 @@ TEST_P(BadFiles, AreTold) {
 INSTANTIATE_TEST_SUITE_P(
     Every, BadFiles,
     ::testing::Values(
-        BadFile{"Kind", "'PAC2002'", "'FTIRE'", "a.tir:10: is a tyre of another kind: PROPERTY_FILE_FORMAT = FTIRE"},
-        BadFile{"Version", "PROPERTY_FILE_FORMAT = 'PAC2002'", "FITTYP = 60", "another kind: FITTYP = 60"},
+        BadFile{"Kind", "'PAC2002'", "'FTIRE'",
+                "a.tir:10: describes a kind of tyre that is not supported: PROPERTY_FILE_FORMAT = FTIRE"},
+        BadFile{"Version", "PROPERTY_FILE_FORMAT = 'PAC2002'", "FITTYP = 60",
+                "describes a kind of tyre that is not supported: FITTYP = 60"},
         BadFile{"NoKind", "PROPERTY_FILE_FORMAT = 'PAC2002'\n", "", "no FITTYP and no PROPERTY_FILE_FORMAT"},
-        BadFile{"Missing", "PKY1 = -15\n", "", "misses the coefficients PKY1"},
-        BadFile{"MissingTwo", "RBX1 = 12\nRCX1 = 1\n", "", "misses the coefficients RBX1, RCX1"},
+        BadFile{"Missing", "PKY1 = -15\n", "", "lacks the coefficients PKY1"},
+        BadFile{"MissingTwo", "RBX1 = 12\nRCX1 = 1\n", "", "lacks the coefficients RBX1, RCX1"},
         BadFile{"Number", "PCX1 = 1.6", "PCX1 = 1,6", "a.tir:24: PCX1 = '1,6' is not a finite number"},
         BadFile{"NotFinite", "PCX1 = 1.6", "PCX1 = 1e999", "is not a finite number"},
-        BadFile{"Twice", "PCX1 = 1.6", "PCX1 = 1.6\nPCX1 = 1.7", "a.tir:25: PCX1 stands here and in line 24"},
-        BadFile{"NoKey", "PCX1 = 1.6", "PCX1 1.6", "'PCX1 1.6' is no `KEY = value`"},
-        BadFile{"Section", "[VERTICAL]", "[VERTICAL", "opens a section and does not close it"},
+        BadFile{"Twice", "PCX1 = 1.6", "PCX1 = 1.6\nPCX1 = 1.7", "a.tir:25: PCX1 is given twice (first in line 24)"},
+        BadFile{"NoKey", "PCX1 = 1.6", "PCX1 1.6", "'PCX1 1.6' does not have the form `KEY = value`"},
+        BadFile{"Section", "[VERTICAL]", "[VERTICAL", "does not end with ]"},
         BadFile{"Unit", "LENGTH = 'mm'", "LENGTH = 'ell'",
                 "a.tir:5: unit 'ell' of LENGTH is not known; use one of METER"},
         BadFile{"Degrees", "ANGLE = 'radians'", "ANGLE = 'degrees'", "angles are in 'degrees'"},
-        BadFile{"Mode", "USE_MODE = 14", "USE_MODE = 19", "USE_MODE = 19 is no mode"},
+        BadFile{"Mode", "USE_MODE = 14", "USE_MODE = 19", "USE_MODE = 19 is not a mode"},
         BadFile{"Radius", "UNLOADED_RADIUS = 320", "UNLOADED_RADIUS = 0", "UNLOADED_RADIUS = 0 must be positive"},
         BadFile{"Cornering", "PKY1 = -15", "PKY1 = 0", "PKY1 is zero: the tyre has no cornering stiffness"},
         BadFile{"AxesOfSae", "PKY1 = -15", "PKY1 = 15", "cornering stiffness PKY1 sin(PKY4 atan(1/PKY2))"},
         BadFile{"Range", "PTX1 = 2", "KPUMIN = 0.1\nKPUMAX = 1", "the range from 0.1 to 1 does not enclose zero"},
-        BadFile{"Loads", "PTX1 = 2", "FZMIN = 5000\nFZMAX = 100", "the range of loads from 5000 to 100 is none"}),
+        BadFile{"Loads", "PTX1 = 2", "FZMIN = 5000\nFZMAX = 100",
+                "the range of loads FZMIN = 5000, FZMAX = 100 is not valid"}),
     [](const ::testing::TestParamInfo<BadFile>& given) { return given.param.name; });
 
 TEST(TyreFile, MustBeThereAndOfItsSize) {
@@ -153,21 +156,22 @@ TEST(SceneTyreFiles, TakeWhatTheSceneLeavesOpen) {
   EXPECT_NEAR(tyre.low_speed, 16.7 / 200.0, 1e-12);
   EXPECT_TRUE(tyre.relaxation);  // USE_MODE 14
   EXPECT_FALSE(tyre.mirrored);
-  const TyreSpec told =
+  const TyreSpec reported =
       scene_with("file: a.tir", "file: a.tir, relaxation: no, mirrored: yes, low_speed: 0.3, scale: {LMUX: 0.7}")
           .tyres.at(0);
-  EXPECT_FALSE(told.relaxation);
-  EXPECT_TRUE(told.mirrored);
-  EXPECT_EQ(told.low_speed, 0.3);
-  EXPECT_EQ(told.properties->coefficients.LMUX, 0.7);
+  EXPECT_FALSE(reported.relaxation);
+  EXPECT_TRUE(reported.mirrored);
+  EXPECT_EQ(reported.low_speed, 0.3);
+  EXPECT_EQ(reported.properties->coefficients.LMUX, 0.7);
 }
 
 TEST(SceneTyreFiles, AreRefusedWithTheirPlace) {
   EXPECT_THAT(scene_error("file: a.tir", "file: b.tir"), HasSubstr("no such tyre property file"));
   EXPECT_THAT(scene_error(", file: a.tir", ""), HasSubstr("missing key 'file'"));
   EXPECT_THAT(scene_error("file: a.tir", "file: a.tir, friction: 1"),
-              HasSubstr("'friction' has no effect: the file of the tyre has its own"));
-  EXPECT_THAT(scene_error("file: a.tir", "file: a.tir, pressure: 2e5"), HasSubstr("knows no inflation pressure"));
+              HasSubstr("'friction' has no effect: the tyre property file gives its value"));
+  EXPECT_THAT(scene_error("file: a.tir", "file: a.tir, pressure: 2e5"),
+              HasSubstr("its file has no inflation pressure"));
   EXPECT_THAT(scene_error("file: a.tir", "file: a.tir, scale: {LMUX: -1}"),
               HasSubstr("a.tir: scale: LMUX = -1 must be positive"));
   EXPECT_THAT(scene_error("file: a.tir", "file: a.tir, scale: 3"), HasSubstr("scale must be a map"));

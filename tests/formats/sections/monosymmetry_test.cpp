@@ -110,7 +110,7 @@ TEST(Monosymmetry, IsUnknownOfConstants) {
   EXPECT_TRUE(lacks_monosymmetry(s));
   EXPECT_NEAR(known_monosymmetry(s).beta_y, -1.0, 1e-15);
   EXPECT_THAT(section_report({s}, Units::si()),
-              ::testing::HasSubstr("not known of a section that is given by constants"));
+              ::testing::HasSubstr("not known for a section that is given by constants"));
   EXPECT_THAT(section_report({profile_section("tee", {6.0, 5.0, 0.5, 0.6})}, Units::si()),
               ::testing::HasSubstr("Wagner's beta of moments about y   beta_y"));
 }

@@ -192,7 +192,7 @@ TEST(SectionPolygon, ThinWallsInTheLimit) {
 TEST(SectionPolygon, FaultsAreNamed) {
   const auto fault = [](const SectionPolygon& polygon) { return polygon_fault(polygon).value_or("none"); };
   EXPECT_EQ(fault({box_ring(0, 0, 1, 1), {box_ring(0.2, 0.2, 0.8, 0.8)}}), "none");
-  EXPECT_EQ(fault({{{0, 0}, {1, 0}}, {}}), "2 corners make no area");
+  EXPECT_EQ(fault({{{0, 0}, {1, 0}}, {}}), "2 corners do not enclose an area");
   EXPECT_EQ(fault({{{0, 0}, {1, 1}, {1, 0}, {0, 1}}, {}}),
             "the side from (0, 0) to (1, 1) touches or crosses the side from (1, 0) to (0, 1)");
   EXPECT_EQ(fault({{{0, 0}, {0, 0}, {1, 0}, {0, 1}}, {}}), "two neighbouring corners coincide at (0, 0)");
@@ -201,7 +201,7 @@ TEST(SectionPolygon, FaultsAreNamed) {
   EXPECT_EQ(fault({box_ring(0, 0, 9, 9), {box_ring(1, 1, 8, 8), box_ring(2, 2, 3, 3)}}), "hole 2 is inside hole 1");
   EXPECT_EQ(fault({box_ring(0, 0, std::numeric_limits<double>::quiet_NaN(), 1), {}}),
             "a corner is not a finite number");
-  EXPECT_EQ(fault({ellipse(1, 1, 201), {}}), "201 corners are more than 200");
+  EXPECT_EQ(fault({ellipse(1, 1, 201), {}}), "201 corners exceed the limit of 200");
 }
 
 TEST(SectionProfiles, FaultsAreNamed) {

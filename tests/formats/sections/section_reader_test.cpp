@@ -99,21 +99,20 @@ TEST(SectionReader, FaultsAreNamed) {
   EXPECT_EQ(
       error("{shape: polygon, outline: [[0, 0], [1, 1], [1, 0], [0, 1]]}"),
       "p.yaml:4:32: section 's': the side from (0, 0) to (1, 1) touches or crosses the side from (1, 0) to (0, 1); "
-      "give the corners in order, sides that do not cross, holes inside");
+      "give the corners in order, such that sides do not cross and holes lie inside the outline");
   EXPECT_EQ(error("{shape: polygon, outline: [[0, 0], [1, 1, 2], [1, 0]]}"),
             "p.yaml:4:41: section 's': a point of outline has 3 numbers; write [y, z]");
-  EXPECT_EQ(
-      error("{shape: walls, walls: [{along: [[0, 0], [1, 0]], thickness: 0.1}]}"),
-      "p.yaml:4:28: section 's': all walls lie on one straight line; lines are joined where they share a point, given "
-      "in both");
+  EXPECT_EQ(error("{shape: walls, walls: [{along: [[0, 0], [1, 0]], thickness: 0.1}]}"),
+            "p.yaml:4:28: section 's': all walls lie on one straight line; to join two lines, write the shared point "
+            "in both");
   EXPECT_NE(error("{shape: walls, walls: 3}"), "");
   EXPECT_NE(error("{shape: walls, walls: [{along: 7, thickness: 1}]}"), "");
   EXPECT_NE(error("{shape: polygon, outline: [[0, 0], [1, 0], [1, 1]], holes: 3}"), "");
   EXPECT_NE(error("{shape: polygon, outline: [[0, 0], [1e200, 0], [1e200, 1e200]]}"), "");
   EXPECT_NE(error("{shape: polygon, outline: [[0, 0], [1e-200, 0], [1e-200, 1e-200]]}"), "");
   EXPECT_EQ(error("{shape: polygon, outline: [[0, 0], [1, 0], [1, 1e-7]]}"),
-            "p.yaml:4:3: section 's': parts of the section are too thin or too small against the whole for its torsion "
-            "constant to be found; give it as `walls`, or give its constants");
+            "p.yaml:4:3: section 's': parts of the section are too thin or too small, compared with the whole, to "
+            "compute its torsion constant; give it as `walls`, or give its constants");
   EXPECT_EQ(error("{A: 1, Iy: 2, Iz: 3, J: 4, Iyz: 3, shear_area_y: 1, shear_area_z: 1}"),
             "p.yaml:4:38: section 's': Iyz 3 is not less than sqrt(Iy Iz) 2.44949");
   EXPECT_EQ(error("{A: 1, Iy: 2, Iz: 3, J: 4, centroid: [3], shear_area_y: 1, shear_area_z: 1}"),
@@ -161,7 +160,8 @@ TEST(SectionReader, ByStiffness) {
     EXPECT_NE(text.find(words), std::string::npos) << text;
   };
   EXPECT_EQ(error(by_stiffness, "material: steel, "),
-            "p.yaml:6:51: beam 'l': 'material' beside a section by stiffness; remove it: the section needs none");
+            "p.yaml:6:51: beam 'l': 'material' cannot be combined with a section by stiffness; remove it: the section "
+            "needs none");
   has("{shape: circle, radius: 0.1}", "beam 'l' has no 'material'; add it, or give the section by stiffness");
   has(changed("EA: 1e7, ", ""), "EA");
   has(changed("GJ: 60", "GJ: -60"), "section 's': stiffness.GJ -60 must be positive");
@@ -188,7 +188,7 @@ TEST(SectionReader, BeamsOfScenesByStiffness) {
   EXPECT_NE(
       error_of(folder,
                [&] { read_scene(folder.file("s.yaml", text("material: {E: 1e11, nu: 0.3, density: 7800}, ")), {}); })
-          .find("body 'rod': 'material' beside a section by stiffness; remove it"),
+          .find("body 'rod': 'material' has no effect with a section by stiffness; remove it"),
       std::string::npos);
 }
 

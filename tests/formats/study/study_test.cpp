@@ -83,7 +83,7 @@ TEST_F(StudyFile, SaysWhatIsWrong) {
   EXPECT_THAT(error_of(replaced(example, "norm: rms", "norm: rsm")), HasSubstr("rms"));
   EXPECT_THAT(error_of(replaced(example, "norm: rms", "scale: -1")), HasSubstr("scale is -1"));
   EXPECT_THAT(error_of(std::string(example) + "along: piece\n"), HasSubstr("did you mean"));
-  EXPECT_THAT(error_of(std::string(example) + "reference: {file: a.csv}\n"), HasSubstr("has no source"));
+  EXPECT_THAT(error_of(std::string(example) + "reference: {file: a.csv}\n"), HasSubstr("has no 'source'"));
   EXPECT_THAT(error_of(std::string(example) + "reference: {file: a.csv, source: b, runs: [{}]}\n"),
               HasSubstr("either 'file' or 'runs'"));
   EXPECT_THAT(error_of(std::string(example) + "reference: {runs: [{at: {piece: 2}}]}\n"), HasSubstr("pieces"));

@@ -102,8 +102,9 @@ TEST(RigidStrain, ANodeInTheWrongPlaceIsRefusedHoweverSlenderThePart) {
         for (const Eigen::Vector3d& direction : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)}) {
           Superelement e = turned(bar(thickness), frame);
           e.node_position.row(1) += offset * (frame * direction).transpose();
-          EXPECT_THAT(error_of(e), AllOf(HasSubstr("bar.superelement.h5: /stiffness: the part resists rigid motion: "),
-                                         HasSubstr("turning about"), HasSubstr("check positions of nodes")))
+          EXPECT_THAT(error_of(e),
+                      AllOf(HasSubstr("bar.superelement.h5: /stiffness: the part resists rigid-body motion: "),
+                            HasSubstr("turning about"), HasSubstr("check the positions of the nodes")))
               << thickness << " " << offset;
         }
 }
@@ -112,12 +113,13 @@ TEST(RigidStrain, WrongSignsAndUnitsAreRefused) {
   for (const double thickness : {1e-1, 1e-3, 1e-4})
     for (const Eigen::Matrix3d& frame : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), askew}) {
       const Superelement sound = turned(bar(thickness), frame);
-      EXPECT_THAT(error_of(with_rotations_times(sound, -1.0)), HasSubstr("resists rigid motion"));
-      EXPECT_THAT(error_of(with_rotations_times(sound, std::numbers::pi / 180)), HasSubstr("resists rigid motion"));
+      EXPECT_THAT(error_of(with_rotations_times(sound, -1.0)), HasSubstr("resists rigid-body motion"));
+      EXPECT_THAT(error_of(with_rotations_times(sound, std::numbers::pi / 180)),
+                  HasSubstr("resists rigid-body motion"));
       for (const double unit : {1e-3, 1e3}) {
         Superelement e = sound;
         e.node_position *= unit;
-        EXPECT_THAT(error_of(e), HasSubstr("resists rigid motion")) << thickness << " " << unit;
+        EXPECT_THAT(error_of(e), HasSubstr("resists rigid-body motion")) << thickness << " " << unit;
       }
     }
 }
@@ -181,16 +183,19 @@ TEST(RigidStrain, EntriesThatAreGoodTo1e9AreReadWithANote) {
 
 TEST(RigidStrain, EntriesThatDoNotHoldTheSoftestDeformationAreRefused) {
   const Superelement sound = turned(bar(1e-3), askew);
-  EXPECT_THAT(error_of(with_digits(sound, 6)),
-              AllOf(HasSubstr("rounding of the entries (6 digits) may explain this, but then they do not hold that"),
-                    HasSubstr("write the matrix with more digits")));
+  EXPECT_THAT(
+      error_of(with_digits(sound, 6)),
+      AllOf(
+          HasSubstr(
+              "Rounding of the entries (6 digits) may be the cause, but then the entries are too inaccurate for that"),
+          HasSubstr("write the matrix with more digits")));
   // The stocky bar holds its bending in six digits.
   EXPECT_EQ(error_of(with_digits(turned(bar(1e-1), askew), 6)), "no error");
   // Five digits are worse, not better; nor do digits excuse a node that is 5 % off.
-  EXPECT_THAT(error_of(with_digits(sound, 5)), HasSubstr("they do not hold that deformation"));
+  EXPECT_THAT(error_of(with_digits(sound, 5)), HasSubstr("the entries are too inaccurate for that deformation"));
   Superelement wrong = turned(bar(1e-2), askew);
   wrong.node_position.row(1) *= 1.05;
-  EXPECT_THAT(error_of(with_digits(wrong, 7)), HasSubstr("resists rigid motion"));
+  EXPECT_THAT(error_of(with_digits(wrong, 7)), HasSubstr("resists rigid-body motion"));
 }
 
 TEST(RigidStrain, DirectionsWithoutMassOrStiffnessAreNoSoftestDeformation) {
@@ -201,7 +206,7 @@ TEST(RigidStrain, DirectionsWithoutMassOrStiffnessAreNoSoftestDeformation) {
   }
   EXPECT_EQ(error_of(massless), "no error");
   massless.node_position(1, 0) *= 1.05;
-  EXPECT_THAT(error_of(massless), HasSubstr("resists rigid motion"));
+  EXPECT_THAT(error_of(massless), HasSubstr("resists rigid-body motion"));
 
   // A third node that turns freely: three directions of S without stiffness beyond the rigid motions.
   Superelement hinged = turned(bar(1e-3), askew);
@@ -220,7 +225,7 @@ TEST(RigidStrain, DirectionsWithoutMassOrStiffnessAreNoSoftestDeformation) {
   EXPECT_THAT(written_and_read(hinged).report.warnings, IsEmpty());
   EXPECT_EQ(written_and_read(with_digits(hinged, 10)).report.warnings.size(), 1u);
   hinged.node_position.row(1) *= 1.05;
-  EXPECT_THAT(error_of(hinged), HasSubstr("resists rigid motion"));
+  EXPECT_THAT(error_of(hinged), HasSubstr("resists rigid-body motion"));
 }
 
 /// Above 400 coordinates the softest deformations come from inverse iteration: internal coordinates of their own

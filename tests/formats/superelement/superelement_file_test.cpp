@@ -297,19 +297,19 @@ std::vector<BadFile> bad_files() {
          H5Dclose(d);
          H5Sclose(space);
        },
-       {"/dof/node", "entry 0 is 1099511627776, beyond 32-bit"}},
+       {"/dof/node", "entry 0 is 1099511627776, outside the range of 32-bit"}},
       {"SoftLink",
        [](hid_t f) {
          H5Lmove(f, "/mass", f, "/elsewhere", H5P_DEFAULT, H5P_DEFAULT);
          H5Lcreate_soft("/elsewhere", f, "/mass", H5P_DEFAULT, H5P_DEFAULT);
        },
-       {"/mass", "link to somewhere else"}},
+       {"/mass", "link to another object or file"}},
       {"ExternalLink",
        [](hid_t f) {
          H5Ldelete(f, "/mass", H5P_DEFAULT);
          H5Lcreate_external("/etc/passwd", "/x", f, "/mass", H5P_DEFAULT, H5P_DEFAULT);
        },
-       {"/mass", "link to somewhere else"}},
+       {"/mass", "link to another object or file"}},
       {"ExternalData",
        [](hid_t f) {
          H5Ldelete(f, "/mass", H5P_DEFAULT);
@@ -326,7 +326,7 @@ std::vector<BadFile> bad_files() {
          H5Ldelete(f, "/mass", H5P_DEFAULT);
          H5Lcreate_soft("/nowhere", f, "/mass", H5P_DEFAULT, H5P_DEFAULT);
        },
-       {"/mass", "link to somewhere else"}},
+       {"/mass", "link to another object or file"}},
   };
 }
 

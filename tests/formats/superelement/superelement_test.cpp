@@ -166,13 +166,13 @@ TEST(Superelement, TranslationsOnlyAndRotationsOnlyNodesAreAccepted) {
 
 TEST(Superelement, RigidMotionThatTheBoundaryCannotSeeIsNamed) {
   const auto no_rotations = [](int, int component) { return component < 3; };
-  EXPECT_THAT(error_of(keep_rows(beam_superelement({}), no_rotations)), HasSubstr("turning about the line base-tip"));
+  EXPECT_THAT(error_of(keep_rows(beam_superelement({}), no_rotations)), HasSubstr("turns about the line base-tip"));
   const auto no_translations = [](int, int component) { return component >= 3; };
-  EXPECT_THAT(error_of(keep_rows(beam_superelement({}), no_translations)), HasSubstr("moving in x, y or z"));
+  EXPECT_THAT(error_of(keep_rows(beam_superelement({}), no_translations)), HasSubstr("moves in x, y or z"));
   // Four collinear points in a direction of no axis; the ends are b and c.
   const Eigen::Vector3d d(1, 2, -0.5);
-  EXPECT_THAT(error_of(spring_truss({d, -2 * d, 3 * d, 0.5 * d}, 1.0, 1.0)), HasSubstr("turning about the line b-c"));
-  EXPECT_THAT(error_of(spring_truss({d}, 1.0, 1.0)), HasSubstr("turning about node a"));
+  EXPECT_THAT(error_of(spring_truss({d, -2 * d, 3 * d, 0.5 * d}, 1.0, 1.0)), HasSubstr("turns about the line b-c"));
+  EXPECT_THAT(error_of(spring_truss({d}, 1.0, 1.0)), HasSubstr("turns about node a"));
 }
 
 TEST(Superelement, SmallRigidResidualIsFilteredByProjection) {
@@ -184,7 +184,7 @@ TEST(Superelement, SmallRigidResidualIsFilteredByProjection) {
       noise(i, j) = std::sin(1.0 + 3.0 * static_cast<double>(i * j)) + (i == j ? 20 : 0);
   noise = (0.5 * (noise + noise.transpose())).eval();
   e.stiffness += 1e-7 * exact.stiffness.cwiseAbs().maxCoeff() / 20 * noise;
-  EXPECT_THAT(error_of(e), HasSubstr("resists rigid motion"));
+  EXPECT_THAT(error_of(e), HasSubstr("resists rigid-body motion"));
   filter_rigid_motions(e);
   EXPECT_LT(check(e, "x").rigid_residual, 1e-14);
   EXPECT_EQ((e.stiffness - e.stiffness.transpose()).norm(), 0.0);
@@ -219,15 +219,15 @@ std::vector<BadSuperelement> bad_superelements() {
       BadSuperelement{"NegativeUnit", [](Superelement& e) { e.units.mass.factor = -1; }, "mass_unit", "is -1"},
       BadSuperelement{"NanUnit", [](Superelement& e) { e.units.time.factor = nan; }, "time_unit", "is nan"},
       BadSuperelement{"HalfNamedUnits", [](Superelement& e) { e.units.time.factor = 0; }, "time_unit",
-                      "although length_unit is 1"},
+                      "but length_unit is 1"},
       BadSuperelement{"LabelContradictsFactor", [](Superelement& e) { e.units.length.label = "mm"; }, "length_unit",
                       "label 'mm' means 0.001"},
       BadSuperelement{"NoNodes", [](Superelement& e) { e.node_name.clear(); }, "/boundary/name", "no boundary node"},
       BadSuperelement{"NoCoordinates", [](Superelement& e) { e.dof_node.clear(); }, "/dof/node", "no coordinates"},
       BadSuperelement{"ShortTable", [](Superelement& e) { e.dof_component.pop_back(); }, "/dof/component",
-                      "13 entries for 14"},
+                      "has 13 entries, but /dof/node has 14"},
       BadSuperelement{"Positions", [](Superelement& e) { e.node_position.conservativeResize(1, 3); },
-                      "/boundary/position", "1 rows for 2 names"},
+                      "/boundary/position", "has 1 rows, but /boundary/name has 2 names"},
       BadSuperelement{"StiffnessShape", [](Superelement& e) { e.stiffness.conservativeResize(13, 14); }, "/stiffness",
                       "shape 13 x 14, expected 14 x 14"},
       BadSuperelement{"MassShape", [](Superelement& e) { e.mass.conservativeResize(14, 1); }, "/mass",
@@ -260,7 +260,7 @@ std::vector<BadSuperelement> bad_superelements() {
       BadSuperelement{"AsymmetricMass", [](Superelement& e) { e.mass(0, 12) += 0.1; }, "/mass",
                       "is not symmetric: [0, 12]"},
       BadSuperelement{"GroundedStiffness", [](Superelement& e) { e.stiffness(6, 6) *= 1.001; }, "/stiffness",
-                      "resists rigid motion: moving in x"},
+                      "resists rigid-body motion: moving in x"},
       BadSuperelement{"NegativeStiffness", [](Superelement& e) { e.stiffness *= -1; }, "/stiffness",
                       "not positive semidefinite"},
       BadSuperelement{"NegativeInternalStiffness", [](Superelement& e) { e.stiffness(12, 12) *= -1; }, "/stiffness",
@@ -271,10 +271,11 @@ std::vector<BadSuperelement> bad_superelements() {
       BadSuperelement{"IndefiniteMass", [](Superelement& e) { e.mass(12, 13) = e.mass(13, 12) = 1.01; }, "/mass",
                       "not positive semidefinite: scaled eigenvalue"},
       BadSuperelement{"NegativeMass", [](Superelement& e) { e.mass *= -1; }, "/mass", "not positive semidefinite"},
-      BadSuperelement{"NoMass", [](Superelement& e) { e.mass.setZero(); }, "/mass", "mass of the rigid part is 0"},
+      BadSuperelement{"NoMass", [](Superelement& e) { e.mass.setZero(); }, "/mass", "rigid-body mass of the part is 0"},
       BadSuperelement{"MassOfOneDirection", [](Superelement& e) { e.mass(1, 1) += 1.0; }, "/mass",
                       "not the same in all directions"},
-      BadSuperelement{"TriangleInequality", [](Superelement& e) { e.mass(3, 3) += 1e3; }, "/mass", "belong to no body"},
+      BadSuperelement{"TriangleInequality", [](Superelement& e) { e.mass(3, 3) += 1e3; }, "/mass",
+                      "no real body has the principal moments of inertia"},
       BadSuperelement{"MirroredRotations",
                       [](Superelement& e) {
                         for (const int row : {5, 11}) {
@@ -311,7 +312,7 @@ TEST(Superelement, PrincipalMomentsThatSlightlyBreakTheTriangleAreAWarning) {
   }
   const SuperelementReport report = check(e, "x");
   ASSERT_EQ(report.warnings.size(), 2u);
-  EXPECT_THAT(report.warnings[0], HasSubstr("belong to no body"));
+  EXPECT_THAT(report.warnings[0], HasSubstr("no real body has the principal moments of inertia"));
 }
 
 TEST(Superelement, OneNodeWithInternalModesIsJudgedByItsFrequencies) {
@@ -329,7 +330,7 @@ TEST(Superelement, OneNodeWithInternalModesIsJudgedByItsFrequencies) {
   e.stiffness(0, 0) = 1e-8;  // rounding of a reduction, against 2 kg × (100 rad/s)²
   EXPECT_LT(check(e, "x").rigid_residual, 1e-11);
   e.stiffness(0, 0) = 100;
-  EXPECT_THAT(error_of(e), HasSubstr("resists rigid motion: moving in x"));
+  EXPECT_THAT(error_of(e), HasSubstr("resists rigid-body motion: moving in x"));
 }
 
 TEST(Superelement, ContentIdDependsOnEveryFieldOfTheContents) {

@@ -76,20 +76,21 @@ TEST(SurfaceFile, ReadsFacesOfObjAsFans) {
 }
 
 TEST(SurfaceFile, RefusesBrokenFilesAndSaysWhere) {
-  EXPECT_THAT(error("a.stl", binary_stl(2, 0)), HasSubstr("holds 1 of the 2 triangles"));
-  EXPECT_THAT(error("a.stl", binary_stl(4'000'000'000u, 0)), HasSubstr("holds 1 of the 4000000000 triangles"));
+  EXPECT_THAT(error("a.stl", binary_stl(2, 0)), HasSubstr("has 1 of the 2 triangles"));
+  EXPECT_THAT(error("a.stl", binary_stl(4'000'000'000u, 0)), HasSubstr("has 1 of the 4000000000 triangles"));
   EXPECT_THAT(error("a.stl", binary_stl(1, std::numeric_limits<float>::quiet_NaN())), HasSubstr("triangle 1"));
-  EXPECT_THAT(error("a.stl", text_stl.substr(0, 200)), HasSubstr("cut short"));
-  EXPECT_THAT(error("a.stl", "solid\nfacet\nvertex 0 0 x\n"), HasSubstr("a.stl:3: 'x' is no finite number"));
-  EXPECT_THAT(error("a.stl", "solid\nfacet\nvertex 0 0 1e999\n"), HasSubstr("no finite number"));
-  EXPECT_THAT(error("a.stl", "solid\nfacet\nvertex 0 0\n"), HasSubstr("expected three coordinates"));
-  EXPECT_THAT(error("a.stl", "solid\nfacet\nvertex 0 0 1\nendfacet\n"), HasSubstr("a facet has 1 vertices"));
-  EXPECT_THAT(error("a.stl", ""), HasSubstr("cut short"));
-  EXPECT_THAT(error("a.stl", "solid\nfacet\nendsolid\n"), HasSubstr("no triangle"));
-  EXPECT_THAT(error("a.obj", "v 0 0 0\nf 1 2 3\n"), HasSubstr("a.obj:2: a face names the vertex '2', there are 1"));
-  EXPECT_THAT(error("a.obj", "v 0 0 0\nf 1 1\n"), HasSubstr("fewer than three"));
+  EXPECT_THAT(error("a.stl", text_stl.substr(0, 200)), HasSubstr("is incomplete"));
+  EXPECT_THAT(error("a.stl", "solid\nfacet\nvertex 0 0 x\n"), HasSubstr("a.stl:3: 'x' is not a finite number"));
+  EXPECT_THAT(error("a.stl", "solid\nfacet\nvertex 0 0 1e999\n"), HasSubstr("is not a finite number"));
+  EXPECT_THAT(error("a.stl", "solid\nfacet\nvertex 0 0\n"), HasSubstr("the line has fewer than three coordinates"));
+  EXPECT_THAT(error("a.stl", "solid\nfacet\nvertex 0 0 1\nendfacet\n"),
+              HasSubstr("a facet has 1 vertices instead of 3"));
+  EXPECT_THAT(error("a.stl", ""), HasSubstr("is incomplete"));
+  EXPECT_THAT(error("a.stl", "solid\nfacet\nendsolid\n"), HasSubstr("has no triangles"));
+  EXPECT_THAT(error("a.obj", "v 0 0 0\nf 1 2 3\n"), HasSubstr("a.obj:2: a face refers to vertex '2', but there are 1"));
+  EXPECT_THAT(error("a.obj", "v 0 0 0\nf 1 1\n"), HasSubstr("a face has fewer than three vertices"));
   EXPECT_THAT(error("a.obj", "v 0 0 0\nf 0 1 1\n"), HasSubstr("vertex '0'"));
-  EXPECT_THAT(error("a.obj", "nothing here\n"), HasSubstr("no triangle"));
+  EXPECT_THAT(error("a.obj", "nothing here\n"), HasSubstr("has no triangles"));
   EXPECT_THAT(error_of(Folder(), [] { (void)read_surface_file("/nowhere/a.stl"); }), HasSubstr("no such file"));
 }
 

@@ -42,9 +42,9 @@ TEST(Override, RejectsWhatIsNoOverride) {
   const Folder folder;
   EXPECT_EQ(error_of(folder, [] { parse_override("step"); }), "--set step: has no '='; write --set path.to.key=value");
   EXPECT_EQ(error_of(folder, [] { parse_override("=3"); }),
-            "--set =3: path '' has an empty step; write --set path.to.key=value");
+            "--set =3: path '' has an empty key; write --set path.to.key=value");
   EXPECT_EQ(error_of(folder, [] { parse_override("a..b=3"); }),
-            "--set a..b=3: path 'a..b' has an empty step; write --set path.to.key=value");
+            "--set a..b=3: path 'a..b' has an empty key; write --set path.to.key=value");
 }
 
 TEST(Override, SetsValuesThatAreThere) {
@@ -77,7 +77,7 @@ TEST(Override, ErrorsNameTheOverride) {
   EXPECT_EQ(error({"bodies.rdo.modes=2"}),
             "--set bodies.rdo.modes=2: 'bodies' has no entry 'rdo'; did you mean 'rod'?");
   EXPECT_EQ(error({"bodies.crankshaft.modes=2"}),
-            "--set bodies.crankshaft.modes=2: 'bodies' has no entry 'crankshaft'; entries are block, rod");
+            "--set bodies.crankshaft.modes=2: 'bodies' has no entry 'crankshaft'; use one of block, rod");
   EXPECT_EQ(
       error({"loads.push.value.3=1"}),
       "--set loads.push.value.3=1: 'loads.push.value' has 3 entries; there is no index 3; use an index from 0 to 2");

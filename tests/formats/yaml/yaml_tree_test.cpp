@@ -45,23 +45,23 @@ TEST(YamlTree, RejectsWhatIsNoDocument) {
             "a.yaml:3:1: a second YAML document begins after '---'; keep one document per file");
   EXPECT_THAT(error("a: [1\nb: 2\n"), StartsWith("a.yaml:2:2: not valid YAML: "));
   EXPECT_EQ(error("b: 1\na: \"open \\\" \n"),
-            "a.yaml:2:4: not valid YAML: the quote that opens here is never closed; close it");
+            "a.yaml:2:4: not valid YAML: the quote that opens here is not closed; close it");
   EXPECT_EQ(error("a: 'it''s open\nb: 3\n"),
-            "a.yaml:1:4: not valid YAML: the quote that opens here is never closed; close it");
+            "a.yaml:1:4: not valid YAML: the quote that opens here is not closed; close it");
   EXPECT_EQ(error("a: 'it''s'\nb: \"\\\"\"\nc: |\n  it's\n"), "");
   EXPECT_THAT(error("a: 1\n\tb: 2\n"), HasSubstr("not valid YAML"));
   EXPECT_THAT(error("a: node: b\n"), HasSubstr("not valid YAML"));
   EXPECT_THAT(error("a: *nobody\n"), HasSubstr("not valid YAML"));
   EXPECT_EQ(error("a: !!int 3\n"), "a.yaml:1:4: YAML tag 'tag:yaml.org,2002:int' is not supported; remove it");
-  EXPECT_EQ(error("<<: {a: 1}\n"), "a.yaml:1:1: YAML merge keys '<<' are not supported; write the keys out");
+  EXPECT_EQ(error("<<: {a: 1}\n"), "a.yaml:1:1: YAML merge keys '<<' are not supported; copy the keys to this place");
   EXPECT_EQ(error("[1, 2]: 3\n"), "a.yaml:1:1: a key must be text, not a list of 2");
 }
 
 TEST(YamlTree, RejectsOtherKindsOfFiles) {
   EXPECT_EQ(error(std::string("\x89HDF\r\n\x1a\n", 8)),
-            "a.yaml:1:1: byte 0x89 is not text in UTF-8; is this another kind of file? Save it as UTF-8 text");
+            "a.yaml:1:1: byte 0x89 is not text in UTF-8; check that this is a text file, and save it as UTF-8");
   EXPECT_EQ(error(std::string("a: 1\nb: \0", 9)),
-            "a.yaml:2:4: byte 0x00 is not text in UTF-8; is this another kind of file? Save it as UTF-8 text");
+            "a.yaml:2:4: byte 0x00 is not text in UTF-8; check that this is a text file, and save it as UTF-8");
   const Folder folder;
   EXPECT_EQ(error_of(folder, [&] { load_yaml(folder.path() + "/none.yaml"); }),
             "none.yaml: cannot open the file: No such file or directory; check path and permission");
@@ -70,7 +70,7 @@ TEST(YamlTree, RejectsOtherKindsOfFiles) {
 }
 
 TEST(YamlTree, BoundsDepth) {
-  const std::string expected = "values are nested more than 100 deep; look for brackets that never close";
+  const std::string expected = "values are nested more than 100 levels deep; look for brackets that are not closed";
   EXPECT_THAT(error(std::string(200'000, '[')), HasSubstr(expected));
   std::string lists, maps;
   for (int i = 0; i < 100'000; ++i) lists += "- ", maps += "{a: ";
@@ -87,8 +87,9 @@ TEST(YamlTree, BoundsAliases) {
     for (int k = 0; k < 8; ++k) bomb += ", " + last;
     bomb += "]\n";
   }
-  EXPECT_THAT(error(bomb), HasSubstr("the file has more than 1000000 values once its aliases are followed"));
-  EXPECT_THAT(error("a: &a [*a]\n"), HasSubstr("alias refers to a value that contains it; write the value out"));
+  EXPECT_THAT(error(bomb), HasSubstr("the file has more than 1000000 values, counting the values of its aliases"));
+  EXPECT_THAT(error("a: &a [*a]\n"),
+              HasSubstr("the alias refers to a value that contains this alias; write the value instead of the alias"));
   EXPECT_THAT(error(std::string((16u << 20) + 1, '#')), HasSubstr("the file has more than 16777216 bytes"));
 }
 

@@ -125,7 +125,7 @@ TEST(OppositeMarkers, AreAnErrorAlthoughTheyMeetTheEquations) {
   scene.joints[0].kind = formats::JointKind::fixed;
   scene.joints[0].b.orientation =
       Eigen::Quaterniond(Eigen::AngleAxisd(2.0 * std::numbers::pi / 3.0, Vector3d::Ones().normalized()));
-  EXPECT_THAT(start_error(scene), ::testing::HasSubstr("turned against each other"));
+  EXPECT_THAT(start_error(scene), ::testing::HasSubstr("rotated relative to each other"));
 }
 
 TEST(InconsistentVelocity, IsAnErrorThatNamesJointAndEquation) {

@@ -64,14 +64,14 @@ TEST(NumberDoubts, NameWhatCannotBeMeant) {
       {"materials.steel.E=210", "the modulus looks like GPa (in units of the scene 2.1e+11)"},
       {"materials.steel.density=7.8", "the density looks like g/cm^3 (in units of the scene 7800)"},
       {"bodies.rod.section.radius=10",
-       "the section of 'rod' has a radius of gyration of 5 m, the beam a length of 0.3 m"},
+       "the section of 'rod' has a radius of gyration of 5 m, but the beam has a length of 0.3 m"},
       {"bodies.crank.inertia=[42632,42632,42632]", "'crank' has a radius of gyration"},
       {"joints.S.friction={coefficient: 15, velocity: 0.01}", "joint 'S' has a coefficient of friction of 15"},
       {"gravity=[0,0,-9810]", "gravity is 9810 m s^-2"},
       {"springs={s: {a: {node: ground, position: [0,0,0]}, b: piston, stiffness: 10, free: 300}}",
        "has a free length of 300 m"},
       {"motions.m.value={table: [[5, 0], [6, 1]]}",
-       "the table of motion 'm' holds 5 to 6 s, the run goes from 0 to 0.3 s"},
+       "the table of motion 'm' covers 5 to 6 s, but the run goes from 0 to 0.3 s"},
       {"output={interval: 2}", "is longer than the run of 0.3 s"}};
   EXPECT_THAT(doubts_with({}), IsEmpty());
   for (const auto& [setting, text] : cases)
@@ -132,7 +132,7 @@ TEST(NumberDoubts, AreSilentAboutExamplesAndTheirVariations) {
     if (entry.path().string().ends_with(".scene.yaml")) scenes.push_back(entry.path().string());
   std::ranges::sort(scenes);
   std::mt19937 random(7);
-  int told = 0;
+  int reported = 0;
   for (int round = 0; round < 6; ++round)
     for (const std::string& path : scenes) {
       std::ifstream file(path);
@@ -140,12 +140,12 @@ TEST(NumberDoubts, AreSilentAboutExamplesAndTheirVariations) {
       if (round > 0) write_text_file(path, test_support::varied(text, random));
       try {
         EXPECT_THAT(doubts_of(formats::read_scene(path, {})), IsEmpty()) << path << " round " << round;
-        ++told;
+        ++reported;
       } catch (const std::exception&) {  // as where a superelement file is missing
       }
       if (round > 0) write_text_file(path, text);
     }
-  EXPECT_GT(told, 100);
+  EXPECT_GT(reported, 100);
 }
 
 }  // namespace

@@ -93,8 +93,8 @@ TEST(Freedoms, AreNamedAndLockedLoopsToo) {
   formats::Scene free = test_support::empty_scene(1e-3, 1.0);
   free.bodies = {block("light", 1.0, {0, 0, 0}), block("heavy", 2.0, {1, 0, 0})};
   free.joints = {joint("ball", JointKind::spherical, "light", "heavy", {0.5, 0, 0}, {0, 0, 1})};
-  EXPECT_EQ(named(free).free, (std::vector<std::string>{"a turn in 'ball'", "a turn in 'ball'", "a turn in 'ball'",
-                                                        "'heavy' in 6 ways"}));
+  EXPECT_EQ(named(free).free, (std::vector<std::string>{"a rotation in 'ball'", "a rotation in 'ball'",
+                                                        "a rotation in 'ball'", "'heavy' in 6 directions"}));
 }
 
 /// Motions that the pre-flight names, with `extra` done to a scene in which `hub` and a block of 1 kg are.

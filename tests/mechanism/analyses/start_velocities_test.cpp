@@ -300,7 +300,7 @@ TEST(Contradiction, OfDrivesIsTheirs) {
 TEST(Contradiction, OfValuesNamesWhatStaysOpen) {
   Mechanism mechanism = slider_crank(Coupler::rigid);
   mechanism.scene.initial = {initial("guide", 2.0, {})};  // the slider reaches r + l = 0.55
-  EXPECT_THAT(start_error(mechanism.scene, mechanism.files), HasSubstr("no position of the bodies has the initial"));
+  EXPECT_THAT(start_error(mechanism.scene, mechanism.files), HasSubstr("the bodies cannot reach the initial values"));
 }
 
 TEST(UnknownCoordinate, IsAnError) {

@@ -241,7 +241,7 @@ TEST(SuperelementBuild, NamesWhatIsWrong) {
   const formats::Superelement element = test_support::test_superelement("frame");
   SuperelementOptions options;
   options.modes = 6;
-  EXPECT_THAT(error_of(element, options), ::testing::HasSubstr("6 modes asked for, the superelement has 5"));
+  EXPECT_THAT(error_of(element, options), ::testing::HasSubstr("6 modes are requested, but the superelement has 5"));
   options = {};
   options.frame = FrameKind::node;
   options.frame_node = "tip";

@@ -219,15 +219,15 @@ TEST(Effects, ThatAreNotThereAreErrorsWithARemedy) {
   const formats::Scene scene = mixed_scene();
   EXPECT_THAT(error_of(scene, {off(Effect::stiffening, "arm")}, files),
               AllOf(HasSubstr("switch: effects: body 'arm' has no stiffening to switch off"),
-                    HasSubstr("write the companion file")));
+                    HasSubstr("write a companion file")));
   EXPECT_THAT(error_of(scene, {on(Effect::damping, "block")}, files), HasSubstr("'block' has no damping to switch on"));
   EXPECT_THAT(error_of(scene, {off(Effect::friction, "hinge")}, files),
               AllOf(HasSubstr("joint 'hinge' has no friction to switch off"), HasSubstr("give a joint 'friction'")));
   EXPECT_THAT(error_of(scene, {off(Effect::flexibility)}, files),
-              AllOf(HasSubstr("flexibility of body 'rod' is no term of its own"), HasSubstr("make it a rigid body")));
+              AllOf(HasSubstr("flexibility of body 'rod' cannot be switched"), HasSubstr("make it a rigid body")));
   EXPECT_THAT(
       error_of(scene, {off(Effect::rotary_inertia, "arm")}, files),
-      AllOf(HasSubstr("rotary_inertia of body 'arm'"), HasSubstr("rotary_inertia: off at the beams of the part")));
+      AllOf(HasSubstr("rotary_inertia of body 'arm'"), HasSubstr("`rotary_inertia: off` at the beams of the part")));
   formats::Scene free = scene;
   free.joints[0].friction.reset();
   free.springs.clear();
@@ -244,7 +244,7 @@ TEST(Effects, AutoOfTheSceneNeedsABodyThatCanBeSwitched) {
   formats::Scene scene = test_support::empty_scene(1e-3, 0.1);
   scene.bodies.emplace_back(beam("rod"));
   EXPECT_THAT(error_of(scene, {automatic}, {}),
-              AllOf(HasSubstr("flexibility of body 'rod' is no term of its own"), HasSubstr("make it a rigid body")));
+              AllOf(HasSubstr("flexibility of body 'rod' cannot be switched"), HasSubstr("make it a rigid body")));
   EXPECT_EQ(error_of(scene, {on(Effect::flexibility)}, {}), "");
 }
 
@@ -267,7 +267,7 @@ TEST(Effects, FrictionAndStopsAreOfOneJointAndOneSpring) {
               HasSubstr("gravity, friction; off: friction of 'slide', stops"));
 }
 
-TEST(Effects, AreToldWithWhatIsOff) {
+TEST(Effects, AreReportedWithWhatIsOff) {
   formats::Scene scene = mixed_scene();
   const BodyFiles files = mixed_files();
   EXPECT_EQ(effects_text(effects_of(scene, files), false),

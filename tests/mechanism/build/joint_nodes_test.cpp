@@ -179,7 +179,7 @@ TEST(RigidArms, AreNotedWithTheirLength) {
   const Vector3d tip = files_of("beam").at("body").superelement.node_position.row(1);
   ASSERT_EQ(tip, Vector3d(2, 0, 0));
   EXPECT_THAT(notes_of(fixed_joint("weld", "beam/tip", "block")),
-              ElementsAre("joints away from the nodes that they name, which rigid arms bridge: 'weld' 0.5 m from "
+              ElementsAre("rigid arms connect joints with the nodes that they name: 'weld' 0.5 m from "
                           "'beam/tip'"));
   EXPECT_THAT(notes_of(fixed_joint("weld", "beam/tip", "block/hook")), IsEmpty());
   // Told where it is: the block's frame may be elsewhere, the node of the beam is expected there.
@@ -226,8 +226,9 @@ TEST(FlatBodies, TypedWithFourDigitsAreAcceptedWithANote) {
     return build_model(formats::read_scene(folder.file("scene.yaml", text + inertia + "}}\n"), {}), {}).notes;
   };
   EXPECT_THAT(notes("[0.0833, 0.0833, 0.1667]"),
-              ElementsAre(AllOf(HasSubstr("body 'plate': of the principal moments of inertia 0.0833, 0.0833, 0.1667"),
-                                HasSubstr("by 0.0006 of it"))));
+              ElementsAre(AllOf(
+                  HasSubstr("body 'plate': the largest of the principal moments of inertia 0.0833, 0.0833, 0.1667"),
+                  HasSubstr("by 0.0006 of its value"))));
   EXPECT_THAT(notes("[1, 1, 2]"), IsEmpty());
   EXPECT_THROW(notes("[0.0833, 0.0833, 0.1669]"), Error);  // by 1.8e-3
 }

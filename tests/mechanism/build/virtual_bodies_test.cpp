@@ -309,14 +309,16 @@ TEST(LoopOfTies, MustClose) {
   scene.joints.back().a.orientation = Eigen::Quaterniond::Identity();
   scene.joints.back().b.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(0.02, Vector3d::UnitY()));
   const std::string text = build_error(scene, {});
-  EXPECT_THAT(text, ::testing::HasSubstr("'again' closes stays open by 0.003 and 0.02 rad"));
+  EXPECT_THAT(text, ::testing::HasSubstr("'again' closes stays open by a distance of 0.003 and an angle of 0.02 rad"));
 }
 
 TEST(PoseOfAVirtualBody, MustMeetItsTie) {
   formats::Scene scene = massless_lever(VirtualBodies::eliminate);
   scene.joints[1].a.position = Vector3d(0.8, 0.004, 0);
   scene.joints[1].b.position = Vector3d::Zero();
-  EXPECT_THAT(build_error(scene, {}), ::testing::HasSubstr("'end' is 0.004 and 0 rad away from where joint 'lever'"));
+  EXPECT_THAT(
+      build_error(scene, {}),
+      ::testing::HasSubstr("'end' is at a distance of 0.004 and an angle of 0 rad from the pose that joint 'lever'"));
 }
 
 TEST(OrientationOfAGroup, MustBeDetermined) {
@@ -344,7 +346,7 @@ TEST(JointInsideAGroup, IsAnErrorThatSaysWhy) {
   scene.joints.push_back(joint("inside", JointKind::revolute, "root", "end", {0, 0, 0}, {0, 0, 1}));
   const std::string text = build_error(scene, {});
   EXPECT_THAT(text, ::testing::HasSubstr("'inside'"));
-  EXPECT_THAT(text, ::testing::HasSubstr("fixed joints tie these bodies together already"));
+  EXPECT_THAT(text, ::testing::HasSubstr("fixed joints already connect these bodies"));
 }
 
 }  // namespace

@@ -349,7 +349,8 @@ TEST(LoopOnAModalNode, ThatStaysOpenIsAnErrorWithTheGap) {
     }
     return "no error";
   };
-  EXPECT_THAT(fault(VirtualBodies::eliminate), ::testing::HasSubstr("'loop' closes stays open by 0.003 and 0 rad"));
+  EXPECT_THAT(fault(VirtualBodies::eliminate),
+              ::testing::HasSubstr("'loop' closes stays open by a distance of 0.003 and an angle of 0 rad"));
   EXPECT_THAT(fault(VirtualBodies::keep), ::testing::HasSubstr("0.003"));
 }
 

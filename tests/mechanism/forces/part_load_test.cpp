@@ -376,11 +376,12 @@ TEST(PartLoad, BadLoadCases) {
   BodyFiles none = files;
   none.companions.clear();
   EXPECT_THAT(test_support::error_of([&] { build_model(scene, none); }),
-              HasSubstr("load 'load_wind': body 'beam' has no load case 'wind': there is no beam.companion.h5; "
-                        "let the program that made it write one: `load_cases` in the part file"));
+              HasSubstr("load 'load_wind': body 'beam' has no load case 'wind': there is no file "
+                        "beam.companion.h5; write load cases with `load_cases` in the part file"));
   BodyFiles empty = files;
   empty.companions["beam"].load_cases.clear();
-  EXPECT_THAT(test_support::error_of([&] { build_model(scene, empty); }), HasSubstr("beam.companion.h5 has none"));
+  EXPECT_THAT(test_support::error_of([&] { build_model(scene, empty); }),
+              HasSubstr("beam.companion.h5 has no load cases"));
 }
 
 // A file that holds load cases alone serves linear bodies.

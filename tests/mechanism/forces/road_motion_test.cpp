@@ -117,7 +117,7 @@ TEST(RollingWheel, KeepsItsEnergyOverAHill) {
   EXPECT_NEAR(run.energy().total() + run.state().dissipated(), before, 1e-4 * before);
 }
 
-TEST(RollingCar, IsToldWhereGridsEndAndHaveHoles) {
+TEST(RollingCar, IsReportedWhereGridsEndAndHaveHoles) {
   const auto reason = [](const formats::RoadSpec& road, double time) {
     formats::Scene scene = block_car(0.0);
     scene.roads = {road};
@@ -132,7 +132,7 @@ TEST(RollingCar, IsToldWhereGridsEndAndHaveHoles) {
   EXPECT_EQ(reason(level, 0.55), "");
   EXPECT_EQ(reason(level, 0.601),
             "t = 0.601: tyre 'tyre7150' has left the road 'road', which ends at x = 6 m; give it "
-            "more heights, or end the run before");
+            "more heights, or end the run earlier");
   EXPECT_NE(reason(crg_road(level), 0.601).find("which ends at u = 6 m"), std::string::npos);
   formats::RoadSpec holed = crg_road(level);
   formats::RoadHeights heights = *holed.heights;
@@ -140,7 +140,7 @@ TEST(RollingCar, IsToldWhereGridsEndAndHaveHoles) {
   holed.heights = std::make_shared<const formats::RoadHeights>(heights);
   EXPECT_EQ(reason(holed, 0.099), "");
   const std::string hole = reason(holed, 0.1);
-  EXPECT_NE(hole.find("t = 0.1: tyre 'tyre7150' has come to a hole of the road 'road' at u = "), std::string::npos);
+  EXPECT_NE(hole.find("t = 0.1: tyre 'tyre7150' has reached a hole of the road 'road' at u = "), std::string::npos);
   EXPECT_NE(hole.find("v = 0.715 m; give heights there"), std::string::npos) << hole;
 }
 
@@ -162,7 +162,7 @@ TEST(TyreBuild, RefusesGridsThatAreNotUnderTheWheels) {
                           [](formats::RoadHeights& h) {
                             h.across = {-0.72, 0.0, 0.72};
                           }))
-                .find("starts at y = 0.73 m of the road 'road', which is there from -0.72 to 0.72"),
+                .find("starts at y = 0.73 m of the road 'road', which extends from -0.72 to 0.72"),
             std::string::npos);
   EXPECT_NE(error(changed(level, [](formats::RoadHeights& h) { h.height(1000, 2) = std::nan(""); }))
                 .find("tyre 'tyre7150' starts in a hole of the road 'road'"),

@@ -42,7 +42,7 @@ TEST(TimeFunction, WhatLooksLikeAnotherFormulaIsAnError) {
     EXPECT_THAT(error(text), ::testing::HasSubstr("expression '" + text + "': '='"));
   // The trial: clamp() is of other languages, and the message lists what there is.
   EXPECT_THAT(error("2 * clamp(t, 0, 1)"),
-              ::testing::AllOf(::testing::HasSubstr("there is no function 'clamp'; known are abs, "),
+              ::testing::AllOf(::testing::HasSubstr("there is no function 'clamp'; use one of abs, "),
                                ::testing::HasSubstr(" max, min, "), ::testing::HasSubstr(" step_trapezoid, ")));
   for (const std::string text : {"max(1, 2.5)*t", "t <= 1 ? 2 : 3", "t == 1 ? 2 : 3", "min(max(t, 1), 2)",
                                  "t != 0 ? 1 : 0", "t >= 1 ? 2 : sum(1, (2 + t) * 3, 4)"})

@@ -295,7 +295,7 @@ TEST(TyreBuild, RefusesWhatCannotRoll) {
   EXPECT_NE(error([](formats::Scene& s) {
               s.roads[0].left = {
                   {RoadPieceShape::curve, 0, 0, 0, 0, {formats::Interpolation::linear, {-1.0, 5.0}, {0.0, 0.0}}}};
-            }).find("of the road 'road', which is there from -1 to 5"),
+            }).find("of the road 'road', which extends from -1 to 5"),
             std::string::npos);
   EXPECT_NE(error([](formats::Scene& s) {
               s.joints.push_back(
@@ -321,7 +321,7 @@ formats::Scene wheel_by_file(double speed) {
 }
 
 // A wheel that rolls stays in the range of its file, and nothing is said; one that spins leaves it.
-TEST(TyreRange, IsToldWhereItIsLeft) {
+TEST(TyreRange, IsReportedWhereItIsLeft) {
   for (const bool spins : {false, true}) {
     formats::Scene scene = wheel_by_file(10.0);
     std::get<formats::RigidBodySpec>(scene.bodies[0]).start.angular_velocity = Vector3d(0, spins ? 100.0 : 32.0, 0);
@@ -352,7 +352,8 @@ TEST(TyreBuild, TakesTheFile) {
   flat.tyres[0].pressure = 0.5e5;  // PRESMIN = 1e5
   const std::vector<std::string> notes = build_model(flat, {}).notes;
   ASSERT_EQ(notes.size(), 2u);
-  EXPECT_NE(notes[0].find("pressure 50000 is outside of what its file was fitted for, 100000 to "), std::string::npos);
+  EXPECT_NE(notes[0].find("pressure 50000 is outside the range for which its file was fitted, 100000 to "),
+            std::string::npos);
 }
 
 // A road that a curve gives ends: the run says which tyre has left it and where.

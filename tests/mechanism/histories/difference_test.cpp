@@ -45,14 +45,14 @@ TEST(Difference, IsTakenAtTheInstantsOfTheCoarserHistory) {
   EXPECT_NEAR(d.norms.rms, 0.25, 1e-6);
   for (const double y : d.y) EXPECT_NEAR(y, 0.25, 1e-6);
   const Series other = difference(sampled(SeriesKind::run, 0.0, 1.0, 311, raised),
-                                      sampled(SeriesKind::reference, 0.0, 1.0, 19, wave), {});
+                                  sampled(SeriesKind::reference, 0.0, 1.0, 19, wave), {});
   EXPECT_EQ(other.x.size(), 20u);
   EXPECT_NEAR(other.norms.largest, 0.25, 1e-6);
 }
 
 TEST(Difference, CoversTheCommonTime) {
   const Series d = difference(sampled(SeriesKind::run, 0.0, 2.0, 200, raised),
-                                  sampled(SeriesKind::reference, 1.0, 3.0, 150, wave), {});
+                              sampled(SeriesKind::reference, 1.0, 3.0, 150, wave), {});
   EXPECT_NEAR(d.x.front(), 1.0, 0.02);
   EXPECT_NEAR(d.x.back(), 2.0, 0.02);
 }
@@ -76,7 +76,7 @@ TEST(Difference, KnowsUnits) {
   reference.x_unit = "ms";
   EXPECT_NEAR(difference(run, reference, {}).norms.largest, 0.25, 1e-5);
   reference.unit = "N";
-  EXPECT_THAT(error_of([&] { (void)difference(run, reference, {}); }), HasSubstr("the unit N, the run m"));
+  EXPECT_THAT(error_of([&] { (void)difference(run, reference, {}); }), HasSubstr("the unit N, but the run has m"));
 }
 
 TEST(Difference, NeedsOneReferenceForEachChannel) {

@@ -156,7 +156,7 @@ TEST(GnuplotScript, DrawsModesAsBarsBesideOneAnother) {
   EXPECT_EQ(axis_of({0, 0, 0, 0, 0}, "Hz"), "set yrange [0:1]");
   series.push_back(wave("a", "energy/total", "J", 5));
   EXPECT_THAT(error_of([&] { plot(series, {}); }),
-              HasSubstr("'modes/frequency' is over modes, 'energy/total' over time"));
+              HasSubstr("'modes/frequency' has values over modes, 'energy/total' over time"));
 }
 
 TEST(GnuplotScript, ShowsTheTimeOfTheRuns) {
@@ -227,8 +227,7 @@ TEST(GnuplotScript, DifferencesHaveAPanelOfTheirOwn) {
   Series difference = wave("coarse", "energy/total", "J", 5);
   difference.kind = SeriesKind::difference;
   difference.norms = {0.25, 0.125, 1.0};
-  const std::string script =
-      gnuplot_script({wave("coarse", "energy/total", "J", 5), base, difference}, into("a.pdf"));
+  const std::string script = gnuplot_script({wave("coarse", "energy/total", "J", 5), base, difference}, into("a.pdf"));
   EXPECT_THAT(script, HasSubstr("set multiplot layout 2,1"));
   EXPECT_THAT(script, HasSubstr("set ylabel 'difference of energy [J]'"));
   EXPECT_THAT(script, HasSubstr("title 'total: largest 0.25, RMS 0.125'"));
@@ -318,11 +317,11 @@ TEST_F(Picture, IsWrittenForPrint) {
   EXPECT_EQ(head.substr(16, 8), std::string("\0\0\x03\xb1\0\0\x02\xc5", 8));  // 80 x 60 mm at 300 per inch: 945 x 709
 }
 
-TEST_F(Picture, FaultsAreToldAndLeaveNothing) {
+TEST_F(Picture, FaultsAreReportedAndLeaveNothing) {
   const Series series = wave("a", "energy/total", "J", 5);
   PlotOptions options;
   options.output = path("a.bmp");
-  EXPECT_THAT(error_of([&] { plot({series}, options); }), HasSubstr("no .png, .svg, .pdf or .eps"));
+  EXPECT_THAT(error_of([&] { plot({series}, options); }), HasSubstr("is not a .png, .svg, .pdf or .eps"));
   options.output = path("none/a.png");
   EXPECT_THAT(error_of([&] { plot({series}, options); }), HasSubstr("cannot create the file"));
   options.output = path("a.png");

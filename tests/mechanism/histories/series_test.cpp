@@ -79,10 +79,11 @@ TEST_F(CsvFile, FaultsNameTheirPlace) {
   const auto fault = [this](const std::string& text) {
     return error_of([&] { (void)read_reference({write(text), "t", "w", ""}); });
   };
-  EXPECT_THAT(fault("t,v\n0,1\n"),
-              HasSubstr("no column 'w' among 2; take a number from 1, or a name: the nearest are t, v"));
+  EXPECT_THAT(
+      fault("t,v\n0,1\n"),
+      HasSubstr("there is no column 'w' among the 2 columns; give a number from 1, or a name: the nearest are t, v"));
   EXPECT_THAT(fault("t,w\n0,1\n1,x2\n"), HasSubstr("history.csv:3: 'x2' in column 2 is not a number"));
-  EXPECT_THAT(fault("t,w\n0,1,2\n"), HasSubstr("history.csv:2: 3 cells where the header names 2"));
+  EXPECT_THAT(fault("t,w\n0,1,2\n"), HasSubstr("history.csv:2: 3 cells, but the header has 2"));
   EXPECT_THAT(fault(""), HasSubstr("is empty"));
   EXPECT_THAT(error_of([] { (void)read_reference({"none.csv", "t", "w", ""}); }), HasSubstr("none.csv"));
 }
@@ -100,7 +101,10 @@ TEST_F(CsvFile, ColumnsAreFoundByNumberAndByTheirNearestNames) {
   const std::string error = error_of([&] { (void)read_reference({path, "t", "nodes/position/rod/12/y", ""}); });
   EXPECT_THAT(error, HasSubstr("the nearest are nodes/position/rod/12/x, "));
   EXPECT_EQ(std::count(error.begin(), error.end(), ','), 9 + 1);  // ten names
-  EXPECT_THAT(error_of([&] { (void)read_reference({path, "t", "303", ""}); }), HasSubstr("no column '303' among 302"));
+  EXPECT_THAT(error_of([&] {
+                (void)read_reference({path, "t", "303", ""});
+              }),
+              HasSubstr("no column '303' among the 302"));
 }
 
 class ResultsFile : public CsvFile {
@@ -167,7 +171,7 @@ TEST_F(ResultsFile, IsComparedWithItsOwnExport) {
   EXPECT_THAT(error_of([&] {
                 (void)compare({{a}, {}, {"energy/total"}, {}}, {});
               }),
-              HasSubstr("0 references, one is needed"));
+              HasSubstr("0 references, but exactly one is needed"));
 }
 
 TEST_F(ResultsFile, AreComparedChannelByChannel) {

@@ -67,7 +67,8 @@ TEST(ShownUnits, EnergiesAreNoMomentsAndFrequenciesNoRates) {
   EXPECT_THAT(series[0].y, ElementsAre(2.0));
   EXPECT_THAT(series[1].y, ElementsAre(DoubleEq(0.003)));
   std::vector<Series> rate{one("modes/eigenvalue/real", "s^-1", 2.0)};
-  EXPECT_THAT(error_of([&] { show_in(parse_shown_units({"kHz"}), rate); }), HasSubstr("nothing that is drawn can be shown in kHz, a unit of frequency"));
+  EXPECT_THAT(error_of([&] { show_in(parse_shown_units({"kHz"}), rate); }),
+              HasSubstr("no quantity in the plot can be shown in kHz, a unit of frequency"));
 }
 
 TEST(ShownUnits, AReferenceWithoutUnitsIsInThoseOfTheRun) {
@@ -87,9 +88,9 @@ TEST(ShownUnits, FaultsNameTheRemedy) {
   EXPECT_THAT(fault("mm,"), HasSubstr("unknown unit ''"));
   EXPECT_THAT(fault("m/s/s"), HasSubstr("unknown unit"));
   EXPECT_THAT(fault("m^999999999999"), HasSubstr("unknown unit"));
-  EXPECT_THAT(fault("length=MPa"), HasSubstr("MPa is no unit of length; it is a unit of stress"));
+  EXPECT_THAT(fault("length=MPa"), HasSubstr("MPa is not a unit of length; it is a unit of stress"));
   EXPECT_THAT(fault("size=mm"), HasSubstr("unknown quantity 'size'"));
-  EXPECT_THAT(fault("mm,in"), HasSubstr("mm and in measure the same"));
+  EXPECT_THAT(fault("mm,in"), HasSubstr("mm and in are units of the same quantity"));
   std::vector<Series> unnamed{one("nodes/position/a/x", "", 2.0)};
   unnamed[0].x_unit = "";
   EXPECT_THAT(error_of([&] { show_in(parse_shown_units({"mm"}), unnamed); }), HasSubstr("runs without named units"));

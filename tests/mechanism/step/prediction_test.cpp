@@ -50,7 +50,7 @@ TEST(Prediction, TrendSavesIterationsOfASmoothMotion) {
   EXPECT_LT((trend.x - constant.x).cwiseAbs().maxCoeff(), 4e-8);
 }
 
-TEST(Prediction, NothingIsForetoldAfterAJump) {
+TEST(Prediction, NothingIsPredictedAfterAJump) {
   formats::Scene scene = falling_chain();
   formats::LoadSpec push = test_support::constant_load("push", formats::LoadKind::force, "link2", {0.0, 50.0, 0.0});
   push.components[1] = formats::TimeExpression{"t < 0.1 ? 0 : 50", {0.1}, ""};

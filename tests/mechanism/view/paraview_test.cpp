@@ -38,16 +38,16 @@ integrator: {step: 0.01, end: 0.2}
     request_.shown.files = {folder_.file("arm.results.h5")};
     simulate(formats::read_scene(scene, {}), request_.shown.files[0], {});
     request_.instants = 3;
-    told_ = write_paraview(request_, folder_.file("out"));
+    reported_ = write_paraview(request_, folder_.file("out"));
   }
 
   test_support::TemporaryFolder folder_;
   ViewRequest request_;
-  std::string told_;
+  std::string reported_;
 };
 
 TEST_F(Paraview, ListsItsInstants) {
-  EXPECT_THAT(told_, HasSubstr("arm.pvd (3 instants)"));
+  EXPECT_THAT(reported_, HasSubstr("arm.pvd (3 instants)"));
   EXPECT_THAT(test_support::read_pvd(folder_.file("out/arm.pvd")),
               ElementsAre(Pair(0.0, "arm/arm_0.vtu"), Pair(DoubleNear(0.1, 1e-12), "arm/arm_1.vtu"),
                           Pair(DoubleNear(0.2, 1e-12), "arm/arm_2.vtu")));

@@ -247,7 +247,7 @@ TEST_F(Page, ShowsLoadsTyresAndTheirRoad) {
   EXPECT_NEAR(results.read("forces/load/twist/y")[10], 0.1, 1e-12);
 }
 
-TEST_F(Page, RunsNoScriptOfAStranger) {
+TEST_F(Page, RunsNoScriptOfAnUntrustedFile) {
   ViewRequest request;
   request.shown.files = {run("arm", arm)};
   const std::string text = page_of(request);
@@ -348,11 +348,11 @@ TEST_F(Page, ShowsNodesOfOlderFiles) {
 TEST_F(Page, RefusesWhatItCannotShow) {
   ViewRequest request;
   request.shown.files = {plain_results(folder_.file("a.h5"), {"energy"}, 0.0, 3, true)};
-  EXPECT_THAT(error_of(request), HasSubstr("holds no positions of nodes"));
+  EXPECT_THAT(error_of(request), HasSubstr("contains no positions of nodes"));
   request.shown.files = {plain_results(folder_.file("b.h5"), {}, 0.0, 0, false)};
   EXPECT_THAT(error_of(request), HasSubstr("holds no instants"));
   request.shown.files = {plain_results(folder_.file("c.h5"), {}, std::numeric_limits<double>::quiet_NaN(), 3, true)};
-  EXPECT_THAT(error_of(request), HasSubstr("is no number at t = 1"));
+  EXPECT_THAT(error_of(request), HasSubstr("is not a number at t = 1"));
   request.shown.files = {folder_.file("nowhere.h5")};
   EXPECT_THAT(error_of(request), HasSubstr("nowhere.h5"));
   request.shown.files = {plain_results(folder_.file("d.h5"), {}, 0.0, 3, true)};
@@ -361,7 +361,7 @@ TEST_F(Page, RefusesWhatItCannotShow) {
   ViewRequest stress;
   stress.shown.files = {run("stressless", arm)};
   stress.shapes.stress = true;
-  EXPECT_THAT(error_of(stress), HasSubstr("no body that deforms has its recovery file"));
+  EXPECT_THAT(error_of(stress), HasSubstr("no deforming body has a recovery file"));
 }
 
 TEST_F(Page, SaysWhyARunStopped) {

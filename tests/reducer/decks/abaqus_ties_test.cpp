@@ -121,9 +121,9 @@ TEST(AbaqusTies, EquationsTurnWithTransformedNodes) {
   EXPECT_EQ(terms[1].coefficient, -1.0);
   EXPECT_EQ(terms[2].component, 5);
   EXPECT_THAT(abaqus_error(abaqus_plate + "*EQUATION\n3\n1, 1, 2., 2, 1, 1.\n"),
-              HasSubstr("3 terms announced, 2 given"));
+              HasSubstr("3 terms are announced, but 2 are given"));
   EXPECT_THAT(abaqus_error(abaqus_plate + "*EQUATION\n2\n1, 7, 2., 2, 1, 1.\n"), HasSubstr("degree of freedom '7'"));
-  EXPECT_THAT(abaqus_error(abaqus_plate + "*EQUATION\n1, 1, 2.\n"), HasSubstr("is no number of terms"));
+  EXPECT_THAT(abaqus_error(abaqus_plate + "*EQUATION\n1, 1, 2.\n"), HasSubstr("is not a number of terms"));
 }
 
 TEST(AbaqusTies, RetainedCoordinatesAreTheBoundary) {
@@ -143,7 +143,7 @@ TEST(AbaqusTies, RetainedCoordinatesAreTheBoundary) {
 }
 
 TEST(AbaqusTies, SupportsAreErrorsUnlessTheyHoldNothing) {
-  const std::string remedy = "put the support into the scene";
+  const std::string remedy = "define the support in the scene";
   EXPECT_THAT(abaqus_error(abaqus_plate + "*BOUNDARY\n1, 1, 3\n"), AllOf(HasSubstr("node 1"), HasSubstr(remedy)));
   EXPECT_THAT(abaqus_error(abaqus_plate + "*STEP\n*STATIC\n*BOUNDARY\nAll, ENCASTRE\n*END STEP\n"), HasSubstr(remedy));
   const Deck deck =
@@ -166,7 +166,7 @@ TEST(AbaqusTies, FaultsOfCouplings) {
   EXPECT_THAT(
       abaqus_error(abaqus_plate + kReference + kSurface +
                    "*COUPLING, REF NODE=10, SURFACE=face, INFLUENCE RADIUS=0.1, CONSTRAINT NAME=c\n*KINEMATIC\n"),
-      HasSubstr("grabs no node"));
+      HasSubstr("connects no nodes"));
   EXPECT_THAT(abaqus_error(abaqus_plate + kReference + kSurface +
                            "*COUPLING, REF NODE=10, SURFACE=face, CONSTRAINT NAME=c\n*KINEMATIC\n2, 9\n"),
               HasSubstr("from 1 to 6"));

@@ -64,10 +64,10 @@ TEST(NastranCards, ContinuationsFillTheSameFields) {
 TEST(NastranCards, ContinuationsOutOfPlaceAreFaults) {
   EXPECT_THAT(fault_of("+,1.\n" + bar_deck()), HasSubstr("main.bdf:1: continuation '+' without a card before it"));
   EXPECT_THAT(fault_of("PBAR,1,2,,,,,,,+A\n+B,1.\n" + bar_deck()),
-              HasSubstr("main.bdf:2: continuation '+B' follows a line that asks for '+A'"));
+              HasSubstr("main.bdf:2: continuation '+B' follows a line with the mark '+A'"));
   EXPECT_THAT(fault_of("PBAR,1,2,,,,,,,+A,1.\n" + bar_deck()), HasSubstr("more than 10 fields"));
   EXPECT_THAT(fault_of("RBE2,30,3,123,1,2,3,4,5,6\n" + bar_deck()),
-              HasSubstr("'6' stands where a continuation mark belongs"));
+              HasSubstr("'6' is in the field of the continuation mark"));
 }
 
 TEST(NastranCards, OnlyTheBulkSectionCounts) {
@@ -88,14 +88,14 @@ TEST(NastranCards, CaseControlHoldsParametersAndSets) {
   EXPECT_EQ(mass("SOL 103\nCEND\n", "PARAM,WTMASS,.25\n"), 1.25);
   const std::string equations = "MPC,7,1,1,1.,3,1,-1.\nMPC,8,1,2,1.,3,2,-1.\nMPCADD,9,8\nSPC1,4,1,2\n";
   const auto deck = [&](const std::string& before) { return read_deck(before + bulk + equations + "ENDDATA\n"); };
-  EXPECT_THAT(fault_of("SOL 103\n" + bulk + equations + "ENDDATA\n"), HasSubstr("sets 7 and 8 of MPC in one deck"));
+  EXPECT_THAT(fault_of("SOL 103\n" + bulk + equations + "ENDDATA\n"), HasSubstr("the deck has sets 7 and 8 of MPC"));
   const Deck none = deck("SOL 103\nCEND\n");
   EXPECT_EQ(none.mesh.equations.size(), 0u);
-  EXPECT_TRUE(warns(none, "sets of MPC that case control does not select are left out: 7, 8"));
-  EXPECT_TRUE(warns(none, "sets of SPC that case control does not select are left out: 4"));
+  EXPECT_TRUE(warns(none, "sets of MPC that case control does not select are ignored: 7, 8"));
+  EXPECT_TRUE(warns(none, "sets of SPC that case control does not select are ignored: 4"));
   EXPECT_EQ(deck("CEND\nMPC = 7\n").mesh.equations.at(0).terms.at(0).component, 0);
   EXPECT_EQ(deck("CEND\nsubcase 1\n  mpc=9 $ of 8\n").mesh.equations.at(0).terms.at(0).component, 1);
-  EXPECT_THAT(fault_of("CEND\nSPC=4\n" + bulk + equations + "ENDDATA\n"), HasSubstr("holds GRID 2 (1) to ground"));
+  EXPECT_THAT(fault_of("CEND\nSPC=4\n" + bulk + equations + "ENDDATA\n"), HasSubstr("fixes GRID 2 (1) to the ground"));
 }
 
 TEST(NastranCards, ReplicationRepeatsTheCardBefore) {
@@ -109,7 +109,8 @@ TEST(NastranCards, ReplicationRepeatsTheCardBefore) {
   EXPECT_EQ(deck.mesh.position.col(3), Eigen::Vector3d(30, -2.5, 0));
   EXPECT_EQ(deck.mesh.beams.at(1).first, 1);
   EXPECT_EQ(deck.mesh.beams.at(1).second, 2);
-  EXPECT_THAT(fault_of("=,1\n" + bar_deck()), HasSubstr("main.bdf:1: '=' repeats no card of one line"));
+  EXPECT_THAT(fault_of("=,1\n" + bar_deck()),
+              HasSubstr("main.bdf:1: replication '=' does not follow a card of one line"));
   EXPECT_THAT(fault_of(bar_deck() + "=999999\n"), HasSubstr("replication '=999999' is not understood"));
   EXPECT_THAT(fault_of("GRID,1,,0.,0.,0.\n=,*x,==\n" + bar_deck()), HasSubstr("'x' cannot be added to '1'"));
 }
@@ -137,9 +138,10 @@ TEST(NastranCards, OldDecks) {
   EXPECT_EQ(rods.mesh.beams[1].first, 1);
   EXPECT_EQ(rods.mesh.beams[1].second, 2);
   EXPECT_EQ(deck.mesh.masses.size(), 1u);
-  EXPECT_THAT(fault_of(bar_deck() + "CONM2,1,3,,2.5\nCONM2,1,2,,2.5\n"), HasSubstr("element 1 is given twice"));
+  EXPECT_THAT(fault_of(bar_deck() + "CONM2,1,3,,2.5\nCONM2,1,2,,2.5\n"), HasSubstr("element 1 is defined twice"));
   const Deck extra = read_deck(bar_deck() + "CONM2,7,2,0,5.,0.,0.,0.\n,1.,0.,1.,0.,0.,1.,99.\n");
-  EXPECT_TRUE(warns(extra, "values in fields that the card does not have: CONM2 7 (line 2, field 8: '99.')"));
+  EXPECT_TRUE(
+      warns(extra, "values in fields that the card does not have are ignored: CONM2 7 (line 2, field 8: '99.')"));
 }
 
 TEST(NastranCards, IncludeIsRelativeToItsFile) {
@@ -153,11 +155,11 @@ TEST(NastranCards, IncludeIsRelativeToItsFile) {
   EXPECT_THAT(fault_of_files(broken),
               HasSubstr("sub/deeper/all.inc:8: CBAR 13: PID names property 6, which is missing"));
   broken["sub/deeper/all.inc"] = "INCLUDE ../../main.bdf $ again\n";
-  EXPECT_THAT(fault_of_files(broken), HasSubstr("goes in a circle"));
+  EXPECT_THAT(fault_of_files(broken), HasSubstr("this file includes itself"));
   broken["sub/deeper/all.inc"] = "INCLUDE 'none.inc'\n";
   EXPECT_THAT(fault_of_files(broken), HasSubstr("none.inc does not exist"));
   EXPECT_THAT(fault_of("INCLUDE '/dev/zero'\n"), HasSubstr("/dev/zero is not a file"));
-  EXPECT_THAT(fault_of("INCLUDE 'open\n"), HasSubstr("no closing quote"));
+  EXPECT_THAT(fault_of("INCLUDE 'open\n"), HasSubstr("the closing quote is missing"));
 }
 
 TEST(NastranCards, NumbersOfEveryForm) {
@@ -179,7 +181,7 @@ TEST(NastranCards, FaultsNameFieldAndValueAndComeTogether) {
   const std::string text = fault_of(bar_deck() + "GRID,4,,1.x,0.,0.\nGRID,a\nGRID,3\nCBAR,13,5,2,9,0.,1.,0.\n");
   EXPECT_THAT(text, HasSubstr("main.bdf:8: GRID 4: X1 '1.x' is not a finite number"));
   EXPECT_THAT(text, HasSubstr("main.bdf:9: GRID a: ID 'a' is not a whole number"));
-  EXPECT_THAT(text, HasSubstr("main.bdf:10: GRID 3: this grid point is given twice"));
+  EXPECT_THAT(text, HasSubstr("main.bdf:10: GRID 3: this grid point is defined twice"));
   EXPECT_THAT(text, HasSubstr("main.bdf:11: CBAR 13: GB names GRID 9, which is missing"));
   std::string many = bar_deck();
   for (int i = 0; i < 80; ++i) many += "GRID,x\n";
@@ -193,24 +195,23 @@ TEST(NastranCards, UnknownCardsAreCounted) {
   const Deck deck = read_nastran(folder.main(), {UnknownCards::ignore});
   EXPECT_TRUE(warns(deck, "CQUAD8 (2), RSPLINE (1)"));
   EXPECT_TRUE(warns(deck, "EIGRL (1)"));
-  EXPECT_TRUE(warns(deck, "PARAM without effect here: POST"));
+  EXPECT_TRUE(warns(deck, "PARAM cards without effect on the mesh are ignored: POST"));
 }
 
 TEST(NastranCards, DecksCutOffAndOtherFilesAreSuspected) {
-  const std::string text = "cut off";
+  const std::string text = "is the file truncated?";
   EXPECT_TRUE(warns(read_deck("BEGIN BULK\n" + bar_deck()), text));
   EXPECT_FALSE(warns(read_deck("BEGIN BULK\n" + bar_deck() + "ENDDATA\n"), text));
   EXPECT_FALSE(warns(read_deck(bar_deck()), text)) << "bulk data alone";
-  EXPECT_EQ(fault_of("ISO-10303-21;\nHEADER;\n"),
-            "main.bdf: no GRID in the deck; name a file with Nastran bulk data");
+  EXPECT_EQ(fault_of("ISO-10303-21;\nHEADER;\n"), "main.bdf: the deck has no GRID; name a file with Nastran bulk data");
 }
 
 TEST(NastranCards, ElementNumbersAreUnique) {
   EXPECT_THAT(fault_of(bar_deck() + "CBAR,12,5,1,3,0.,1.,0.\n"),
-              HasSubstr("main.bdf:8: CBAR 12: element 12 is given twice, first at main.bdf:5"));
-  EXPECT_THAT(fault_of(bar_deck() + "MAT8,7,1.,1.\n"), HasSubstr("material 7 is given twice"));
-  EXPECT_THAT(fault_of(bar_deck() + "PBARL,5,7,,ROD\n,1.\n"), HasSubstr("property 5 is given twice"));
-  EXPECT_THAT(fault_of("PARAM,POST,1\n"), HasSubstr("no GRID in the deck"));
+              HasSubstr("main.bdf:8: CBAR 12: element 12 is defined twice, first at main.bdf:5"));
+  EXPECT_THAT(fault_of(bar_deck() + "MAT8,7,1.,1.\n"), HasSubstr("material 7 is defined twice"));
+  EXPECT_THAT(fault_of(bar_deck() + "PBARL,5,7,,ROD\n,1.\n"), HasSubstr("property 5 is defined twice"));
+  EXPECT_THAT(fault_of("PARAM,POST,1\n"), HasSubstr("the deck has no GRID"));
 }
 
 }  // namespace

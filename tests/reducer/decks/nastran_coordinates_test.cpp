@@ -70,7 +70,7 @@ TEST(NastranCoordinates, FaultsNameTheSystem) {
   EXPECT_THAT(fault_of("CORD1R,5,7,8,9\nGRID,7,5\nGRID,8,,0.,0.,1.\nGRID,9,,1.\n"), HasSubstr("depends on itself"));
   EXPECT_THAT(fault_of("CORD2R,5,,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\nGRID,7\n"), HasSubstr("lie on a line"));
   EXPECT_THAT(fault_of("CORD2R,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nCORD2C,5,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,7\n"),
-              HasSubstr("coordinate system 5 is given twice"));
+              HasSubstr("coordinate system 5 is defined twice"));
 }
 
 TEST(NastranCoordinates, AxesFollowThePosition) {

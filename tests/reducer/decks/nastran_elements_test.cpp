@@ -89,7 +89,7 @@ TEST(NastranBeams, RodsCarryTorsionOnlyBetweenNodesThatTurn) {
   EXPECT_TRUE(is_rod(rod));
   EXPECT_EQ(rod.section.torsion_constant, 0.0);
   EXPECT_EQ(rod.added_mass.first, 1.5);
-  EXPECT_TRUE(warns(free, "torsion of rods is left out"));
+  EXPECT_TRUE(warns(free, "torsion of rods is ignored"));
   const Deck held = read_deck(grids +
                               "CROD,11,5,1,2\nPROD,5,7,.02,3.-4\nCBAR,12,6,1,3,0.,1.,0.\nCBAR,13,6,2,3,0.,1.,0.\nPBAR,"
                               "6,7,.02,3.-4,4.-4,5.-4\n");
@@ -111,10 +111,10 @@ TEST(NastranShells, MaterialAxisOffsetAndThickness) {
   EXPECT_EQ(shell("CTRIA3,11,5,1,2,3,90.,-.25\nCTRIA3,12,5,1,3,4\n").offset, -0.25);
   expect_near(shell("CQUAD4,11,5,1,2,3,4,9\n").material_x, Vector3d::UnitY());
   EXPECT_THAT(fault_of(rest + "CORD2R,8,9,0.,0.,0.,1.,0.,0.\n,0.,1.,0.\nCQUAD4,11,5,1,2,3,4,8\n"),
-              HasSubstr("x axis of coordinate system 8 is normal to the element"));
+              HasSubstr("x axis of coordinate system 8 is perpendicular to the element"));
   const Deck own = read_deck(rest + "CQUAD4,11,5,1,2,3,4\n,,,.02,.02,.04\n");
   EXPECT_NEAR(own.mesh.shell_properties.at(0).section.thickness, 0.0225, 1e-16);  // (0.02 + 0.02 + 0.04 + 0.01)/4
-  EXPECT_TRUE(warns(own, "thickness varies"));
+  EXPECT_TRUE(warns(own, "different thickness at their corners"));
   const Deck factor = read_deck(rest + "CQUAD4,11,5,1,2,3,4\n,,1,2.,2.,2.,2.\n");
   EXPECT_NEAR(factor.mesh.shell_properties.at(0).section.thickness, 0.02, 1e-16);
   EXPECT_EQ(own.element_sets.at("pid5").shells.size(), 1u);
@@ -123,7 +123,7 @@ TEST(NastranShells, MaterialAxisOffsetAndThickness) {
 
 TEST(NastranShells, FaultsNameTheShell) {
   const std::string rest = square + steel + "PSHELL,5,7,.01,7,,7\n";
-  EXPECT_THAT(fault_of(rest + "CQUAD4,11,5,1,2,3,3\n"), HasSubstr("CQUAD4 11: GRID 3 stands at two corners"));
+  EXPECT_THAT(fault_of(rest + "CQUAD4,11,5,1,2,3,3\n"), HasSubstr("CQUAD4 11: GRID 3 is at two corners"));
   EXPECT_THAT(fault_of(rest + "CQUAD4,11,5,1,2,3\n"), HasSubstr("CQUAD4 11: G is blank"));
   EXPECT_THAT(fault_of(rest + "CQUAD4,11,6,1,2,3,4\n"), HasSubstr("PID names property 6, which is missing"));
 }
@@ -188,7 +188,7 @@ TEST(NastranMasses, OffsetAndInertiaInTheirAxes) {
   expect_near(other.inertia, R * J * R.transpose());
   expect_near(read_deck(grids + "CONM2,1,1,-1,5.,.1,.2,.3\n").mesh.masses.at(0).offset, Vector3d(-0.9, -0.8, -0.7));
   EXPECT_EQ(read_deck(grids + "PARAM,WTMASS,.5\nCONM2,1,1,,5.\n").mesh.masses.at(0).mass, 2.5);
-  EXPECT_THAT(fault_of(grids + "CONM2,1,1,,5.\n,1.,2.,1.\n"), HasSubstr("moments of inertia belong to no body"));
+  EXPECT_THAT(fault_of(grids + "CONM2,1,1,,5.\n,1.,2.,1.\n"), HasSubstr("no body can have these moments of inertia"));
 }
 
 const std::string two_bars = bar_deck() + "GRID,4,,4.,0.,1.\n";
@@ -221,10 +221,10 @@ TEST(NastranSprings, ScalarSpringsAndBushings) {
 }
 
 TEST(NastranSprings, SpringsThatHoldThePartAreFaults) {
-  EXPECT_THAT(fault_of(two_bars + "CELAS2,20,1000.,3,1,4,1\n"), HasSubstr("resists rigid motion"));
-  EXPECT_THAT(fault_of(two_bars + "CELAS2,20,1000.,3,1\n"), HasSubstr("CELAS2 20: holds GRID 3 (1) to ground"));
+  EXPECT_THAT(fault_of(two_bars + "CELAS2,20,1000.,3,1,4,1\n"), HasSubstr("resists rigid-body motion"));
+  EXPECT_THAT(fault_of(two_bars + "CELAS2,20,1000.,3,1\n"), HasSubstr("CELAS2 20: fixes GRID 3 (1) to the ground"));
   EXPECT_THAT(fault_of(two_bars + "CBUSH,20,6,3,,,,,0\nPBUSH,6,K,1000.\n"),
-              HasSubstr("CBUSH 20: holds GRID 3 (123456) to ground"));
+              HasSubstr("CBUSH 20: fixes GRID 3 (123456) to the ground"));
   EXPECT_THAT(fault_of(two_bars + "CBUSH,20,6,3,4\nPBUSH,6,K,,1000.\n"), HasSubstr("orientation is missing"));
   EXPECT_THAT(fault_of(two_bars + "CELAS2,20,1000.,3,12,4,1\n"), HasSubstr("C '12' must be one component"));
 }

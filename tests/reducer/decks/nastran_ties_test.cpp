@@ -72,8 +72,9 @@ TEST(NastranTies, Rbe3) {
   EXPECT_THAT(spiders("RBE3,30,,4,123,1.,123,1,2\n,1.,123,2,3\n").at(0).weight, ElementsAre(1.0, 2.0, 1.0));
   EXPECT_THAT(fault_of(base + "RBE3,30,,4,123,1.,123,1,2\n,1.,12,3\n"),
               HasSubstr("give all groups the same components"));
-  EXPECT_THAT(fault_of(base + "RBE3,30,,4,123,1.,12,1,2\n,5\n"), HasSubstr("CD differ"));
-  EXPECT_THAT(fault_of(base + "RBE3,30,,4,123,1.,123,4,2\n"), HasSubstr("averaged itself"));
+  EXPECT_THAT(fault_of(base + "RBE3,30,,4,123,1.,12,1,2\n,5\n"), HasSubstr("CD differs between the grid points"));
+  EXPECT_THAT(fault_of(base + "RBE3,30,,4,123,1.,123,4,2\n"),
+              HasSubstr("the reference point is also one of the averaged points"));
   EXPECT_THAT(fault_of(base + "RBE3,30,,4,123,-1.,123,1,2\n"), HasSubstr("weight -1 is negative"));
   EXPECT_THAT(fault_of(base + "RBE3,30,,4,123,1,x,1\n"), HasSubstr("C 'x' does not name components"));
 }
@@ -100,7 +101,7 @@ TEST(NastranBoundary, AsetInEveryForm) {
   EXPECT_TRUE(pairs.mesh.boundary[0].translations && pairs.mesh.boundary[0].rotations);
   EXPECT_EQ(pairs.mesh.boundary[1].node, 0);
   EXPECT_FALSE(pairs.mesh.boundary[2].rotations);
-  EXPECT_TRUE(warns(pairs, "boundary coordinates have the axes of the part, not those of CD, GRID: 5"));
+  EXPECT_TRUE(warns(pairs, "boundary coordinates have the axes of the part, not those of CD, at GRID: 5"));
   EXPECT_EQ(read_deck(base + "BSET1,123456,1,THRU,3\n").mesh.boundary.size(), 3u);
   EXPECT_EQ(read_deck(base + "ASET1,456,1,3\n").mesh.boundary[1].node, 2);
   EXPECT_THAT(fault_of(base + "ASET1,12,1\n"), HasSubstr("ASET1 12: GRID 1: components 12 alone cannot be boundary"));
@@ -109,23 +110,25 @@ TEST(NastranBoundary, AsetInEveryForm) {
 
 TEST(NastranBoundary, SupportsAreFaultsWhereSomethingIsHeld) {
   EXPECT_THAT(fault_of(base + "SPC1,1,123,1,THRU,3\n"),
-              HasSubstr("SPC1 1: holds GRID 1 (123), 2 (123), 3 (123) to ground"));
+              HasSubstr("SPC1 1: fixes GRID 1 (123), 2 (123), 3 (123) to the ground"));
   EXPECT_THAT(
       fault_of(base + "SPC,1,2,3,0.\n"),
-      HasSubstr("SPC 1: holds GRID 2 (3) to ground, but a superelement floats; put the support into the scene"));
-  EXPECT_THAT(fault_of("GRDSET,,,,,,,5\n" + base), HasSubstr("holds GRID 1 (5) to ground"));
+      HasSubstr(
+          "SPC 1: fixes GRID 2 (3) to the ground; a superelement has no supports: define the support in the scene"));
+  EXPECT_THAT(fault_of("GRDSET,,,,,,,5\n" + base), HasSubstr("fixes GRID 1 (5) to the ground"));
   // Rotations of solid nodes, drilling of a flat shell.
   const std::string tetra =
       "GRID,1\nGRID,2,,1.\nGRID,3,,0.,1.\nGRID,4,,0.,0.,1.\nCTETRA,11,5,1,2,3,4\nPSOLID,5,7\nMAT1,7,1.,,.3,1.\n";
   const Deck solid = read_deck(tetra + "SPC1,1,456,1,2,3,4\nASET1,123456,1\n");
-  EXPECT_TRUE(warns(solid, "supports of components without stiffness and mass have no effect, GRID: 1 (456), 2 (456)"));
+  EXPECT_TRUE(warns(solid, "supports of components without stiffness and mass are ignored at GRID: 1 (456), 2 (456)"));
   EXPECT_FALSE(solid.mesh.boundary[0].rotations);
-  EXPECT_THAT(fault_of(tetra + "SPC1,1,3456,1\n"), HasSubstr("holds GRID 1 (3) to ground"));
+  EXPECT_THAT(fault_of(tetra + "SPC1,1,3456,1\n"), HasSubstr("fixes GRID 1 (3) to the ground"));
   const std::string plate =
       "GRID,1\nGRID,2,,1.\nGRID,3,,1.,1.\nGRID,4,,0.,1.\nCQUAD4,11,5,1,2,3,4\nPSHELL,5,7,.01,7,,7\nMAT1,7,1.,,.3,1.\n";
   EXPECT_TRUE(warns(read_deck(plate + "SPC1,1,6,1,2,3,4\n"), "1 (6), 2 (6), 3 (6), 4 (6)"));
-  EXPECT_THAT(fault_of(plate + "SPC1,1,56,1\n"), HasSubstr("holds GRID 1 (5) to ground"));
-  EXPECT_THAT(fault_of(plate + "SPC1,1,6,1\nCONM2,12,1,,1.\n,1.,,1.,,,1.\n"), HasSubstr("holds GRID 1 (6) to ground"));
+  EXPECT_THAT(fault_of(plate + "SPC1,1,56,1\n"), HasSubstr("fixes GRID 1 (5) to the ground"));
+  EXPECT_THAT(fault_of(plate + "SPC1,1,6,1\nCONM2,12,1,,1.\n,1.,,1.,,,1.\n"),
+              HasSubstr("fixes GRID 1 (6) to the ground"));
 }
 
 }  // namespace

@@ -139,10 +139,9 @@ std::string errors_of(std::uint16_t released) {
 TEST(BeamReleases, LooseOnesAreErrors) {
   EXPECT_EQ(errors_of(release(0, 4) | release(1, 4) | release(0, 5) | release(1, 5) | release(0, 3)), "");
   EXPECT_EQ(errors_of(release(0, 1) | release(0, 5)), "");
-  EXPECT_EQ(
-      errors_of(release(0, 3) | release(1, 3)),
-      "its released end forces (Mx at end 1, Mx at end 2) leave it loose: a motion of the element between its nodes "
-      "that nothing resists");
+  EXPECT_EQ(errors_of(release(0, 3) | release(1, 3)),
+            "its released end forces (Mx at end 1, Mx at end 2) make it a mechanism: the element can move between its "
+            "nodes without any stiffness");
   EXPECT_NE(errors_of(release(0, 0) | release(1, 0)), "");
   EXPECT_NE(errors_of(release(0, 1) | release(0, 5) | release(1, 5)), "");
 }
@@ -157,7 +156,7 @@ TEST(BeamShape, FaultsAreNamed) {
   mesh.beams[0].first_offset = Vector3d(1, 0, 0);
   EXPECT_EQ(findings_of().errors.at(0), "its ends are at the same place (length 0)");
   mesh.beams[0].first_offset = Vector3d(0, 0.1, 0);
-  EXPECT_EQ(findings_of().errors.at(0), "its axes do not follow the line between its ends");
+  EXPECT_EQ(findings_of().errors.at(0), "its axes are not aligned with the line between its ends");
   mesh.beams[0].first_offset = Vector3d(0.999, 0, 0);
   EXPECT_TRUE(findings_of().errors.empty());
   EXPECT_EQ(findings_of().warnings.at(0), "its length 0.001 is less than 1/50 of the depth 0.1 of its section");

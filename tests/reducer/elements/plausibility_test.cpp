@@ -54,7 +54,7 @@ TEST(DoubtedNumbers, SpidersFarOffWhatTheyHold) {
   Mesh far = bar();
   add_spider(far, Vector3d(0.1, 0, 0), {17, 18, 19});
   EXPECT_THAT(doubts(far), ElementsAre(AllOf(HasSubstr("the node of spider 'pin' lies 1."),
-                                             HasSubstr("m off the nodes that it holds; the part is 2 m large"))));
+                                             HasSubstr("m away from the nodes that it holds; the part is 2 m large"))));
   Mesh link = bar();
   add_spider(link, Vector3d(0.1, 0, 0), {19});
   EXPECT_THAT(doubts(link), IsEmpty()) << "a rigid link between two nodes is as long as it is";
@@ -70,7 +70,7 @@ TEST(DoubtedNumbers, OffsetsOfManyThicknesses) {
   for (reducer::BeamElement& beam : mesh.beams)
     beam.first_offset = beam.second_offset = 100.0 * thickness * Vector3d::UnitZ();
   EXPECT_THAT(doubts(mesh),
-              ElementsAre(AllOf(HasSubstr("lie"), HasSubstr("beside their nodes, 100 times their thickness"))));
+              ElementsAre(AllOf(HasSubstr("lie"), HasSubstr("away from their nodes, 100 times their thickness"))));
 }
 
 TEST(DoubtedNumbers, OffsetsOfShells) {
@@ -84,24 +84,24 @@ TEST(DoubtedNumbers, OffsetsOfShells) {
   mesh.shell_properties.push_back(skin);
   EXPECT_THAT(doubts(mesh), IsEmpty());
   mesh.shells[0].offset = -1.0;
-  EXPECT_THAT(doubts(mesh), ElementsAre(HasSubstr("the shells of 'skin' lie 1 m beside their nodes, 100 times")));
+  EXPECT_THAT(doubts(mesh), ElementsAre(HasSubstr("the shells of 'skin' lie 1 m away from their nodes, 100 times")));
 }
 
 TEST(DoubtedNumbers, MassesThatDwarfThePart) {
   Mesh mesh = bar();
   formats::RigidProperties rigid;
-  const auto told = [&](double mass, const Vector3d& offset) {
+  const auto reported = [&](double mass, const Vector3d& offset) {
     mesh.masses = {{0, mass, Eigen::Matrix3d::Zero(), offset, "payload"}};
     rigid.mass = 5.0 + mass;
     rigid.center_of_mass = (5.0 * Vector3d(1, 0, 0) + mass * offset) / rigid.mass;
     return reducer::mass_warnings(mesh, rigid, Units::si());
   };
-  EXPECT_THAT(told(250.0, Vector3d::Zero()), IsEmpty());
-  EXPECT_THAT(told(2500.0, Vector3d::Zero()),
+  EXPECT_THAT(reported(250.0, Vector3d::Zero()), IsEmpty());
+  EXPECT_THAT(reported(2500.0, Vector3d::Zero()),
               ElementsAre(HasSubstr("point mass 'payload' of 2500 kg is 500 times the mass of all elements, 5 kg")));
-  EXPECT_THAT(told(50.0, Vector3d(0, 0, -1.5)), IsEmpty());
-  EXPECT_THAT(told(50.0, Vector3d(0, 0, -300.0)),
-              ElementsAre(AllOf(HasSubstr("the centre of mass of the part lies 272.7 m beside its nodes"),
+  EXPECT_THAT(reported(50.0, Vector3d(0, 0, -1.5)), IsEmpty());
+  EXPECT_THAT(reported(50.0, Vector3d(0, 0, -300.0)),
+              ElementsAre(AllOf(HasSubstr("the centre of mass of the part lies 272.7 m away from its nodes"),
                                 HasSubstr("which extend over 2 m"))));
 }
 
@@ -110,7 +110,7 @@ TEST(DoubtedNumbers, AreSilentAboutExamplesAndTheirVariations) {
   const test_support::TemporaryFolder folder;
   namespace fs = std::filesystem;
   std::mt19937 random(7);
-  int told = 0;
+  int reported = 0;
   for (const auto& entry : fs::recursive_directory_iterator(TISSERAND_SOURCE_DIR "/examples")) {
     const std::string original = entry.path().string();
     if (!original.ends_with(".part.yaml")) continue;
@@ -124,13 +124,13 @@ TEST(DoubtedNumbers, AreSilentAboutExamplesAndTheirVariations) {
         const formats::Part part = formats::read_part(path, {});
         EXPECT_THAT(reducer::plausibility_warnings(reducer::build_mesh(part), part.units, part.materials), IsEmpty())
             << original << " round " << round;
-        ++told;
+        ++reported;
       } catch (const Error& error) {
         EXPECT_GT(round, 0) << error.what();
       }
     }
   }
-  EXPECT_GT(told, 100);
+  EXPECT_GT(reported, 100);
 }
 
 }  // namespace

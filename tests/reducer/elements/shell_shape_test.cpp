@@ -70,10 +70,11 @@ TEST(ShellShape, SharpAnglesAreWarnedAndFlatOnesAreErrors) {
 TEST(ShellShape, WarpIsWarnedAboveFivePercentAndAnErrorAboveThirty) {
   EXPECT_THAT(findings_of(one_shell(moved(2, 1.0, 1.0, 0.16), steel(0.01))).warnings, IsEmpty());
   EXPECT_THAT(findings_of(one_shell(moved(2, 1.0, 1.0, 0.24), steel(0.01))).warnings,
-              ElementsAre(HasSubstr("warped: corners 0.05")));
+              ElementsAre(HasSubstr("warped: corners are out of its plane by 0.05")));
   Eigen::Matrix3Xd X = square();
   X.row(2) << 0.35, -0.35, 0.35, -0.35;  // off the plane by 0.35 of the side
-  EXPECT_THAT(findings_of(one_shell(X, steel(0.01))).errors, ElementsAre(HasSubstr("warped: corners 0.35")));
+  EXPECT_THAT(findings_of(one_shell(X, steel(0.01))).errors,
+              ElementsAre(HasSubstr("warped: corners are out of its plane by 0.35")));
 }
 
 TEST(ShellShape, AspectAndThicknessOfTheWallAreWarned) {
@@ -86,7 +87,7 @@ TEST(ShellShape, AspectAndThicknessOfTheWallAreWarned) {
   EXPECT_THAT(plausibility_warnings(one_shell(square(), steel(0.28)), Units::si()), IsEmpty());
 }
 
-TEST(Plausibility, SpidersFarBesideThePartAreTold) {
+TEST(Plausibility, SpidersFarBesideThePartAreReported) {
   Mesh mesh = one_shell(square(), steel(0.01));  // √2 large
   const auto add = [&mesh](const std::string& name, const Eigen::Vector3d& at) {
     mesh.position.conservativeResize(3, mesh.position.cols() + 1);
@@ -102,14 +103,15 @@ TEST(Plausibility, SpidersFarBesideThePartAreTold) {
   EXPECT_THAT(plausibility_warnings(mesh, Units::si()), IsEmpty());
   add("axle", corner + Eigen::Vector3d(0.0, 0.0, 3.2));
   EXPECT_THAT(plausibility_warnings(mesh, Units::si()),
-              ElementsAre(AllOf(HasSubstr("spider 'axle' lies 3.2 m beside the part, which is 1.41 m large"),
+              ElementsAre(AllOf(HasSubstr("spider 'axle' lies 3.2 m away from the part, which is 1.41 m large"),
                                 HasSubstr("unit of its coordinates"))));
   add("pin", corner + Eigen::Vector3d(0.0, 0.0, 320.0));
-  EXPECT_THAT(plausibility_warnings(mesh, Units::consistent()),
-              ElementsAre(HasSubstr("spider 'pin' lies 320 beside the part, which is 1.41 large (and axle also lies")));
+  EXPECT_THAT(
+      plausibility_warnings(mesh, Units::consistent()),
+      ElementsAre(HasSubstr("spider 'pin' lies 320 away from the part, which is 1.41 large (and axle also lies")));
 }
 
-TEST(Plausibility, InertiaOfAPointMassThatNoBodyHasIsTold) {
+TEST(Plausibility, InertiaOfAPointMassThatNoBodyHasIsReported) {
   Mesh mesh = one_shell(square(), steel(0.01));
   NodalMass mass;
   mass.name = "tip";
@@ -119,7 +121,7 @@ TEST(Plausibility, InertiaOfAPointMassThatNoBodyHasIsTold) {
   EXPECT_THAT(plausibility_warnings(mesh, Units::si()), IsEmpty());
   mesh.masses[0].inertia(2, 2) = 5.0;
   EXPECT_THAT(plausibility_warnings(mesh, Units::si()),
-              ElementsAre(AllOf(HasSubstr("point mass 'tip'"), HasSubstr("1, 1, 5 the largest exceeds the sum"))));
+              ElementsAre(AllOf(HasSubstr("point mass 'tip'"), HasSubstr("1, 1, 5 exceeds the sum of the other two"))));
 }
 
 TEST(ShellShape, MaterialDirectionMustNotBeTheNormal) {

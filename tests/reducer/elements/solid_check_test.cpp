@@ -50,7 +50,7 @@ TEST_P(SolidCheck, RepeatedNodeIsNamed) {
   mesh.solids[0].nodes[3] = mesh.solids[0].nodes[1];
   ShapeFindings findings;
   check_shape(mesh, mesh.solids[0], findings);
-  EXPECT_THAT(findings.errors, ElementsAre(HasSubstr("node 2 stands in it twice (places 2 and 4)")));
+  EXPECT_THAT(findings.errors, ElementsAre(HasSubstr("it contains node 2 twice (positions 2 and 4)")));
 }
 
 TEST_P(SolidCheck, PositionThatIsNotANumberIsAnError) {

@@ -8,8 +8,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/math/rotation.hpp"
-#include "reducer/elements/element_matrices.hpp"
 #include "reducer/elements/beam/beam.hpp"
+#include "reducer/elements/element_matrices.hpp"
 
 namespace tisserand::reducer::spring_test {
 namespace {
@@ -76,7 +76,7 @@ TEST(Spring, BushingActsAtItsPlace) {
 
 /// A translational spring across a distance resists turning: with k across d, turning by 1 rad about the middle strains
 /// it by d, so the scaled defect is exactly 1. Along the line between the nodes, or at coincident nodes, it is 0.
-TEST(Spring, DefectTellsGroundedSprings) {
+TEST(Spring, DefectReportsGroundedSprings) {
   const Eigen::Vector3d along_x(2.5, 0.0, 0.0);
   EXPECT_NEAR(rigid_motion_defect(
                   scalar_spring(3.0, {1, Eigen::Matrix3d::Identity()}, {1, Eigen::Matrix3d::Identity()}), along_x),

@@ -121,20 +121,20 @@ TEST(Dmig, Errors) {
     return "DMIG,KAAX," + header + "\nDMIG,KAAX," + column + "\n";
   };
   const std::vector<std::pair<std::string, std::string>> cases{
-      {grids + mass, "no DMIG matrix KAAX, but MAAX"},
+      {grids + mass, "no DMIG matrix KAAX, only MAAX"},
       {grids + stiffness("0,2,2", "1,1,,1,1,1.") + mass, "IFO is 2"},
       {grids + stiffness("0,6,4", "1,1,,1,1,1.") + mass, "TIN is 4"},
       {grids + stiffness("0,6,2", "1,1,,1,1,1.,2.") + mass, "imaginary"},
       {grids + stiffness("0,6,2", "1,7,,1,1,1.") + mass, "component 7"},
       {grids + stiffness("0,6,2", "1,0,,1,1,1.") + mass, "component 0 of GRID 1"},
-      {grids + "SPOINT,9\n" + stiffness("0,6,2", "8,0,,8,0,1.") + mass, "point 8 with component 0 is no SPOINT"},
+      {grids + "SPOINT,9\n" + stiffness("0,6,2", "8,0,,8,0,1.") + mass, "point 8 with component 0 is not an SPOINT"},
       {grids + "SPOINT,9\n" + stiffness("0,6,2", "9,2,,9,2,1.") + mass, "component 2 of scalar point 9"},
-      {grids + "SPOINT,2\n" + stiffness("0,6,2", "1,1,,1,1,1.") + mass, "point 2 is a GRID and a scalar point"},
+      {grids + "SPOINT,2\n" + stiffness("0,6,2", "1,1,,1,1,1.") + mass, "point 2 is both a GRID and a scalar point"},
       {grids + stiffness("0,6,2", "1,1,,1,1,nan") + mass, "nan"},
       {grids + stiffness("0,6,2", "1,1,,1,1,1.,,\n,1,1,2.") + mass, "given twice"},
       {grids + "DMIG,KAAX,1,1,,1,1,1.\n" + mass, "before its header"},
-      {grids + stiffness("0,6,2", "1,1,,1,1,1.") + "DMIG,KAAX,0,6,2\n" + mass, "header already"},
-      {grids + "DMIG,KAAX,0,6,2\n" + mass, "KAAX has no entry"},
+      {grids + stiffness("0,6,2", "1,1,,1,1,1.") + "DMIG,KAAX,0,6,2\n" + mass, "has a second header"},
+      {grids + "DMIG,KAAX,0,6,2\n" + mass, "KAAX has no entries"},
       {grids + stiffness("0,1,2", "1,1,,1,1,4.,,\n,2,1,-3.") + mass, "not symmetric"},
   };
   for (const auto& [text, expected] : cases) EXPECT_THAT(error_in(text), HasSubstr(expected)) << text;
@@ -150,11 +150,12 @@ TEST(Dmig, OneFaultForOneWrongValue) {
   EXPECT_THAT(header, HasSubstr("IFO is 2"));
   EXPECT_EQ(lines(header), 1) << header;
   const std::string without = error_in(grids + columns + mass);
-  EXPECT_THAT(without, HasSubstr("part.pch:3: DMIG KAAX: column of KAAX before its header (and 2 more cards)"));
+  EXPECT_THAT(without,
+              HasSubstr("part.pch:3: DMIG KAAX: this column of KAAX comes before its header (and 2 more cards)"));
   EXPECT_EQ(lines(without), 1) << without;
   const std::string unknown =
       error_in(grids + "SPOINT,9\nDMIG,KAAX,0,6,2\nDMIG,KAAX,1,1,,8,0,1.\nDMIG,KAAX,1,2,,8,0,1.\n" + mass);
-  EXPECT_THAT(unknown, HasSubstr("point 8 with component 0 is no SPOINT or EPOINT (and 1 more cards)"));
+  EXPECT_THAT(unknown, HasSubstr("point 8 with component 0 is not an SPOINT or EPOINT (and 1 more cards)"));
   EXPECT_EQ(lines(unknown), 1) << unknown;
   EXPECT_THAT(error_in(grids + mass), HasSubstr("--matrices K,M"));
 }

@@ -113,10 +113,10 @@ TEST_F(Exchange, MissingCompanionsNameTheirOption) {
   export_matrices({path, files.file("c_S.fmx"), "fmx"});
   const auto error = [&] { return error_of([&] { import_matrices(import_request("c_S.fmx", "d.h5")); }); };
   std::filesystem::remove(files.file("c.rows.csv"));
-  EXPECT_THAT(error(), AllOf(HasSubstr("comes without the table of its rows"), HasSubstr("c.rows.csv"),
+  EXPECT_THAT(error(), AllOf(HasSubstr("the table of its rows is missing"), HasSubstr("c.rows.csv"),
                              HasSubstr("name the file with --rows FILE")));
   std::filesystem::remove(files.file("c_M.fmx"));
-  EXPECT_THAT(error(), AllOf(HasSubstr("comes without the mass matrix"), HasSubstr("--mass FILE")));
+  EXPECT_THAT(error(), AllOf(HasSubstr("the mass matrix is missing"), HasSubstr("--mass FILE")));
 }
 
 TEST_F(Exchange, CommandLine) {

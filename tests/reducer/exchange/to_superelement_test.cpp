@@ -97,13 +97,13 @@ TEST(Import, RigidStrainIsReportedAndRemoved) {
   EXPECT_EQ(imported.element.stiffness.diagonal().tail(4), beam.stiffness.diagonal().tail(4));
   for (const double spring : {1e-6, 0.01}) {  // with 1e-6 the part swings on it at a tenth of its first frequency
     m.stiffness(0, 0) = beam.stiffness(0, 0) * (1.0 + spring);
-    EXPECT_THAT(error_in(m), HasSubstr("resists rigid motion: moving"));
+    EXPECT_THAT(error_in(m), HasSubstr("resists rigid-body motion: moving"));
   }
 }
 
 /// Ten digits in axes of the nodes that lie askew: 1e-10 of the axial stiffness is 1e-4 of that of bending. What the
 /// file rounded is known before the axes are turned; a node in the wrong place is not excused by it.
-TEST(Import, FewDigitsInAxesOfNodesAreToldAndRemoved) {
+TEST(Import, FewDigitsInAxesOfNodesAreReportedAndRemoved) {
   test_support::BeamData slender;
   slender.length = 1.0;
   slender.area = 1e-6;
@@ -127,7 +127,7 @@ TEST(Import, FewDigitsInAxesOfNodesAreToldAndRemoved) {
   // Bending of the tip in y: 12 E I / L³, with errors of 1e-10 E A / L of a few entries.
   EXPECT_NEAR(imported.element.stiffness(7, 7) / beam.stiffness(7, 7), 1.0, 1e-3);
   m.places[200].position.x() = 1.05;
-  EXPECT_THAT(error_in(m), AllOf(HasSubstr("resists rigid motion: turning"), HasSubstr("10 digits")));
+  EXPECT_THAT(error_in(m), AllOf(HasSubstr("resists rigid-body motion: turning"), HasSubstr("10 digits")));
 }
 
 TEST(Import, InternalDirectionsWithoutMassAreCondensed) {
@@ -173,15 +173,15 @@ TEST(Import, InconsistenciesAreErrors) {
   EXPECT_THAT(error_in(m), HasSubstr("mass"));
   m = foreign(beam);
   m.places[200].position = {2.0, 0.5, 0.0};
-  EXPECT_THAT(error_in(m), HasSubstr("resists rigid motion"));
+  EXPECT_THAT(error_in(m), HasSubstr("resists rigid-body motion"));
   m = foreign(test_support::permute_rows(beam, {0, 1, 2, 3, 4, 5, 6, 7, 9, 10, 11, 12, 13, 14, 15}));
   EXPECT_THAT(error_in(m), HasSubstr("node 'n200' has 2 translations"));
   m = foreign(test_support::permute_rows(beam, {12, 13, 14, 15}));
-  EXPECT_THAT(error_in(m), HasSubstr("no row of a node"));
+  EXPECT_THAT(error_in(m), HasSubstr("no row belongs to a node"));
   ImportOptions options = testing::options_named("part");
   options.node_names = {{300, "tip"}};
   EXPECT_THAT(error_of([&] { static_cast<void>(to_superelement(foreign(beam), options)); }),
-              HasSubstr("node 300, which is to be called 'tip', has no row"));
+              HasSubstr("node 300, for which --names gives the name 'tip', has no row in the matrix"));
   options.node_names = {{100, "n200"}};
   EXPECT_THAT(error_of([&] { static_cast<void>(to_superelement(foreign(beam), options)); }),
               HasSubstr("the name of an earlier node"));

@@ -205,15 +205,15 @@ void expect_largest(const Random& body, const Table& table, int element, const s
   double largest = -1e300;
   for (const std::vector<AtPlace>& places : over_time)
     for (const AtPlace& at : places) largest = std::max(largest, sign * (at.*quantity));
-  const double told = table.number(row, name + " [Pa]"), tolerance = round_off * std::abs(largest);
-  EXPECT_NEAR(sign * told, largest, tolerance) << element << ' ' << name;
+  const double reported = table.number(row, name + " [Pa]"), tolerance = round_off * std::abs(largest);
+  EXPECT_NEAR(sign * reported, largest, tolerance) << element << ' ' << name;
   const auto instant = static_cast<std::size_t>(std::lround(10.0 * table.number(row, name + "_time [s]")));
   ASSERT_LT(instant, over_time.size());
   const std::vector<AtPlace>& places = over_time[instant];
   const auto at = std::find_if(places.begin(), places.end(),
                                [&](const AtPlace& one) { return one.place == table.text(row, name + "_place"); });
   ASSERT_NE(at, places.end()) << table.text(row, name + "_place");
-  EXPECT_NEAR((*at).*quantity, told, tolerance) << element << ' ' << name << ' ' << at->place;
+  EXPECT_NEAR((*at).*quantity, reported, tolerance) << element << ' ' << name << ' ' << at->place;
   static_cast<void>(body);
 }
 
@@ -349,7 +349,8 @@ TEST(Histories, WordsThatMeanNothingAreErrors) {
     return error_of(request);
   };
   EXPECT_THAT(with(&reducer::RecoverRequest::elements, "9999"), HasSubstr("has no element '9999'"));
-  EXPECT_THAT(with(&reducer::RecoverRequest::elements, "body/x"), HasSubstr("'body/x' is no number of an element"));
+  EXPECT_THAT(with(&reducer::RecoverRequest::elements, "body/x"),
+              HasSubstr("'body/x' is not the number of an element"));
   EXPECT_THAT(with(&reducer::RecoverRequest::elements, "wing/1"),
               AllOf(HasSubstr("no group 'wing'"), HasSubstr("body")));
   EXPECT_THAT(with(&reducer::RecoverRequest::groups, "bdy"), AllOf(HasSubstr("no group 'bdy'"), HasSubstr("body")));

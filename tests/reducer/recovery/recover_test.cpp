@@ -102,7 +102,7 @@ class Recover : public ::testing::Test {
 };
 
 /// The number behind `what` in the lines that are printed.
-double told(const std::string& text, const std::string& what) {
+double reported(const std::string& text, const std::string& what) {
   const std::size_t at = text.find(what);
   return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + what.size()));
 }
@@ -125,8 +125,8 @@ TEST_F(Recover, CantileverHasTheStressAndDeflectionOfTheBeam) {
   const double b = 0.02, h = 0.03, A = b * h;
   const double stress = 500.0 / A + 30.0 * length / (b * b * h / 6.0) + 40.0 * length / (b * h * h / 6.0);
   EXPECT_NEAR(line[14], stress, 1e-5 * stress);
-  EXPECT_NEAR(told(text, "largest stress of beams"), stress, 1e-5 * stress);
-  EXPECT_NEAR(told(text, "largest displacement"), y_.segment<3>(6).norm(), 1e-5 * y_.segment<3>(6).norm());
+  EXPECT_NEAR(reported(text, "largest stress of beams"), stress, 1e-5 * stress);
+  EXPECT_NEAR(reported(text, "largest displacement"), y_.segment<3>(6).norm(), 1e-5 * y_.segment<3>(6).norm());
   // In the world: turned by 90° about z, the tip moves by (−u_y, u_x, u_z) from (1, 2 + L, 3).
   const Vector3d u = y_.segment<3>(6);
   EXPECT_NEAR(line[1], -u.y(), 1e-6 * u.norm());
@@ -221,7 +221,7 @@ TEST_F(Recover, TimesChooseTheNearestInstants) {
   EXPECT_NEAR(series[0].first, 0.1, 1e-12);
   EXPECT_EQ(series[1], std::pair(0.4, std::string("arm_00001.vtu")));
   r.times = {0.9};
-  EXPECT_THAT(error_of(r), HasSubstr("time 0.9 is not within its instants 0 to 0.4"));
+  EXPECT_THAT(error_of(r), HasSubstr("time 0.9 is outside the stored times 0 to 0.4"));
 }
 
 /// Results of a scene in mm, t, s with one modal body "arm", its frame and its coordinates w.
@@ -312,7 +312,7 @@ TEST_F(Recover, ModalBodiesHaveTheirModesAndStresses) {
               AllOf(HasSubstr("other.recovery.h5"), HasSubstr("belongs to the superelement or modal body")));
 }
 
-TEST_F(Recover, BadInputIsTold) {
+TEST_F(Recover, BadInputIsReported) {
   write(run_, file("run.results.h5"));
   RecoverRequest r = request();
   r.body = "leg";
@@ -336,7 +336,7 @@ TEST_F(Recover, BadInputIsTold) {
   run_.units = Units::consistent();
   run_.y = {y_};
   write(run_, file("run.results.h5"));
-  EXPECT_THAT(error_of(request()), HasSubstr("unnamed"));
+  EXPECT_THAT(error_of(request()), HasSubstr("name the units in both files or in neither"));
 }
 
 /// Arrays of two VTU files agree to `tolerance` of the largest value of each kind.

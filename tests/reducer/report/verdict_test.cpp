@@ -39,66 +39,73 @@ ModelCertificate model_of(std::vector<double> mesh, std::vector<double> dropped)
 
 const FileCertificate file = file_of({10, 20, 40, 80});
 
-std::string told(const ModelCertificate& model) { return verdict(file, model, Units::si()); }
+std::string reported(const ModelCertificate& model) { return verdict(file, model, Units::si()); }
 
 TEST(Verdict, IsGoodUpToTheFirstErrorBeyondTheLimit) {
   EXPECT_EQ(
-      told(model_of({0.001, -0.002, 0.01, 0.04}, {0.0, 0.001, 0.01, 0.02})),
-      "good enough for vibrations up to 40 Hz: free frequencies err by at most some 2 % (mesh 1 %, dropped modes 1 "
-      "%); above, 80 Hz errs by some 6 % (mesh 4 %, dropped modes 2 %)");
-  EXPECT_EQ(told(model_of({0.001, 0.001}, {0.0, 0.0})),
-            "good enough for vibrations up to 20 Hz: free frequencies err by at most some 0.1 % (mesh 0.1 %, dropped "
-            "modes 0 %)");
-  EXPECT_THAT(told(model_of({0.2, 0.001}, {0.0, 0.0})), StartsWith("not good enough: 10 Hz errs by some 20 %"));
+      reported(model_of({0.001, -0.002, 0.01, 0.04}, {0.0, 0.001, 0.01, 0.02})),
+      "good enough for vibrations up to 40 Hz: frequencies of the free part have errors of at most about 2 % (mesh 1 "
+      "%, dropped modes 1 %); above, the frequency 80 Hz has an error of about 6 % (mesh 4 %, dropped modes 2 %)");
+  EXPECT_EQ(reported(model_of({0.001, 0.001}, {0.0, 0.0})),
+            "good enough for vibrations up to 20 Hz: frequencies of the free part have errors of at most about 0.1 % "
+            "(mesh 0.1 %, dropped modes 0 %)");
+  EXPECT_THAT(reported(model_of({0.2, 0.001}, {0.0, 0.0})),
+              StartsWith("not good enough: the frequency 10 Hz has an error of about 20 %"));
 }
 
 TEST(Verdict, DoesNotTakeTheUnknownForGood) {
-  EXPECT_EQ(told(model_of({unknown, 0.001}, {0.0, 0.0})),
-            "not known: the error of the mesh of the frequency 10 Hz is unknown");
-  EXPECT_THAT(told(model_of({0.01, unknown}, {0.0, 0.0})), AllOf(StartsWith("good enough for vibrations up to 10 Hz"),
-                                                                 EndsWith("of the frequency 20 Hz is unknown")));
+  EXPECT_EQ(reported(model_of({unknown, 0.001}, {0.0, 0.0})),
+            "not known: the error of the mesh is unknown for the frequency 10 Hz");
+  EXPECT_THAT(
+      reported(model_of({0.01, unknown}, {0.0, 0.0})),
+      AllOf(StartsWith("good enough for vibrations up to 10 Hz"), EndsWith("is unknown for the frequency 20 Hz")));
   // No estimate: the bound of the frequency of the full part, 9 of 10, leaves 11 %.
-  EXPECT_THAT(told(model_of({0.0}, {unknown})), StartsWith("not good enough: 10 Hz errs by some 11 %"));
-  EXPECT_THAT(told(model_of({0.0}, {})), HasSubstr("the error by dropped modes of the frequency 10 Hz is unknown"));
-  EXPECT_THAT(told(model_of({}, {})), StartsWith("not known: no frequency was compared"));
-  EXPECT_THAT(verdict(file, std::nullopt, Units::si()), StartsWith("not known: nothing is stored of the full part"));
+  EXPECT_THAT(reported(model_of({0.0}, {unknown})),
+              StartsWith("not good enough: the frequency 10 Hz has an error of about 11 %"));
+  EXPECT_THAT(reported(model_of({0.0}, {})),
+              HasSubstr("the error by dropped modes is unknown for the frequency 10 Hz"));
+  EXPECT_THAT(reported(model_of({}, {})), StartsWith("not known: no frequency was compared"));
+  EXPECT_THAT(verdict(file, std::nullopt, Units::si()), StartsWith("not known: no data of the full part are stored"));
   FileCertificate loose;
-  loose.free_frequency_note = "something in it is loose";
-  EXPECT_EQ(verdict(loose, model_of({0.0}, {0.0}), Units::si()), "not known for vibrations: something in it is loose");
+  loose.free_frequency_note = "a piece of the part is loose";
+  EXPECT_EQ(verdict(loose, model_of({0.0}, {0.0}), Units::si()),
+            "not known for vibrations: a piece of the part is loose");
 }
 
 TEST(Verdict, TakesTheFullModelWhereItWasSolved) {
   ModelCertificate model = model_of({0.0, 0.0}, {0.0, 0.0});
   model.free_frequency = {10, 18};
-  EXPECT_THAT(told(model),
-              AllOf(StartsWith("good enough for vibrations up to 10 Hz"), HasSubstr("20 Hz errs by some 11 %")));
+  EXPECT_THAT(reported(model), AllOf(StartsWith("good enough for vibrations up to 10 Hz"),
+                                     HasSubstr("the frequency 20 Hz has an error of about 11 %")));
   ModelCertificate all = model_of({0.0, 0.0}, {});
   all.modes_kept = all.modes_available;  // nothing is dropped
-  EXPECT_THAT(told(all), StartsWith("good enough for vibrations up to 20 Hz"));
+  EXPECT_THAT(reported(all), StartsWith("good enough for vibrations up to 20 Hz"));
 }
 
 TEST(Verdict, IsOfWhatThePartAsksFor) {
   ModelCertificate model = model_of({0.001, 0.002, 0.02}, {0.0, 0.0, 0.0});
   model.accuracy = formats::Accuracy{0.01, 30.0};
-  EXPECT_EQ(
-      told(model),
-      "good enough: frequencies have errors of at most some 0.2 % (mesh 0.2 %, dropped modes 0 %); 1 % up to 30 Hz "
-      "are asked for");
+  EXPECT_EQ(reported(model),
+            "good enough: frequencies have errors of at most about 0.2 % (mesh 0.2 %, dropped modes 0 %); requested: 1 "
+            "% up to 30 Hz");
   model.accuracy->up_to = 40.0;
-  EXPECT_THAT(told(model), StartsWith("not good enough: 40 Hz errs by some 2 %"));
+  EXPECT_THAT(reported(model), StartsWith("not good enough: the frequency 40 Hz has an error of about 2 %"));
   model.accuracy->up_to = 5.0;
-  EXPECT_THAT(told(model), StartsWith("good enough: no frequency of the free part lies below 5 Hz"));
+  EXPECT_THAT(reported(model), StartsWith("good enough: no frequency of the free part lies below 5 Hz"));
   model.accuracy = formats::Accuracy{0.05, 100.0};
-  EXPECT_THAT(told(model), StartsWith("good enough up to 40 Hz, the highest frequency whose mesh was looked at"));
+  EXPECT_THAT(reported(model),
+              StartsWith("good enough up to 40 Hz, the highest frequency with an estimated error of the mesh"));
   model.warnings = {"a", "b"};
-  EXPECT_THAT(told(model), EndsWith("; 2 warnings below"));
+  EXPECT_THAT(reported(model), EndsWith("; 2 warnings below"));
 }
 
 TEST(Verdict, IsOfTheHeldPartWhereItsMeshWasJudgedSo) {
   ModelCertificate model = model_of({0.01, 0.2, 0.0, 0.0}, {});
   model.mesh_error.boundary_held = true;
-  EXPECT_THAT(told(model),
-              StartsWith("good enough for vibrations up to 10 Hz: held frequencies err by at most some 1 %"));
+  EXPECT_THAT(
+      reported(model),
+      StartsWith(
+          "good enough for vibrations up to 10 Hz: frequencies of the held part have errors of at most about 1 %"));
 }
 
 TEST(Verdict, NamesTheUnitOfFrequencies) {

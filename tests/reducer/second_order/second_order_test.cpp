@@ -451,7 +451,7 @@ TEST(SecondOrderReduction, LargeOnesAreWrittenOnlyIfAskedFor) {
   reducer::ModelCertificate model;
   reducer::describe_companion({}, part, element, model);
   ASSERT_EQ(model.notes.size(), 1u);
-  EXPECT_THAT(model.notes[0], ::testing::HasSubstr("it would hold 21 MB; second_order: yes"));
+  EXPECT_THAT(model.notes[0], ::testing::HasSubstr("it would hold 21 MB. To write it, set second_order: yes"));
   part.second_order = formats::SecondOrder::yes;
   EXPECT_TRUE(reducer::wants_second_order(part, element));
   part.second_order = formats::SecondOrder::unless_large;

@@ -67,7 +67,7 @@ TEST(SolvedModes, FreeBeam) {
   EXPECT_THAT(text, AllOf(HasSubstr("6 rigid motions"), HasSubstr("none: the part is free")));
 }
 
-TEST(Solve, ReportTellsSupportsLargestValuesReactionsAndBalance) {
+TEST(Solve, ReportReportsSupportsLargestValuesReactionsAndBalance) {
   const formats::Part part = part_of_text(beam(
       "supports: {base: all}\nload_cases: {tip: {forces: {tip: [0, 0, -1]}}, weight: {gravity: [0, 0, -9.81]}}\n"));
   const std::string text = reducer::solution_text(solved(part, 2), part);
@@ -220,7 +220,7 @@ TEST(Solve, SetsOfDecksCarryLoads) {
 }
 
 // Two shells, the second turned over: their pressures cancel, and the part says so. On one side they add.
-TEST(Solve, PressureOnMixedNormalsIsTold) {
+TEST(Solve, PressureOnMixedNormalsIsReported) {
   const test_support::TemporaryFolder folder;
   const auto solution = [&](const std::string& second) {
     std::ofstream(folder.file("two.inp")) << "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 2, 0, 0\n4, 0, 1, 0\n5, 1, 1, 0\n"
@@ -234,15 +234,15 @@ TEST(Solve, PressureOnMixedNormalsIsTold) {
   };
   const Solution same = solution("2, 3, 6, 5"), turned = solution("5, 6, 3, 2");
   EXPECT_NEAR(same.loads.applied(2, 0), -10.0, 1e-12);
-  EXPECT_THAT(same.warnings, ::testing::Not(::testing::Contains(HasSubstr("normals to opposite sides"))));
+  EXPECT_THAT(same.warnings, ::testing::Not(::testing::Contains(HasSubstr("with opposite normals"))));
   EXPECT_NEAR(turned.loads.applied(2, 0), 0.0, 1e-12);
   EXPECT_THAT(turned.warnings,
-              ::testing::Contains(HasSubstr("load case 'w': pressure: pairs of neighbouring shells with normals to "
-                                            "opposite sides: 1, first at node 2 and node 5")));
+              ::testing::Contains(HasSubstr("load case 'w': pressure: pairs of neighbouring shells with opposite "
+                                            "normals: 1, first at node 2 and node 5")));
 }
 
 // Two shells side by side, each with nodes of its own: told with count and place, or joined.
-TEST(Solve, CoincidentNodesAreToldOrMerged) {
+TEST(Solve, CoincidentNodesAreReportedOrMerged) {
   const test_support::TemporaryFolder folder;
   std::ofstream(folder.file("crack.inp")) << R"(*NODE
 1, 0, 0, 0
@@ -276,11 +276,11 @@ TEST(Solve, CoincidentNodesAreToldOrMerged) {
   EXPECT_EQ(cracked.nodes(), 8);
   EXPECT_THAT(cracked.warnings,
               ::testing::ElementsAre(
-                  HasSubstr("nodes that lie where others do and are not connected to them: 2, first node 2 and node 7 "
-                            "at (1, 0, 0)")));
+                  HasSubstr("nodes at the same place as other nodes, but not connected to them: 2, first node 2 and "
+                            "node 7 at (1, 0, 0)")));
   const Solution joined = solved(part(", coincident: merge"), 0);
   EXPECT_EQ(joined.mesh.nodes(), 6);
-  EXPECT_THAT(joined.warnings, ::testing::Contains(HasSubstr("nodes that were merged with others at their places: 2")));
+  EXPECT_THAT(joined.warnings, ::testing::Contains(HasSubstr("nodes merged with other nodes at the same place: 2")));
   EXPECT_NEAR(joined.loads.applied(2, 0), -10.0, 1e-12);
   EXPECT_LT(reducer::imbalance(joined, 0), 1e-9);
 }
@@ -301,7 +301,7 @@ const std::string weight = "load_cases: {w: {gravity: [0, 0, -9.81]}}\n";
 TEST(SolveErrors, Supports) {
   EXPECT_THAT(solve_error(plate(weight), 0),
               AllOf(HasSubstr("no supports"), HasSubstr("load case 'w' is not in equilibrium"),
-                    HasSubstr("a force of 784.8"), HasSubstr("give supports")));
+                    HasSubstr("a force of 784.8"), HasSubstr("add supports")));
   EXPECT_THAT(solve_error(plate("supports: {a: translations}\n" + weight), 0),
               AllOf(HasSubstr("the supports a do not hold the part"), HasSubstr("turning about the axis")));
   EXPECT_THAT(solve_error(plate("supports: {b: all, deck/edge4: all}\n" + weight), 0),
@@ -314,17 +314,17 @@ TEST(SolveErrors, Supports) {
   EXPECT_THAT(solve_error(plate("supports: {left: {on: deck/edge4}}\n" + weight), 0),
               HasSubstr("neither 'directions' nor 'symmetry'"));
   EXPECT_THAT(solve_error(plate("supports: {deck/edge4: {symmetry: y}}\n" + weight), 0),
-              AllOf(HasSubstr("lie in no plane with the normal y")));
+              AllOf(HasSubstr("are not in one plane with the normal y")));
   EXPECT_THAT(solve_error(plate("supports: {far: all}\n" + weight), 0), HasSubstr("no beam ends at point 'far'"));
   EXPECT_THAT(solve_error(plate("supports: {c: {at: {centroid: deck}, directions: all}}\n" + weight), 0),
-              HasSubstr("a centroid has no node"));
+              HasSubstr("a centroid is not a node"));
   EXPECT_THAT(solve_error(plate("supports: {c: {at: [0.3, 0.2, 0], directions: all}}\n" + weight), 0),
               HasSubstr("no element of the part has a node there"));
 }
 
 TEST(SolveErrors, Loads) {
   const std::string held = "supports: {deck/edge4: all}\n";
-  EXPECT_THAT(solve_error(plate(held), 0), AllOf(HasSubstr("nothing to solve"), HasSubstr("--modes")));
+  EXPECT_THAT(solve_error(plate(held), 0), AllOf(HasSubstr("nothing to compute"), HasSubstr("--modes")));
   EXPECT_THAT(solve_error(plate(held + "load_cases: {w: {}}\n"), 0), HasSubstr("load case 'w' has no loads"));
   EXPECT_THAT(solve_error(plate(held + "load_cases: {w: {pressures: {dekc: 1}}}\n"), 0),
               AllOf(HasSubstr("there is no group 'dekc'"), HasSubstr("deck")));
@@ -377,7 +377,8 @@ supports: {a: all}
 load_cases: {w: {forces: {c: [0, 0, 1]}}}
 )",
                           0),
-              AllOf(HasSubstr("1 motion(s) without stiffness on its supports"), HasSubstr("b, c and two[1] turn about the axis (0, 1, 0) through (1, 0, 0)"),
+              AllOf(HasSubstr("1 motion(s) without stiffness on its supports"),
+                    HasSubstr("b, c and two[1] turn about the axis (0, 1, 0) through (1, 0, 0)"),
                     HasSubstr("support these nodes")));
 }
 

@@ -82,13 +82,13 @@ TEST(Decks, FreePointsServeThePartFile) {
   EXPECT_EQ(mesh.node_label[mesh.spiders.at(0).reference], "node 100");
   EXPECT_EQ(mesh.boundary.at(0).node, mesh.spiders[0].reference);
   EXPECT_THAT(mesh.warnings, ::testing::Contains(HasSubstr("1 nodes of")));
-  EXPECT_THAT(mesh.warnings, ::testing::Contains(HasSubstr("are left out: node 99")));
+  EXPECT_THAT(mesh.warnings, ::testing::Contains(HasSubstr("are omitted: node 99")));
 }
 
 TEST(Decks, BringTheirProperties) {
   EXPECT_THAT(
       error_of(deck("plate.inp", "shells: {s: {on: deck, thickness: 1, material: steel}}\nboundary: {o: {node: 1}}\n")),
-      HasSubstr("'deck' is a set of a deck, whose elements bring their properties"));
+      HasSubstr("'deck' is a set of a deck, whose elements already have properties"));
   EXPECT_THAT(error_of("mesh: {file: " + meshes + "plate.inp, scale: 10}\nboundary: {o: {node: 1}}\n"),
               HasSubstr("'scale' has no effect on a deck"));
   EXPECT_THAT(error_of("mesh: {file: " + meshes + "plate.inp, order: 2}\nboundary: {o: {node: 1}}\n"),

@@ -34,7 +34,8 @@ class PartText {
   std::string file(const std::string& name) const { return folder_.file(name); }
   formats::Part read() const {
     formats::Part part = formats::read_part(folder_.file("part.yaml"), {});
-    part.mesh.permission.trusted = !has_landlock();  // these tests are about reading; stranger_test.cpp is about harm
+    part.mesh.permission.trusted =
+        !has_landlock();  // these tests are about reading; untrusted_file_test.cpp is about harm
     return part;
   }
   reducer::Mesh mesh() const { return reducer::build_mesh(read()); }

@@ -88,8 +88,9 @@ TEST(Plates, ThatTouchWithOtherDivisionsAreRefused) {
   const std::string points =
       "points: {a: [0, 0, 0], b: [1, 0, 0], c: [1, 1, 0], d: [0, 1, 0], e: [1, 0, 1], f: [1, 1, 1]}\n";
   const std::string floor = plate("floor", "[a, b, c, d]", "[2, 4]"), ends = "boundary: [a, c]\n";
-  EXPECT_THAT(error_of(points + "plates: {" + floor + ", " + plate("web", "[b, c, f, e]", "[3, 3]") + "}\n" + ends),
-              AllOf(HasSubstr("part.yaml:7:"), HasSubstr("lies on the edge from"), HasSubstr("the same divisions")));
+  EXPECT_THAT(
+      error_of(points + "plates: {" + floor + ", " + plate("web", "[b, c, f, e]", "[3, 3]") + "}\n" + ends),
+      AllOf(HasSubstr("part.yaml:7:"), HasSubstr("lies on the edge from"), HasSubstr("the same number of elements")));
   EXPECT_THAT(error_of(points + "plates: {" + floor +
                        "}\nbeams: {s: {from: b, to: c, section: rod, material: steel, elements: 3}}\n" + ends),
               HasSubstr("lies on the edge from"));

@@ -109,7 +109,7 @@ TEST(Spiders, ThatGrabNothingAreRefused) {
                        "plate.geo, ignore: [deck]}\npoints: {a: [0, 0, 0], b: [1, 0, 0]}\n"
                        "beams: {rib: {on: left, section: rod, material: steel}}\n"
                        "spiders: {s: {kind: rigid, on: right}}\nboundary: [s]\n"),
-              HasSubstr("spider 's' grabs nothing"));
+              HasSubstr("spider 's' connects no nodes"));
 }
 
 TEST(Groups, ByBoxCylinderNearNumberAndUnion) {

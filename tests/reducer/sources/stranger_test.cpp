@@ -31,14 +31,14 @@
 #include "tests/reducer/sources/part_text.hpp"
 #include "tests/support/thrown.hpp"
 
-namespace tisserand::testing::stranger_test {
+namespace tisserand::testing::untrusted_file_test {
 namespace {
 
 namespace fs = std::filesystem;
+using test_support::error_of;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using test_support::error_of;
 using Permission = formats::MeshFile::Permission;
 
 const std::string meshes = std::string(TISSERAND_SOURCE_DIR) + "/meshes/";
@@ -52,9 +52,9 @@ constexpr const char* not_tested = "not tested: this kernel lacks Landlock or se
 bool has_seccomp() { return ::prctl(PR_GET_SECCOMP) >= 0; }
 
 /// A folder with a folder `in`, where strange.geo and its part lie, and a folder `out`.
-class Stranger {
+class UntrustedFile {
  public:
-  explicit Stranger(const std::string& commands) {
+  explicit UntrustedFile(const std::string& commands) {
     fs::create_directories(folder_.path() / "in");
     fs::create_directories(folder_.path() / "out");
     write("in/strange.geo", content(meshes + "plate.geo") + commands + "\n");
@@ -100,10 +100,10 @@ struct Trick {
 
 class Tricks : public ::testing::TestWithParam<Trick> {};
 
-TEST_P(Tricks, DoNothingAndAreTold) {
+TEST_P(Tricks, DoNothingAndAreReported) {
   if (!has_landlock() || !has_seccomp()) GTEST_SKIP() << not_tested;
   std::string commands = GetParam().commands;
-  const Stranger plain("");
+  const UntrustedFile plain("");
   for (std::size_t at = 0; (at = commands.find('@')) != std::string::npos;) commands.replace(at, 1, plain.path("out"));
   plain.write("out/secret.geo", "secret = 1;\n");
   plain.write("in/strange.geo", content(meshes + "plate.geo") + commands + "\n");
@@ -114,8 +114,8 @@ TEST_P(Tricks, DoNothingAndAreTold) {
   EXPECT_EQ(plain.files(), before) << "files were made, changed or removed";
 }
 
-constexpr const char* starts = "wants to start a program, to wait, or to make, rename or remove files";
-constexpr const char* opens = "a geometry may read files of its own folder only";
+constexpr const char* starts = "tries to start a program, to wait, or to create, rename or remove files";
+constexpr const char* opens = "a geometry may read only files of its own folder";
 INSTANTIATE_TEST_SUITE_P(
     Geo, Tricks,
     ::testing::Values(
@@ -144,9 +144,9 @@ INSTANTIATE_TEST_SUITE_P(
         Trick{"SaveOptions", "General.OptionsFileName = \"@/made\"; General.SaveOptions = 1; Exit;", "gave no mesh"}),
     [](const auto& trick) { return std::string(trick.param.name); });
 
-TEST(Strangers, FilesOfTheFolderAreReadWhateverTheirEnding) {
+TEST(UntrustedFiles, FilesOfTheFolderAreReadWhateverTheirEnding) {
   if (!has_landlock() || !has_seccomp()) GTEST_SKIP() << not_tested;
-  const Stranger geo("Include \"more.txt\";\nInclude \"below/more.geo\";\nPoint(101) = {width, height, 0};");
+  const UntrustedFile geo("Include \"more.txt\";\nInclude \"below/more.geo\";\nPoint(101) = {width, height, 0};");
   geo.write("in/more.txt", "width = 1;\n");
   fs::create_directories(geo.path("in/below"));
   geo.write("in/below/more.geo", "height = 1;\n");
@@ -155,15 +155,15 @@ TEST(Strangers, FilesOfTheFolderAreReadWhateverTheirEnding) {
   EXPECT_THAT(geo.read(), HasSubstr(starts)) << "commands of other endings are commands";
 }
 
-TEST(Strangers, TheNamedFileMayBeALink) {
-  const Stranger geo("");
+TEST(UntrustedFiles, TheNamedFileMayBeALink) {
+  const UntrustedFile geo("");
   geo.write("out/plate.msh", content(meshes + "plate-4.1.msh"));
   fs::create_symlink(geo.path("out/plate.msh"), geo.path("in/link.msh"));
   EXPECT_THAT(geo.read("in/link.msh", {}), HasSubstr("read;"));
 }
 
-TEST(Strangers, TrustOpensOtherFoldersForReadingOnly) {
-  const Stranger geo("Include \"../out/more.geo\";\nPoint(101) = {width, 0, 0};");
+TEST(UntrustedFiles, TrustOpensOtherFoldersForReadingOnly) {
+  const UntrustedFile geo("Include \"../out/more.geo\";\nPoint(101) = {width, 0, 0};");
   geo.write("out/more.geo", "width = 1;\n");
   EXPECT_THAT(geo.read("in/strange.geo", {true, 0.0, 0.0}), HasSubstr("read;"));
   if (!has_seccomp()) GTEST_SKIP() << "not tested: this kernel lacks seccomp";
@@ -174,17 +174,17 @@ TEST(Strangers, TrustOpensOtherFoldersForReadingOnly) {
 }
 
 /// gmsh runs name.opt beside a file of any kind.
-TEST(Strangers, CommandsBesideACadFileHarmNothing) {
+TEST(UntrustedFiles, CommandsBesideACadFileHarmNothing) {
   if (!has_landlock() || !has_seccomp()) GTEST_SKIP() << not_tested;
-  const Stranger step("");
+  const UntrustedFile step("");
   step.write("in/square.step", content(meshes + "square.step"));
   step.write("in/square.step.opt", "SystemCall \"touch made\";\n");
   EXPECT_THAT(step.read("in/square.step", {}), HasSubstr(starts));
 }
 
-TEST(Strangers, EnvironmentAndHomeAreNotThere) {
+TEST(UntrustedFiles, EnvironmentAndHomeAreNotThere) {
   if (!has_landlock() || !has_seccomp()) GTEST_SKIP() << not_tested;
-  const Stranger geo(
+  const UntrustedFile geo(
       "If (StrCmp(GetEnv(\"TISSERAND_PROBE\"), \"\") != 0) Error(\"saw a variable\"); EndIf\n"
       "If (StrCmp(GetEnv(\"HOME\"), \"\") != 0) Error(\"saw a home\"); EndIf");
   ::setenv("TISSERAND_PROBE", "seen", 1);
@@ -192,16 +192,16 @@ TEST(Strangers, EnvironmentAndHomeAreNotThere) {
   ::unsetenv("TISSERAND_PROBE");
 }
 
-TEST(Strangers, TextsReachNoTerminalAsTheyAre) {
+TEST(UntrustedFiles, TextsReachNoTerminalAsTheyAre) {
   if (!has_landlock() || !has_seccomp()) GTEST_SKIP() << not_tested;
-  const Stranger geo("Error(\"\x1b[31mred\x07\");");
+  const UntrustedFile geo("Error(\"\x1b[31mred\x07\");");
   EXPECT_THAT(geo.read(), AllOf(HasSubstr("\\x1b[31mred\\x07"), Not(HasSubstr("\x1b"))));
 }
 
 // --- limits --------------------------------------------------------------------------------------------------------
 
 TEST(Limits, OfTimeAreNamed) {
-  const Stranger loop("For i In {1:1000000000000}\nEndFor");
+  const UntrustedFile loop("For i In {1:1000000000000}\nEndFor");
   reducer::GeometryRequest request;
   request.file = loop.path("in/strange.geo");
   request.is_program = request.is_trusted = true;
@@ -220,7 +220,7 @@ TEST(Limits, OfTimeAreNamed) {
 
 // A pipe that nobody writes: whoever opens it waits.
 TEST(Limits, WaitingIsNoWork) {
-  const Stranger waits("Include \"pipe\";");
+  const UntrustedFile waits("Include \"pipe\";");
   ASSERT_EQ(::mkfifo(waits.path("in/pipe").c_str(), 0600), 0);
   reducer::GeometryRequest request;
   request.file = waits.path("in/strange.geo");
@@ -239,9 +239,8 @@ TEST(Limits, DamagedCadFilesEndInSeconds) {
   const std::string damaged = TISSERAND_SOURCE_DIR "/tests/verification/references/trials/damaged.igs";
   formats::MeshFile settings;
   settings.file = damaged;
-  const std::string text =
-      error_of([&] { reducer::import_with_gmsh({settings, Units::consistent(), 2, {}}); });
-  EXPECT_THAT(text, AllOf(HasSubstr("damaged.igs: gmsh was stopped while meshing the geometry: it w"),
+  const std::string text = error_of([&] { reducer::import_with_gmsh({settings, Units::consistent(), 2, {}}); });
+  EXPECT_THAT(text, AllOf(HasSubstr("damaged.igs: gmsh was stopped while meshing the geometry: it needed more than"),
                           HasSubstr("the file is probably damaged")));
 }
 
@@ -250,7 +249,7 @@ TEST(Limits, OfMemoryAreNamed) {
   GTEST_SKIP() << "not tested: sanitizers reserve terabytes";
 #endif
   for (const char* bomb : {"l() = {1:1000000000};", "l() = {};\nFor i In {0:1000}\nl() += {1:1000000};\nEndFor"})
-    EXPECT_THAT(Stranger(bomb).read("in/strange.geo", {true, 0.3, 0.0}),
+    EXPECT_THAT(UntrustedFile(bomb).read("in/strange.geo", {true, 0.3, 0.0}),
                 AllOf(HasSubstr("more than 0.3 GB of memory"), HasSubstr("--geometry-memory 0.6")))
         << bomb;
 }
@@ -269,7 +268,7 @@ bool take_landlock_away() {
 }
 
 /// What `work` says in a process from which Landlock has been taken; empty if that cannot be done.
-std::string without_landlock(const Stranger& place, const std::function<std::string()>& work) {
+std::string without_landlock(const UntrustedFile& place, const std::function<std::string()>& work) {
   const pid_t child = ::fork();
   if (child == 0) {
     if (take_landlock_away()) write_text_file(place.path("said"), work());
@@ -281,7 +280,7 @@ std::string without_landlock(const Stranger& place, const std::function<std::str
 }
 
 TEST(WithoutLandlock, OnlyTrustedProgramsAreRead) {
-  const Stranger files("Printf(\"x\") > \"made\";");
+  const UntrustedFile files("Printf(\"x\") > \"made\";");
   files.write("in/plate.geo", content(meshes + "plate.geo"));
   files.write("in/square.step", content(meshes + "square.step"));
   files.write("in/opt.step", content(meshes + "square.step"));
@@ -309,7 +308,7 @@ class DamagedCad : public ::testing::TestWithParam<const char*> {};
 
 /// OpenCASCADE and gmsh crash on about half of these; a process without a child would die with them.
 TEST_P(DamagedCad, IsReadOrNamed) {
-  const Stranger place("");
+  const UntrustedFile place("");
   const std::string name = std::string("in/") + GetParam(), whole = content(meshes + GetParam());
   const std::string digits = "0123456789";
   int crashes = 0;
@@ -324,9 +323,9 @@ TEST_P(DamagedCad, IsReadOrNamed) {
       text[digit] = seed % 2 == 0 ? digits[random() % 10] : static_cast<char>(33 + random() % 94);
     }
     place.write(name, text);
-    const std::string told = place.read(name, {false, 0.0, 5.0});
-    EXPECT_THAT(told, AllOf(Not(HasSubstr("starting")), Not(HasSubstr("wants to start")))) << "seed " << seed;
-    crashes += told.find("gmsh crashed while") != std::string::npos ? 1 : 0;
+    const std::string reported = place.read(name, {false, 0.0, 5.0});
+    EXPECT_THAT(reported, AllOf(Not(HasSubstr("starting")), Not(HasSubstr("tries to start")))) << "seed " << seed;
+    crashes += reported.find("gmsh crashed while") != std::string::npos ? 1 : 0;
   }
   RecordProperty("crashes", crashes);
 }
@@ -349,7 +348,7 @@ reducer::CellMesh small_mesh() {
   return mesh;
 }
 
-std::string told_of(const reducer::CellMesh& mesh) {
+std::string reported_by(const reducer::CellMesh& mesh) {
   try {
     reducer::unpack_answer(pack(mesh), "strange.geo");
   } catch (const Error& error) {
@@ -359,26 +358,28 @@ std::string told_of(const reducer::CellMesh& mesh) {
 }
 
 TEST(Answers, ThatDoNotFitAreRefused) {
-  EXPECT_EQ(told_of(small_mesh()), "accepted");
+  EXPECT_EQ(reported_by(small_mesh()), "accepted");
   const auto broken = [](const std::function<void(reducer::CellMesh&)>& harm) {
     reducer::CellMesh mesh = small_mesh();
     harm(mesh);
-    return told_of(mesh);
+    return reported_by(mesh);
   };
-  EXPECT_THAT(broken([](auto& m) { m.cells[2][0].nodes[1] = 3; }), HasSubstr("strange.geo: what gmsh made of it"));
-  EXPECT_THAT(broken([](auto& m) { m.cells[2][0].nodes[1] = -1; }), HasSubstr("a node that is not there"));
-  EXPECT_THAT(broken([](auto& m) { std::swap(m.cells[2], m.cells[3]); }), HasSubstr("another dimension"));
+  EXPECT_THAT(broken([](auto& m) { m.cells[2][0].nodes[1] = 3; }),
+              HasSubstr("strange.geo: gmsh returned an invalid mesh"));
+  EXPECT_THAT(broken([](auto& m) { m.cells[2][0].nodes[1] = -1; }), HasSubstr("a node that does not exist"));
+  EXPECT_THAT(broken([](auto& m) { std::swap(m.cells[2], m.cells[3]); }), HasSubstr("wrong dimension"));
   EXPECT_THAT(broken([](auto& m) { m.position[1][2] = std::numeric_limits<double>::infinity(); }),
-              HasSubstr("no finite number"));
+              HasSubstr("not a finite number"));
   EXPECT_THAT(broken([](auto& m) { m.node_id.pop_back(); }), HasSubstr("nodes without coordinates"));
-  EXPECT_THAT(broken([](auto& m) { m.entities[0].count = 2; }), HasSubstr("elements that are not there"));
-  EXPECT_THAT(broken([](auto& m) { m.entities[0].first = static_cast<std::size_t>(-1); }), HasSubstr("not there"));
-  EXPECT_THAT(broken([](auto& m) { m.entities[0].dimension = 4; }), HasSubstr("no known dimension"));
+  EXPECT_THAT(broken([](auto& m) { m.entities[0].count = 2; }), HasSubstr("elements that do not exist"));
+  EXPECT_THAT(broken([](auto& m) { m.entities[0].first = static_cast<std::size_t>(-1); }),
+              HasSubstr("an entity with elements that do not exist"));
+  EXPECT_THAT(broken([](auto& m) { m.entities[0].dimension = 4; }), HasSubstr("unknown dimension"));
   EXPECT_THAT(broken([](auto& m) { m.entities.clear(), m.groups.clear(); }), HasSubstr("without an entity"));
   EXPECT_THAT(broken([](auto& m) { m.geometry.push_back(m.geometry[0]); }), HasSubstr("geometry without an entity"));
   EXPECT_THAT(broken([](auto& m) { m.geometry[0].normal.clear(); }), HasSubstr("points of a face without normals"));
-  EXPECT_THAT(broken([](auto& m) { m.geometry[0].size = -1.0; }), HasSubstr("no finite number"));
-  EXPECT_THAT(broken([](auto& m) { m.groups[0].entities[0] = 1; }), HasSubstr("entities that are not there"));
+  EXPECT_THAT(broken([](auto& m) { m.geometry[0].size = -1.0; }), HasSubstr("not a finite number"));
+  EXPECT_THAT(broken([](auto& m) { m.groups[0].entities[0] = 1; }), HasSubstr("entities that do not exist"));
 }
 
 /// Whatever bytes come: an error or a mesh whose numbers fit.
@@ -405,4 +406,4 @@ TEST(Answers, OfAnyBytesNeverCrash) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing::stranger_test
+}  // namespace tisserand::testing::untrusted_file_test

@@ -26,14 +26,14 @@ std::string beams(const std::string& lines, const std::string& more) {
 
 TEST(UnjoinedBeams, EndOnAnInnerNode) {
   const auto mesh = mesh_of(beams("bar from: a, to: b, elements: 4;pst from: m, to: t, elements: 2", ""));
-  EXPECT_THAT(mesh.warnings, ElementsAre(HasSubstr("node m lies on beam 'bar' and is not joined to it")));
+  EXPECT_THAT(mesh.warnings, ElementsAre(HasSubstr("node m lies on beam 'bar' but is not connected to it")));
 }
 
 TEST(UnjoinedBeams, EndInsideAnElementAndCrossings) {
   const auto inside = mesh_of(beams("bar from: a, to: b, elements: 3;pst from: m, to: t, elements: 2", ""));
   EXPECT_THAT(inside.warnings, ElementsAre(HasSubstr("node m lies on beam 'bar'")));
   const auto crossing = mesh_of(beams("bar from: a, to: b, elements: 2;pst from: u, to: t, elements: 2", ""));
-  EXPECT_THAT(crossing.warnings, ElementsAre(HasSubstr("is not joined to it")));
+  EXPECT_THAT(crossing.warnings, ElementsAre(HasSubstr("is not connected to it")));
 }
 
 TEST(UnjoinedBeams, JoinedOrTiedOnesAreSilent) {

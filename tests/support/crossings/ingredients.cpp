@@ -181,7 +181,7 @@ Scene dynamics_scene(const Ingredients& in) {
 
 std::string refusal_of(const Ingredients& in) {
   const bool radau = in.scheme == Scheme::radau || in.scheme == Scheme::controlled_radau;
-  if (in.arm == Arm::second_order && radau) return "method radau takes linear superelements only";
+  if (in.arm == Arm::second_order && radau) return "method radau needs linear superelements";
   if (in.scheme == Scheme::bdf && !mechanism::bdf_available()) return "this build has no CVODE";
   return "";
 }

@@ -92,9 +92,9 @@ TEST(SecondOrderMessages, SayWhatIsWrongWithAChoiceAndWhatHelps) {
   EXPECT_THAT(refusal(InertiaOption::F, {}, {}, false), HasSubstr("inertia F, stiffening off needs"));
   EXPECT_THAT(refusal({}, StiffeningOption::stress, {}, false), HasSubstr("inertia M, stiffening stress needs"));
   for (const InertiaOption inertia : {InertiaOption::A, InertiaOption::B})
-    EXPECT_THAT(refusal(inertia, StiffeningOption::stress, {}, true), HasSubstr("errs by 30 %"));
+    EXPECT_THAT(refusal(inertia, StiffeningOption::stress, {}, true), HasSubstr("errors reach 30 %"));
   for (const InertiaOption inertia : {InertiaOption::A, InertiaOption::B, InertiaOption::M})
-    EXPECT_THAT(refusal(inertia, StiffeningOption::full, {}, true), HasSubstr("give inertia: F"));
+    EXPECT_THAT(refusal(inertia, StiffeningOption::full, {}, true), HasSubstr("set inertia: F"));
   EXPECT_EQ(refusal({}, {}, true, true), "no error");
 }
 

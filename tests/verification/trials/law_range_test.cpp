@@ -166,7 +166,7 @@ TEST(TableRange, SpringsThatLeaveTheirTablesAreNamed) {
   };
   EXPECT_THAT(doubts_of(sliding(straight(0.1, 0.1), 0.0)), IsEmpty());
   EXPECT_THAT(doubts_of(sliding(straight(0.01, 0.01), 0.0)),
-              Contains(HasSubstr("spring 's' has the deflection 0.01098")));
+              Contains(HasSubstr("spring 's' has a deflection of 0.01098")));
   EXPECT_THAT(doubts_of(sliding(0.0, straight(0.05, 0.01))),
               Contains(HasSubstr("outside the table of its damping from -0.05 to 0.05")));
 }
@@ -180,7 +180,7 @@ TEST(TableRange, DrivesThatGoOnBehindTheirTablesAreNamed) {
   EXPECT_THAT(doubts_of(scene), IsEmpty()) << "ends at rest";
   scene.motions[0].value = formats::TimeTable{{0.0, 0.2, 0.4, 0.6, 0.8}, {0.0, 0.01, 0.04, 0.09, 0.16}};
   EXPECT_THAT(doubts_of(scene),
-              Contains(HasSubstr("goes on with the last rate outside its table, which covers t = 0 to 0.8")));
+              Contains(HasSubstr("continues with the last rate outside its table, which covers t = 0 to 0.8")));
 }
 
 // A torsional spring between axes that a ball joint lets turn over.
@@ -198,7 +198,7 @@ TEST(TableRange, AnglesAboutAxesThatTurnOverAreNamed) {
   body.start.angular_velocity = {2.0, 0, 0};
   EXPECT_THAT(doubts_of(scene), IsEmpty());
   body.start.angular_velocity = {3.0, 0, 0};
-  EXPECT_THAT(doubts_of(scene), Contains(HasSubstr("near half a turn there is no such angle")));
+  EXPECT_THAT(doubts_of(scene), Contains(HasSubstr("This angle is not defined if the axes have opposite directions")));
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ TEST_F(Rotor, UnevenBearingsOrShaft) {
   for (std::size_t k = 1; k < 8; ++k) EXPECT_NEAR(f.at(k), right.at(k), 2e-3 * right.at(k)) << k;
   EXPECT_THAT(superelement(1000.0, 0.0, bearings).report().doubts, ::testing::IsEmpty());
   EXPECT_THAT(superelement(1000.0, 1000.0, bearings).report().doubts,
-              ::testing::ElementsAre(HasSubstr("take axes at rest")));
+              ::testing::ElementsAre(HasSubstr("use axes at rest")));
   reduce("--set sections.s.Iz=0.8e-7");
   EXPECT_THAT(superelement(1000.0, 0.0).report().doubts,
               ::testing::ElementsAre(HasSubstr("`modes: {rotation: [1000, 0, 0]}`")));

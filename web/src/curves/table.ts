@@ -72,14 +72,14 @@ function differences(curves: Curve[], paths: string[]): Column[] {
 }
 
 function spectra(curves: Curve[], paths: string[], range: [number, number] | null, many: boolean): { columns: Column[]; remark: string } {
-  let remark = "No spectrum: it takes eight rows without a gap.";
+  let remark = "No spectrum: it needs at least eight rows without a gap.";
   const columns = curves.flatMap((curve) => {
     const begin = Math.max(curve.times[0]!, range?.[0] ?? -Infinity), end = Math.min(curve.times[curve.times.length - 1]!, range?.[1] ?? Infinity);
     const found = spectrumOf(curve.times, curve.values, begin, end);
     if (!found) return [];
     const unit = curve.run.unit("time");
     remark = `Hann window, mean removed, ${found.samples} samples every ${found.interval.toPrecision(3)} ${unit} from ${begin.toPrecision(4)} to ${end.toPrecision(4)} ${unit}`
-      + " (interpolated linearly); ordinate: amplitude of a sine";
+      + " (interpolated linearly); the ordinate is the amplitude of a sine";
     return [{ label: named(curve, many), unit: curve.unit, colour: colourOf(paths, curve.path), rank: curve.run.index, x: found.frequency, y: found.amplitude }];
   });
   return { columns, remark };
@@ -92,7 +92,7 @@ export async function tableOf(runs: Run[], paths: string[], how: Presentation, r
   if (how === "spectrum") ({ columns, remark } = spectra(curves, paths, range, many));
   else if (how === "difference") {
     columns = differences(curves, paths);
-    remark = columns.length > 0 ? "Difference to the first run shown, at its instants." : "A difference takes two runs that have the channel.";
+    remark = columns.length > 0 ? "Difference from the first run shown, at its instants." : "A difference needs two runs with this channel.";
   } else {
     columns = curves.map((curve) => ({
       label: named(curve, many), unit: curve.unit, colour: colourOf(paths, curve.path), rank: runs.indexOf(curve.run), x: curve.times, y: curve.values,

@@ -58,7 +58,7 @@ export class ChannelTree {
     }
     const found = this.leaves.filter((leaf) => words.every((word) => leaf.path.toLowerCase().includes(word)));
     this.list.replaceChildren(...found.slice(0, MOST_MATCHES).map((leaf) => this.leaf(leaf, leaf.path)));
-    this.note.textContent = found.length > MOST_MATCHES ? `${found.length} match, the first ${MOST_MATCHES} are listed` : `${found.length} match`;
+    this.note.textContent = found.length > MOST_MATCHES ? `${found.length} matches; the first ${MOST_MATCHES} are listed` : `${found.length} ${found.length === 1 ? "match" : "matches"}`;
   }
 
   private contents(folder: Folder, depth: number): HTMLElement[] {

@@ -13,7 +13,7 @@ function bytesOf(text: string): Uint8Array {
     for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
     return bytes;
   } catch {
-    throw new Failure("The numbers of this page are damaged: they are no base64 text.", WRITE_AGAIN);
+    throw new Failure("The numbers of this page are damaged: they are not base64 text.", WRITE_AGAIN);
   }
 }
 
@@ -46,7 +46,7 @@ export class Blocks {
     const [at, length] = extent;
     require(
       at >= 0 && length >= 0 && at + length <= this.bytes.length,
-      `The page is cut: block ${index} ends at byte ${at + length} of ${this.bytes.length}.`,
+      `The page is incomplete: block ${index} ends at byte ${at + length} of ${this.bytes.length}.`,
     );
     const promise = inflate(this.bytes.subarray(at, at + length), index).then((block) => {
       this.open.set(index, block);

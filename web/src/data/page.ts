@@ -19,11 +19,11 @@ function headerOf(text: string): Header {
   try {
     header = JSON.parse(text) as Header;
   } catch {
-    throw new Failure("The header of this page is damaged: it is no JSON.", WRITE_AGAIN);
+    throw new Failure("The header of this page is damaged: it is not JSON.", WRITE_AGAIN);
   }
-  require(header !== null && typeof header === "object" && header.format === "tisserand-page", "The header is not one of a Tisserand page.");
+  require(header !== null && typeof header === "object" && header.format === "tisserand-page", "The header is not that of a Tisserand page.");
   if (header.version !== VERSION)
-    throw new Failure(`The data of this page are of version ${String(header.version)}, its viewer reads version ${VERSION}.`, WRITE_AGAIN);
+    throw new Failure(`The data of this page have version ${String(header.version)}, but its viewer reads version ${VERSION}.`, WRITE_AGAIN);
   require(Array.isArray(header.blocks), "The header has no list of blocks.");
   require(Array.isArray(header.runs) && header.runs.length > 0, "The page holds no run.");
   for (const run of header.runs) {

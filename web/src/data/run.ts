@@ -92,7 +92,7 @@ export class Run {
     this.times = (await this.blocks.read(this.entry.times, `${where}, times`)).all();
     require(this.times.length > 0, `${where} has no instants.`);
     for (let i = 1; i < this.times.length; ++i)
-      require(this.times[i]! >= this.times[i - 1]!, `${where}: time falls at row ${i}.`);
+      require(this.times[i]! >= this.times[i - 1]!, `${where}: time decreases at row ${i}.`);
     for (const [i, shape] of this.entry.shapes.entries()) this.shapes.push(await this.readShape(shape, `${where}, shape ${i}`));
     let first = 0;
     for (const body of this.entry.bodies) {
@@ -127,14 +127,14 @@ export class Run {
       return stored;
     };
     const modes = entry.modes ? await this.blocks.read(entry.modes, `${where}, modes`) : null;
-    require(!modes || modes.columns === vertices.length, `${where}: its modes are not of its ${count} vertices.`);
+    require(!modes || modes.columns === vertices.length, `${where}: its modes do not fit its ${count} vertices.`);
     const stress = entry.stress
       ? { ...entry.stress, modes: await this.blocks.read(entry.stress.modes, `${where}, stress`) }
       : null;
-    require(!stress || stress.modes.columns === 2 * vertices.length, `${where}: its stresses are not of its ${count} vertices.`);
+    require(!stress || stress.modes.columns === 2 * vertices.length, `${where}: its stresses do not fit its ${count} vertices.`);
     const triangles = await indices(entry.triangles, "triangles");
     const elements = entry.elements ? (await this.blocks.read(entry.elements, `${where}, elements`)).stored : new Uint32Array();
-    require(elements.length === 0 || 3 * elements.length === triangles.length, `${where}: its elements are not of its triangles.`);
+    require(elements.length === 0 || 3 * elements.length === triangles.length, `${where}: its elements do not fit its triangles.`);
     return {
       ...entry,
       vertices,

@@ -28,12 +28,12 @@ export function commandsOf(app: App): Command[] {
   const turn = (azimuth: number, elevation: number): (() => void) => camera(() => app.viewport?.camera.orbit(azimuth, elevation));
   return [
     { keys: [" "], name: "Play or pause", group: "Time", run: () => player.toggle() },
-    { keys: ["ArrowRight"], name: "One stored instant on", group: "Time", run: () => player.step(1) },
-    { keys: ["ArrowLeft"], name: "One stored instant back", group: "Time", run: () => player.step(-1) },
-    { keys: ["PageDown"], name: "Twenty instants on", group: "Time", run: () => player.step(20) },
+    { keys: ["ArrowRight"], name: "Next stored instant", group: "Time", run: () => player.step(1) },
+    { keys: ["ArrowLeft"], name: "Previous stored instant", group: "Time", run: () => player.step(-1) },
+    { keys: ["PageDown"], name: "Twenty instants forward", group: "Time", run: () => player.step(20) },
     { keys: ["PageUp"], name: "Twenty instants back", group: "Time", run: () => player.step(-20) },
-    { keys: ["Home"], name: "To the start", group: "Time", run: () => player.seek(player.begin) },
-    { keys: ["End"], name: "To the end", group: "Time", run: () => player.seek(player.end) },
+    { keys: ["Home"], name: "Go to the start", group: "Time", run: () => player.seek(player.begin) },
+    { keys: ["End"], name: "Go to the end", group: "Time", run: () => player.seek(player.end) },
     { keys: ["]"], name: "Faster", group: "Time", run: () => player.faster(1) },
     { keys: ["["], name: "Slower", group: "Time", run: () => player.faster(-1) },
     { keys: ["l"], name: "Loop", group: "Time", run: () => {
@@ -50,7 +50,7 @@ export function commandsOf(app: App): Command[] {
     { keys: ["+", "="], name: "Nearer", group: "View", run: camera(() => app.viewport?.camera.zoom(0.85)) },
     { keys: ["-"], name: "Farther", group: "View", run: camera(() => app.viewport?.camera.zoom(1 / 0.85)) },
     toggle("p", "parallel", "Parallel picture"),
-    { keys: ["o"], name: "Camera follows or stands", group: "View", run: () => app.toggleFollow() },
+    { keys: ["o"], name: "Camera follows a body or is fixed", group: "View", run: () => app.toggleFollow() },
     { keys: ["c"], name: "Next colouring", group: "Show", run: () => app.cycleColouring() },
     { keys: ["y"], name: "More deformation", group: "Show", run: deform(1.25) },
     { keys: ["x"], name: "Less deformation", group: "Show", run: deform(0.8) },
@@ -63,7 +63,7 @@ export function commandsOf(app: App): Command[] {
     { keys: ["k"], name: "Save a picture", group: "Page", run: () => void app.savePicture() },
     { keys: ["r"], name: "Record a video, stop", group: "Page", run: () => app.record() },
     { keys: ["u"], name: "Full screen", group: "Page", run: () => app.fullScreen() },
-    { keys: ["Escape"], name: "Close what was chosen", group: "Page", run: () => app.choose(null) },
+    { keys: ["Escape"], name: "Clear the selection", group: "Page", run: () => app.choose(null) },
     { keys: ["?", "Shift+?"], name: "This help", group: "Page", run: () => app.help.showModal() },
   ];
 }

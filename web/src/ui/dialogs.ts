@@ -18,7 +18,7 @@ export function helpDialog(commands: Command[], program: string): HTMLDialogElem
         h("dt", {}, h("kbd", {}, written(command.keys[0]!))), h("dd", {}, command.name)]))));
   const licences = dialog("Licences", h("pre", { class: "licences", tabindex: 0 }, document.getElementById("tisserand-licences")?.textContent ?? ""));
   return dialog("Keys and mouse", h("div", { class: "key-groups" }, ...groups),
-    h("p", {}, "Drag turns the picture; with Shift or the right button it moves; the wheel or two fingers zoom. A click names a body or a node."),
+    h("p", {}, "Drag to rotate the picture. Drag with Shift or the right button to move it. Use the wheel or two fingers to zoom. Click a body or a node to see its name."),
     h("p", { class: "remark" }, `Written by ${program}. Between stored instants, positions and amplitudes are interpolated linearly, rotations along the great arc. `,
       button("Licences", "Licences of this page and of what it contains", () => licences.showModal())));
 }

@@ -64,8 +64,8 @@ export class Inspector {
     const kind = node === null ? `${entry.kind} body` : "node";
     this.element.replaceChildren(
       h("header", {}, h("strong", {}, this.name), h("span", { class: "remark" }, ` ${kind}${run.entry.name ? ` of ${run.entry.name}` : ""}`)), rows,
-      h("div", { class: "row" }, node === null ? null : trace, button("Centre", "Turn the picture about this point", () => this.actions.centre(picked)),
-        h("span", { class: "grow" }), button("Close", "Close what was chosen (Esc)", () => this.actions.close())));
+      h("div", { class: "row" }, node === null ? null : trace, button("Centre", "Rotate the picture about this point", () => this.actions.centre(picked)),
+        h("span", { class: "grow" }), button("Close", "Clear the selection (Esc)", () => this.actions.close())));
     this.follow();
   }
 

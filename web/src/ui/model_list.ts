@@ -25,7 +25,7 @@ function sections(run: Run, word: string, choose: (picked: Picked) => void, many
     const items = found.slice(0, MOST).map((row) => h("li", {},
       row.pick ? button(row.name, `Choose ${row.name}`, () => choose(row.pick!), { class: "link" }) : h("span", { class: "name" }, row.name),
       h("span", { class: "remark" }, row.remark)));
-    const more = found.length > MOST ? `${found.length - MOST} more: search. ` : "";
+    const more = found.length > MOST ? `${found.length - MOST} more: use the search. ` : "";
     return h("details", { open: rows.length <= 40 || word !== "" }, h("summary", {}, `${title} (${found.length})`), h("ul", { class: "plain" }, ...items),
       h("p", { class: "remark" }, more + (left > 0 ? `${left} nodes are not in this page.` : "")));
   };

@@ -28,8 +28,8 @@ export class Modes {
       } });
     this.element.append(h("div", { class: "row" },
       h("label", { class: "field grow" }, h("span", {}, "Amplitude"), slider),
-      button("Leave the mode", "Show the state about which it was linearised", () => player.choose(null))),
-    h("p", { class: "remark" }, "Shapes have no size of their own: the largest displacement is set by the slider. One cycle takes two seconds at speed 1; damping is not shown."));
+      button("Leave the mode", "Show the state about which the model was linearised", () => player.choose(null))),
+    h("p", { class: "remark" }, "The amplitude of a mode is arbitrary: the slider sets the largest displacement. One cycle takes two seconds at speed 1; damping is not shown."));
     for (const run of runs.filter((r) => r.entry.modes && r.entry.modes.length > 0)) this.element.append(this.table(run));
     player.onChange(() => this.follow());
   }
@@ -43,7 +43,7 @@ export class Modes {
     if (modes.some((mode) => mode.damping !== null)) columns.push({ title: "damping [%]", text: damping });
     if (modes.some((mode) => poleOf(mode) !== null)) columns.push({ title: `pole [1/${run.unit("time") || "time"}]`, text: (mode) => (poleOf(mode) === null ? "" : number(poleOf(mode), 4)) });
     const rows = modes.map((mode, index) => {
-      const choose = button("Show", `Move in mode ${index + 1}`, () => this.player.choose({ run: run.index, index }), { class: "link" });
+      const choose = button("Show", `Show the motion of mode ${index + 1}`, () => this.player.choose({ run: run.index, index }), { class: "link" });
       const row = h("tr", {}, ...columns.map(({ text }) => h("td", { class: "figure" }, text(mode, index))), h("td", {}, choose));
       this.rows.push({ run: run.index, index, row, choose });
       return row;

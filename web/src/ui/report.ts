@@ -26,9 +26,9 @@ export class Report {
     this.element.replaceChildren(...[
       choice, h("h2", {}, entry.name), entry.file ? h("p", { class: "remark path" }, entry.file) : null,
       entry.completed === false ? list("warning", "Interrupted", [entry.reason || "The run did not reach its end."]) : null,
-      list("warning", "Doubts", report.doubts ?? []), list("note", "Notes", report.notes ?? []),
-      entry.thinned ? h("p", { class: "note" }, `Shown are ${entry.thinned.kept} of ${entry.thinned.rows} stored instants.`) : null,
-      table(entry.kind === "part" ? "What the mesh holds" : "What was simulated", report.lines ?? []), table("Effects", report.effects ?? []),
+      list("warning", "Warnings", report.doubts ?? []), list("note", "Notes", report.notes ?? []),
+      entry.thinned ? h("p", { class: "note" }, `The page shows ${entry.thinned.kept} of ${entry.thinned.rows} stored instants.`) : null,
+      table(entry.kind === "part" ? "Data of the mesh" : "Data of the run", report.lines ?? []), table("Effects", report.effects ?? []),
       this.plot(run, "Energy", Object.entries(report.energy ?? {}), run.unit("energy"), false),
       report.steps === null || report.steps === undefined ? null : this.plot(run, "Step size", [["step", report.steps]], run.unit("time"), true),
       phases(report.phases ?? []),
@@ -79,7 +79,7 @@ function table(title: string, rows: [string, string][]): HTMLElement | null {
 function phases(rows: [string, number][]): HTMLElement | null {
   if (rows.length === 0) return null;
   const longest = Math.max(...rows.map(([, seconds]) => seconds), 1e-12);
-  return h("section", {}, h("h3", {}, "Time of the phases"), h("table", {}, h("tbody", {}, ...rows.map(([name, seconds]) => {
+  return h("section", {}, h("h3", {}, "Computing time by phase"), h("table", {}, h("tbody", {}, ...rows.map(([name, seconds]) => {
     const bar = h("div", { class: "phase" });
     bar.style.width = `${(100 * seconds) / longest}%`;
     return h("tr", {}, h("th", { scope: "row" }, name), h("td", { class: "figure" }, `${number(seconds, 3)} s`), h("td", { class: "wide" }, bar));

@@ -51,7 +51,7 @@ function throughStates(app: App, request: Still, shown: (caption: string) => voi
 /** The PNG in base64; of a state in which nothing is to be seen "". Throws where the browser cannot draw, or where the run has no such mode or node. */
 export async function still(app: App, request: Still): Promise<string> {
   const { viewport, player } = app;
-  if (!viewport) throw new Error("this browser draws no 3-D picture");
+  if (!viewport) throw new Error("this browser cannot draw the 3-D picture");
   const states = request.mode === undefined ? request.times.length : (request.phases ?? [0]).length;
   viewport.fixed = { width: Math.round(request.width / states), height: request.height };
   Object.assign(app.settings, request.settings);

@@ -37,8 +37,8 @@ export class Toolbar {
       ...(has.modes ? [["deformation", "Colour: deformation"] as [Colouring, string]] : []), ...(has.stress ? [["stress", "Colour: stress"] as [Colouring, string]] : [])];
     const colour = select("Colour by (C)", colourings, settings.colouring, (value) => this.set("colouring", value as Colouring));
     this.projection = button("Parallel", "Parallel or perspective picture (P)", () => this.set("parallel", !settings.parallel), { "aria-pressed": "false" });
-    this.video = button("Video", "Record a video of the picture (R); again to stop", actions.video, { "aria-pressed": "false" });
-    const show = h("details", { class: "menu" }, h("summary", { title: "What is shown" }, "Show"), h("div", { class: "menu-body" },
+    this.video = button("Video", "Record a video of the picture (R); press again to stop", actions.video, { "aria-pressed": "false" });
+    const show = h("details", { class: "menu" }, h("summary", { title: "Choose what is shown" }, "Show"), h("div", { class: "menu-body" },
       ...SWITCHES.filter(([key]) => key !== "elements" || has.elements).map(([key, text, letter]) => this.check(key, text, letter)),
       has.arrows ? this.factor("arrowScale", "Arrows", 0.1, 10) : null,
       this.factor("glyphScale", "Joint glyphs", 0.2, 5),
@@ -48,7 +48,7 @@ export class Toolbar {
         (this.controls.map = select("Colour map", [["viridis", "Viridis"], ["cividis", "Cividis"]], settings.map, (value) => this.set("map", value as MapName))))));
     this.controls.colouring = colour;
     if (has.bodies.length > 0)
-      this.controls.follow = select("Body that the camera follows", [["", "Camera stands"], ...has.bodies.map((name): [string, string] => [name, `Follows ${name}`])], settings.follow, (value) => actions.follow(value));
+      this.controls.follow = select("Body that the camera follows", [["", "Camera fixed"], ...has.bodies.map((name): [string, string] => [name, `Follows ${name}`])], settings.follow, (value) => actions.follow(value));
     this.element = h("div", { class: "toolbar", role: "toolbar", "aria-label": "Picture" },
       view, button("Fit", "Show everything (F)", actions.fit), this.projection, this.controls.follow ?? null, colour,
       has.modes ? this.deformation() : null, show, h("span", { class: "grow" }),
@@ -85,7 +85,7 @@ export class Toolbar {
     const field = h("input", { type: "number", min: 0, step: "any", value: this.settings.exaggeration, "aria-label": "Factor on deformations", class: "factor",
       onchange: () => this.set("exaggeration", Number.isFinite(field.valueAsNumber) ? Math.max(0, field.valueAsNumber) : 1) });
     this.controls.exaggeration = field;
-    return h("label", { class: "inline", title: "Factor on deformations; the rigid motion is not touched (X: less, Y: more)" }, h("span", {}, "Deformation ×"), field);
+    return h("label", { class: "inline", title: "Factor on deformations; rigid motion is not changed (X: less, Y: more)" }, h("span", {}, "Deformation ×"), field);
   }
 
   follow(): void {

@@ -26,14 +26,14 @@ export class Transport {
     const loop = checkbox("Loop", player.loop, (on) => {
       player.loop = on;
       player.changed();
-    }, "Begin anew at the end (L)");
+    }, "Start again at the end (L)");
     this.loop = loop.querySelector("input")!;
     this.element = h("footer", { class: "transport", role: "toolbar", "aria-label": "Time" },
       this.play,
-      button("|◂", "To the start (Home)", () => player.seek(player.begin)),
-      button("◂", "One stored instant back (Left)", () => player.step(-1)),
-      button("▸", "One stored instant on (Right)", () => player.step(1)),
-      button("▸|", "To the end (End)", () => player.seek(player.end)),
+      button("|◂", "Go to the start (Home)", () => player.seek(player.begin)),
+      button("◂", "Previous stored instant (Left)", () => player.step(-1)),
+      button("▸", "Next stored instant (Right)", () => player.step(1)),
+      button("▸|", "Go to the end (End)", () => player.seek(player.end)),
       this.slider, this.label, this.speed, loop);
     player.onChange(() => this.follow());
     this.follow();

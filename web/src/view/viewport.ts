@@ -53,7 +53,7 @@ export class Viewport {
     this.software = isSoftware();
     // Opaque, so that the browser need not blend the picture with the page.
     const context = canvas.getContext("webgl2", { alpha: false, antialias: !this.software, powerPreference: "high-performance" });
-    if (!context) throw new Error("the browser gives no context");
+    if (!context) throw new Error("the browser provides no context");
     this.renderer = new WebGLRenderer({ canvas, context });
     this.renderer.debug.onShaderError = (gl, program, vertex, fragment) => {
       this.fault = [gl.getProgramInfoLog(program), gl.getShaderInfoLog(vertex), gl.getShaderInfoLog(fragment)].filter(Boolean).join(" ");

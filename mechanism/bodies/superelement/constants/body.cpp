@@ -70,7 +70,8 @@ void order_rows(const formats::Superelement& element, const std::string& where, 
       body.boundary_size += 3;
     }
     if (!node.has_translation() && !node.has_rotation())
-      throw Error(fmt::format("boundary node '{}' has no coordinates", node.name), where, "remove it from the file");
+      throw Error(fmt::format("boundary node '{}' has no degrees of freedom", node.name), where,
+                  "remove it from the file");
     body.node.push_back(node);
   }
   if (body.translation_nodes.empty())
@@ -100,7 +101,7 @@ Eigen::Index modes_to_keep(const Eigen::VectorXd& eigenvalue, const Superelement
   Eigen::Index wanted = eigenvalue.size();
   if (options.modes) {
     if (*options.modes < 0 || *options.modes > eigenvalue.size())
-      throw Error(fmt::format("{} modes asked for, the superelement has {}", *options.modes, eigenvalue.size()),
+      throw Error(fmt::format("{} modes are requested, but the superelement has {}", *options.modes, eigenvalue.size()),
                   options.where, fmt::format("choose 0 to {}", eigenvalue.size()));
     wanted = *options.modes;
   }
@@ -157,15 +158,15 @@ Eigen::VectorXd choose_weights(const std::vector<int>& members, const std::vecto
     const double sum = alpha.sum();
     if (!(std::abs(sum - 1.0) < 1e-6))
       throw Error(fmt::format("weights of {} of '{}' have the sum {:.9g}", what, body.name, sum), where,
-                  "their sum must be 1");
+                  "choose weights with the sum 1");
     return alpha / sum;
   }
   const Eigen::Matrix3Xd points = position(Eigen::all, members);
   const formats::Weights weights = formats::frame_weights(points, center);
   if (weights.flat)
     body.notes.push_back(
-        fmt::format("the nodes of '{}' lie nearly in one plane or on one line: the {} weights put the frame there, "
-                    "not at the centre of mass.",
+        fmt::format("the nodes of '{}' lie nearly in one plane or on one line, so the {} weights place the frame there "
+                    "and not at the centre of mass.",
                     body.name, what));
   return weights.alpha;
 }
@@ -214,7 +215,7 @@ void choose_frame(const SuperelementOptions& options, SuperelementBody& body) {
   const bool second_order =
       options.inertia == formats::InertiaOption::F || options.stiffening != formats::StiffeningOption::off;
   if (options.frame == formats::FrameKind::paper && (options.inertia == formats::InertiaOption::M || second_order))
-    throw Error(fmt::format("{} with the incremental frame of the paper",
+    throw Error(fmt::format("{} cannot be combined with the incremental frame ('frame: paper')",
                             options.inertia == formats::InertiaOption::M   ? "inertia M"
                             : options.inertia == formats::InertiaOption::F ? "inertia F"
                                                                            : "stiffening"),

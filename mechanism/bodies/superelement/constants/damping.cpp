@@ -93,10 +93,10 @@ FreeModes free_modes(const SuperelementBody& body, const std::string& where) {
   const Eigen::MatrixXd M_Z =
       Z.transpose() * M * Z - coupling.transpose() * inertia.completeOrthogonalDecomposition().solve(coupling);
   if (Eigen::LLT<Eigen::MatrixXd>(S_Z).info() != Eigen::Success)
-    throw Error(fmt::format("damping: '{}' has motions without strain besides the rigid ones, so its elastic modes "
-                            "cannot be counted",
+    throw Error(fmt::format("damping: '{}' has motions without strain in addition to rigid-body motions, so its "
+                            "elastic modes cannot be counted",
                             body.name),
-                where, "damp it by 'stiffness', or its internal modes by 'ratio_internal'");
+                where, "give the damping by 'stiffness', or that of its internal modes by 'ratio_internal'");
   // 1/ω² of M_Z a = (1/ω²) S_Z a, ascending. Soft modes keep all digits, and massless ones come first as zeros.
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (M_Z + M_Z.transpose()), S_Z);
   const Eigen::VectorXd& inverse = solver.eigenvalues();

@@ -11,40 +11,41 @@
 
 namespace tisserand::mechanism {
 
-/// Entries (k, l), k ≤ l, of the matrices 4 `first` to 4 (`first` + `blocks`) − 1.
+/// Run of non-zero entries of consecutive matrices at one pair of coordinates (k, l), k ≤ l. It has the matrices 4
+/// `first` to 4 (`first` + `blocks`) − 1.
 struct FormRun {
   int k = 0, l = 0;
   int first = 0, blocks = 0;
 };
 
-/// Symmetric matrices A_a (size x size), a = 0 .. count − 1. They are stored by pairs of coordinates at which one of
-/// four consecutive matrices has an entry. One pass through memory serves all of them, and zeros are not stored: the
-/// rows of a straight beam keep a thirtieth of their numbers.
+/// Symmetric matrices A_a (size x size), a = 0 .. count − 1, stored for one common pass through memory. For each pair
+/// of coordinates, a block of four consecutive matrices is stored if one of the four has an entry there. Zeros are not
+/// stored otherwise: the rows of a straight beam keep a thirtieth of their numbers.
 struct QuadraticForms {
-  static constexpr int block = 4;  ///< number of matrices in a run, one register
+  static constexpr int block = 4;  ///< number of consecutive matrices in a block, one register
   /// Largest entry that counts as zero, relative to the largest of all. Symmetry makes entries zero; solutions with
   /// K_II and congruences fill them with round-off of up to some thousand ε.
   static constexpr double round_off = 1e-12;
 
   int size = 0;
-  int count = 0;  ///< multiple of `block`; zero matrices fill the last block
+  int count = 0;  ///< number of matrices, a multiple of `block`; zero matrices fill the last block
   std::vector<FormRun> runs;
   std::vector<double> entry;  ///< values of all runs in sequence, `block` numbers for each block
 };
 
-/// Stores the symmetric parts of `matrices`. unit: the size of each coordinate. scale: entries of matrix a up to
-/// `round_off` times scale[a], in these units, are omitted.
+/// Stores the symmetric parts of `matrices`. `unit`: the size of each coordinate. Entries of matrix a up to `round_off`
+/// times scale[a] are omitted, measured in units of the coordinates.
 QuadraticForms quadratic_forms(const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& unit,
                                const Eigen::VectorXd& scale);
 
-/// Largest entry of all matrices, in these units.
+/// Largest |entry| of all matrices, each entry (k, l) multiplied by unit[k] unit[l].
 double largest_entry(const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& unit);
 
-/// Scratch of the kernels of this file for any scalar: column k holds row k of every A_a times y.
+/// Scratch of apply_forms() and apply_pairs() (count x size): column k holds row k of every A_a times y.
 template <class S>
 using FormRows = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// Computes rows (count x size), whose column k is [(A_a y)_k].
+/// Computes the products of all matrices A_a with y: column k of `rows` (count x size) is [(A_a y)_k].
 template <class S, class Vector>
 void apply_forms(const QuadraticForms& forms, const Vector& y, FormRows<S>& rows) {
   rows.setZero();
@@ -71,29 +72,29 @@ void apply_forms(const QuadraticForms& forms, const Vector& y, FormRows<S>& rows
   }
 }
 
-/// Adds scale Σ factor_a A_a to the lower triangle of `sum` (size x size).
+/// Adds scale · Σ_a factor_a A_a to the lower triangle of `sum` (size x size).
 void add_combination(const QuadraticForms& forms, double scale, const Eigen::VectorXd& factor,
                      Eigen::Ref<Eigen::MatrixXd> sum);
 
-/// A few symmetric matrices A_a with one common sparsity pattern. Each pair k ≤ l of coordinates has `count` numbers.
-/// The pairs are stored column by column (l), with ascending k.
+/// A few symmetric matrices A_a (size x size) with one common sparsity pattern. Each pair k ≤ l of coordinates at which
+/// one matrix has an entry stores `count` numbers. Pairs are stored column by column (l), with ascending k.
 struct PairedForms {
   static constexpr int block = QuadraticForms::block;
 
   int size = 0;
-  int count = 0;           ///< multiple of `block`; zero matrices fill the last block
-  std::vector<int> first;  ///< size + 1: index in `row` of the first pair of column l
-  std::vector<int> row;    ///< k of each pair
+  int count = 0;           ///< number of matrices, a multiple of `block`; zero matrices fill the last block
+  std::vector<int> first;  ///< (size + 1): index in `row` of the first pair of column l
+  std::vector<int> row;    ///< row k of each pair
   std::vector<double> entry;
 };
 
-/// Counterpart of quadratic_forms() for a common pattern.
+/// Stores the symmetric parts of `matrices` with one common pattern. Arguments are those of quadratic_forms().
 PairedForms paired_forms(const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& unit,
                          const Eigen::VectorXd& scale);
 
 namespace paired_forms_kernel {
 
-/// Kernel for double: the sums of column l and of the values stay in registers.
+/// Kernel of apply_pairs() for double, which keeps the sums of column l and of the values in registers.
 template <int Count, int Values>
 void apply(const PairedForms& forms, const double* y, const double* x, double* rows, double* values) {
   using namespace column_kernels;
@@ -121,7 +122,8 @@ void apply(const PairedForms& forms, const double* y, const double* x, double* r
 
 }  // namespace paired_forms_kernel
 
-/// Computes rows (Count x size), whose column k is [(A_a y)_k], and values [xᵀ A_a x] of the first Values matrices.
+/// Computes the products of all matrices A_a with y, and quadratic forms of x. Column k of `rows` (Count x size) is
+/// [(A_a y)_k]. `values` are [xᵀ A_a x] of the first Values matrices.
 template <int Count, int Values, class S>
 void apply_pairs(const PairedForms& forms, const Eigen::Matrix<S, Eigen::Dynamic, 1>& y,
                  const Eigen::Matrix<S, Eigen::Dynamic, 1>& x, FormRows<S>& rows,

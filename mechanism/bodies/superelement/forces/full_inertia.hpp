@@ -10,7 +10,7 @@
 
 namespace tisserand::mechanism {
 
-/// Symmetric matrix from six numbers, one per pair jk in the order xx yy zz yz xz xy.
+/// Symmetric matrix (3 x 3) from its six entries in the order xx yy zz yz xz xy.
 template <class S>
 Mat3<S> symmetric3(const Eigen::Ref<const Eigen::Matrix<S, 6, 1>>& a) {
   Mat3<S> A;
@@ -18,7 +18,7 @@ Mat3<S> symmetric3(const Eigen::Ref<const Eigen::Matrix<S, 6, 1>>& a) {
   return A;
 }
 
-/// Factors of the six A_jk in Σ_jk aⱼ b_k A_jk.
+/// Factors of six symmetric matrices A_jk in the sum Σ_jk aⱼ b_k A_jk, in the order xx yy zz yz xz xy.
 template <class S>
 Eigen::Matrix<S, 6, 1> pair_factors(const Vec3<S>& a, const Vec3<S>& b) {
   Eigen::Matrix<S, 6, 1> out;
@@ -27,22 +27,24 @@ Eigen::Matrix<S, 6, 1> pair_factors(const Vec3<S>& a, const Vec3<S>& b) {
   return out;
 }
 
-/// Terms of THEORY (46) to (52) at one motion, in axes of the frame, with N coordinates y.
+/// Terms of the inertia forces of option F at one motion, THEORY (46) to (52), in axes of the frame. N is the number of
+/// coordinates y. Vectors of size 3N are padded to full blocks.
 template <class S>
 struct InertiaTerms {
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using Six = Eigen::Matrix<S, 6, 1>;
   Vector y, yd, ydd;
-  FormRows<S> forms_y;  ///< [N_a y], [T_jk y], [E_jk y], or the last alone: rows in the order of FullInertia::forms
-  Vector Cy, Cyd;       ///< 3N, padded: C_x y, C_y y, C_z y
-  Vector Wy, Wyd;       ///< 3N, padded: W_x y, W_y y, W_z y; zero without W
+  /// Products of the matrices of FullInertia::forms with y (count x N): [N_a y], [T_jk y], [E_jk y], or only [E_jk y].
+  FormRows<S> forms_y;
+  Vector Cy, Cyd;  ///< (3N): C_x y, C_y y, C_z y; then with ẏ
+  Vector Wy, Wyd;  ///< (3N): W_x y, W_y y, W_z y; then with ẏ; zero without W
   Vector xi, p, xid, pd;
-  Vector quadratic;  ///< 12: ẏᵀ N_a ẏ, ẏᵀ T_jk ẏ
-  Vector G_y;        ///< inertia and weight, without the elastic force
-  Vector turned;     ///< 3N, padded: scratch
+  Vector quadratic;  ///< (12): ẏᵀ N_a ẏ, ẏᵀ T_jk ẏ
+  Vector G_y;        ///< THEORY (52) without the elastic force f
+  Vector turned;     ///< (3N): scratch
   Vec3<S> sigma = Vec3<S>::Zero(), nu = Vec3<S>::Zero();
   Mat3<S> TT = Mat3<S>::Zero(), JJ = Mat3<S>::Zero(), JJd = Mat3<S>::Zero();
-  Vec3<S> pi_v = Vec3<S>::Zero(), pi_O = Vec3<S>::Zero();  ///< momentum; angular momentum about x₀
+  Vec3<S> pi_v = Vec3<S>::Zero(), pi_O = Vec3<S>::Zero();  ///< π_v, π_Ω: momentum; angular momentum about x₀
   S kinetic = S(0.0);
 };
 
@@ -58,7 +60,7 @@ InertiaTerms<S> make_inertia_terms(const FullInertia& inertia) {
   return t;
 }
 
-/// Product of the first Rows of `rows` with x.
+/// Product of the first `Rows` rows of the matrix `rows` with x.
 template <int Rows, class S>
 Eigen::Matrix<S, Rows, 1> rows_times(const FormRows<S>& rows, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x) {
   Eigen::Matrix<S, Rows, 1> out = Eigen::Matrix<S, Rows, 1>::Zero();
@@ -67,7 +69,7 @@ Eigen::Matrix<S, Rows, 1> rows_times(const FormRows<S>& rows, const Eigen::Matri
   return out;
 }
 
-/// Product Rᵀ x.
+/// Product Rᵀ x with the rigid motions R of the body ((N x 6), Φ₀ in THEORY).
 template <class S>
 Eigen::Matrix<S, 6, 1> rigid_part(const FullInertia& inertia, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x) {
   const Eigen::Index nb = inertia.boundary_size;  // R is zero for internal coordinates
@@ -76,7 +78,7 @@ Eigen::Matrix<S, 6, 1> rigid_part(const FullInertia& inertia, const Eigen::Matri
   return out;
 }
 
-/// Vector [xᵀ C_k y]_k from `stack`, the three vectors C_k y.
+/// Vector [xᵀ C_k y]_k, k = 1..3, from the three vectors C_k y one below the other in `stack`.
 template <class S>
 Vec3<S> turning_part(const Eigen::Matrix<S, Eigen::Dynamic, 1>& x, const Eigen::Matrix<S, Eigen::Dynamic, 1>& stack) {
   Vec3<S> out;
@@ -84,14 +86,14 @@ Vec3<S> turning_part(const Eigen::Matrix<S, Eigen::Dynamic, 1>& x, const Eigen::
   return out;
 }
 
-/// Adds Σ_k a_k (C_k y) to out.
+/// Adds Σ_k a_k (C_k y) to `out`, with the three vectors C_k y one below the other in `stack`.
 template <class S>
 void add_turned(const Vec3<S>& a, const Eigen::Matrix<S, Eigen::Dynamic, 1>& stack,
                 Eigen::Matrix<S, Eigen::Dynamic, 1>& out) {
   for (int k = 0; k < 3; ++k) out += a[k] * stack.segment(k * out.size(), out.size());
 }
 
-/// Product J₀⁻¹ a.
+/// Product J₀⁻¹ a with the rigid inertia J₀ = RᵀM̄R (6 x 6).
 template <class S>
 Eigen::Matrix<S, 6, 1> solve_rigid(const FullInertia& inertia, const Eigen::Matrix<S, 6, 1>& a) {
   if constexpr (std::is_same_v<S, double>) {
@@ -104,7 +106,7 @@ Eigen::Matrix<S, 6, 1> solve_rigid(const FullInertia& inertia, const Eigen::Matr
   }
 }
 
-/// Computes x = R a + rate and Mx.
+/// Computes the motion x = R a + rate and its momenta Mx = M̄ x. R are the rigid motions and a their six amplitudes.
 template <class S>
 void true_motion(const FullInertia& inertia, const Eigen::Matrix<S, 6, 1>& a,
                  const Eigen::Matrix<S, Eigen::Dynamic, 1>& rate, Eigen::Matrix<S, Eigen::Dynamic, 1>& x,
@@ -124,8 +126,9 @@ void true_motion(const FullInertia& inertia, const Eigen::Matrix<S, 6, 1>& a,
   }
 }
 
-/// Second-order displacement THEORY (46): σ, ν, TT with first and second derivatives; zero without N and T. `turn` is
-/// [ẏᵀ W_j y], the momentum of relative angular velocities of second order, `turn_d` its rate [ÿᵀ W_j y].
+/// Quantities of the second-order displacement, THEORY (46): σ, ν and 𝒯 (`T`) with first and second derivatives. They
+/// are zero without N and T. `turn` is [ẏᵀ W_j y], the momentum of second-order relative angular velocities, and
+/// `turn_d` is its rate [ÿᵀ W_j y].
 template <class S>
 struct Foreshortened {
   Vec3<S> turn = Vec3<S>::Zero(), turn_d = Vec3<S>::Zero();
@@ -134,7 +137,8 @@ struct Foreshortened {
   Mat3<S> T = Mat3<S>::Zero(), Td = Mat3<S>::Zero();
 };
 
-/// Sets JJ of THEORY (46) and its rate from E y; also N y and T y if they are used.
+/// Sets t.JJ (𝒥 of THEORY (46)) and its rate from the products E y. Returns the second-order displacement, which is
+/// zero unless Count includes N and T.
 template <int Count, class S>
 Foreshortened<S> set_form_products(const FullInertia& inertia, InertiaTerms<S>& t) {
   using Rows = Eigen::Matrix<S, Count, 1>;
@@ -160,10 +164,11 @@ Foreshortened<S> set_form_products(const FullInertia& inertia, InertiaTerms<S>& 
   return w;
 }
 
-/// Whether W is used.
+/// Whether the body has the matrices W, the rotary inertia of second order.
 inline bool turns_nodes(const FullInertia& inertia) { return !inertia.W.runs.empty(); }
 
-/// Sets y, ẏ, ÿ and the products of the arrays with them: E y, C y, C ẏ, N y, T y, W y, W ẏ.
+/// Sets y, ẏ, ÿ in `t` and the products of the arrays with y and ẏ: E y, C y, C ẏ, N y, T y, W y, W ẏ. Returns the
+/// second-order displacement.
 template <class S>
 Foreshortened<S> set_products(const FullInertia& inertia, const LocalMotion<S>& motion, InertiaTerms<S>& t) {
   t.y << motion.y_B, motion.y_I;
@@ -187,8 +192,8 @@ Foreshortened<S> set_products(const FullInertia& inertia, const LocalMotion<S>& 
   return w;
 }
 
-/// Sets n₂ of THEORY (47), ξ = R (ν + J₀⁻¹ n₂) + ẏ of THEORY (48), p = M̄ ξ + Ω_k C_k y of THEORY (49), their rates, and
-/// ½ ξᵀM̄ξ.
+/// Sets ξ = R (ν + J₀⁻¹ n₂) + ẏ of THEORY (48), p = M̄ ξ + Ω_k C_k y of THEORY (49), their rates, and the kinetic
+/// energy ½ ξᵀM̄ξ. n₂ is the momentum of THEORY (47).
 template <class S>
 void set_momenta(const FullInertia& inertia, const LocalMotion<S>& motion, const Foreshortened<S>& w,
                  InertiaTerms<S>& t) {
@@ -208,13 +213,14 @@ void set_momenta(const FullInertia& inertia, const LocalMotion<S>& motion, const
   add_turned<S>(Om, t.Cyd, t.pd);
 }
 
-/// Rigid part r = J₀⁻¹Rᵀp of the true velocity, THEORY (49), and its rate.
+/// Rigid part r = J₀⁻¹Rᵀp of the true velocity, THEORY (49), and its rate: `v` and `O` are r_v and r_Ω.
 template <class S>
 struct RigidVelocity {
   Vec3<S> v, O, vd, Od;
 };
 
-/// Sets t.G_y of inertia and weight: THEORY (52) without f.
+/// Sets t.G_y, the force of inertia and weight on y: THEORY (52) without f. `Om`: Ω₀. `g`: acceleration of gravity in
+/// axes of the frame.
 template <class S>
 void set_shape_forces(const SuperelementBody& body, const RigidVelocity<S>& r, const Vec3<S>& Om, const Vec3<S>& g,
                       InertiaTerms<S>& t) {
@@ -244,14 +250,16 @@ void set_shape_forces(const SuperelementBody& body, const RigidVelocity<S>& r, c
     for (int i = 0; i < 3; ++i) t.G_y[body.boundary_size + k] -= body.Gamma_I(i, k) * g[i];
 }
 
-/// Forces of inertia and weight on x₀ (axes of the frame) and on the rotation of the frame: THEORY (51).
+/// Forces of inertia and weight on the floating frame, THEORY (51): G_x on x₀ (axes of the frame) and G_Θ on the
+/// rotation.
 template <class S>
 struct FrameForces {
   Vec3<S> G_x, G_theta;
 };
 
-/// Forces of inertia and weight in the coordinates (x₀, Θ₀, y): momenta THEORY (50), forces THEORY (51), and G_y of
-/// THEORY (52) in t.G_y. g: acceleration of gravity, axes of the frame. Needs deformation_accelerations().
+/// Computes the forces of inertia and weight in the coordinates (x₀, Θ₀, y): G_x and G_Θ of THEORY (51), and G_y of
+/// THEORY (52) in t.G_y. It also sets the momenta of THEORY (50) in `t`. `g`: acceleration of gravity in axes of the
+/// frame. Requires deformation_accelerations().
 template <class S>
 FrameForces<S> inertia_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Vec3<S>& g,
                               InertiaTerms<S>& t) {

@@ -16,13 +16,14 @@
 
 namespace tisserand::mechanism {
 
-/// Forces of all load cases with their factors, at one y; allocated if the body has load cases.
+/// Forces of all load cases of a body with their factors, at one y, THEORY (42). Vectors are allocated if the body has
+/// load cases.
 template <class S>
 struct LoadTerms {
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  Eigen::VectorXd factors;           ///< one per load case; the caller sets them
-  Vector y;                          ///< N, boundary then internal
-  Vector g;                          ///< N: Σ s (f + K y)
+  Eigen::VectorXd factors;           ///< s: one per load case; the caller sets them
+  Vector y;                          ///< (N): boundary, then internal coordinates
+  Vector g;                          ///< (N): Σ s (f + K y), the force on y
   Vec3<S> force = Vec3<S>::Zero();   ///< resultant, axes of the frame
   Vec3<S> moment = Vec3<S>::Zero();  ///< resultant moment about x₀
 };
@@ -38,7 +39,7 @@ LoadTerms<S> make_load_terms(const SuperelementBody& body) {
   return t;
 }
 
-/// Adds one load case at t.y.
+/// Adds the forces of one load case at the coordinates t.y.
 template <class S>
 void add_load_case(const BodyLoadCase& load, double factor, LoadTerms<S>& t) {
   for (Eigen::Index k = 0; k < t.y.size(); ++k) {
@@ -55,7 +56,7 @@ void add_load_case(const BodyLoadCase& load, double factor, LoadTerms<S>& t) {
   }
 }
 
-/// Sets all of `t` except its factors at the y of `motion`.
+/// Sets all of `t` except t.factors, at the y of `motion`.
 template <class S>
 void load_terms(const SuperelementBody& body, const LocalMotion<S>& motion, LoadTerms<S>& t) {
   t.y << motion.y_B, motion.y_I;
@@ -66,7 +67,7 @@ void load_terms(const SuperelementBody& body, const LocalMotion<S>& motion, Load
     if (const double s = t.factors[static_cast<Eigen::Index>(i)]; s != 0.0) add_load_case(body.load_cases[i], s, t);
 }
 
-/// Power of the load cases with their factors. Needs update_kinematics() and load_terms().
+/// Power of the load cases with their factors. Requires update_kinematics() and load_terms().
 double load_power(const SuperelementBody& body, const LocalMotion<double>& motion, const LoadTerms<double>& t);
 
 }  // namespace tisserand::mechanism

@@ -10,8 +10,9 @@
 
 namespace tisserand::mechanism {
 
-/// Adds A x to y, with constant A (column major) and vectors of any scalar. One or two boundary nodes have 6, 9 or 12
-/// rows, for which fixed sizes are faster; for 18 rows they are slower (docs/PERFORMANCE.md).
+/// Adds A x to y, for a constant A (column major) and vectors of any scalar. 6, 9 and 12 rows have code of fixed size,
+/// which is faster; at 18 rows it is slower (docs/PERFORMANCE.md). One or two boundary nodes give these numbers of
+/// rows. A node without rotations has three.
 template <class S>
 void multiply_add(const Eigen::MatrixXd& A, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x,
                   Eigen::Matrix<S, Eigen::Dynamic, 1>& y) {
@@ -32,7 +33,7 @@ void multiply_add(const Eigen::MatrixXd& A, const Eigen::Matrix<S, Eigen::Dynami
   }
 }
 
-/// Adds Aᵀ x to out.
+/// Adds Aᵀ x to `out`, for a constant A and vectors of any scalar.
 template <class S>
 void multiply_transposed_add(const Eigen::MatrixXd& A, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x,
                              Eigen::Matrix<S, Eigen::Dynamic, 1>& out) {
@@ -44,7 +45,7 @@ void multiply_transposed_add(const Eigen::MatrixXd& A, const Eigen::Matrix<S, Ei
   }
 }
 
-/// Adds factor A x to out, A and x of the same scalar.
+/// Adds factor · A x to `out`. A and x have the same scalar S.
 template <class S>
 void multiply_add(const Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>& A,
                   const Eigen::Matrix<S, Eigen::Dynamic, 1>& x, S factor, Eigen::Matrix<S, Eigen::Dynamic, 1>& out) {
@@ -56,7 +57,8 @@ void multiply_add(const Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>& A,
   }
 }
 
-/// Adds Aᵀ x to out, A and x of the same scalar. A has Rows rows, or more with padding.
+/// Adds Aᵀ x to `out`, with the first `Rows` rows of A. A and x have the same scalar S. A may have more rows, as
+/// padding.
 template <int Rows, class S>
 void add_transposed(const Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>& A, const Eigen::Matrix<S, Rows, 1>& x,
                     Eigen::Matrix<S, Eigen::Dynamic, 1>& out) {
@@ -70,7 +72,7 @@ void add_transposed(const Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>& A, c
   }
 }
 
-/// Inner product x · y.
+/// Inner product x · y of vectors with the scalar S or double.
 template <class S, class X, class Y>
 S inner_product(const X& x, const Y& y) {
   if constexpr (std::is_same_v<S, double>) {

@@ -13,18 +13,19 @@
 
 namespace tisserand::mechanism {
 
-/// Forces of a body: r_B on [world translation, material rotation] per node, r_I on the canonical internal coordinates.
+/// Forces of a superelement body: r_B on [world translation, material rotation] of each boundary node, and r_I on the
+/// canonical internal coordinates.
 template <class S>
 struct SuperelementForces {
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   Vector r_B, r_I;
-  Vector p_B;  ///< (M̄ ẏ)_B, momenta in axes of the frame (rotation rows: material axes in option B)
-  Vector f_B;  ///< (M̄ ÿ)_B
-  Vector s_B;  ///< S̄ y + D ẏ less weight and load cases on y, boundary rows
+  Vector p_B;  ///< (M̄ ẏ)_B, momenta conjugate to the rates of THEORY (26)
+  Vector f_B;  ///< (M̄ ÿ)_B, inertia forces in local coordinates
+  Vector s_B;  ///< boundary rows of S̄ y + D ẏ − weight − load cases
 
   StrainTerms<S> strain;    ///< allocated if the body has stiffening
-  InertiaTerms<S> inertia;  ///< allocated if it has full inertia
-  LoadTerms<S> loads;       ///< allocated if it has load cases, whose factors the caller sets
+  InertiaTerms<S> inertia;  ///< allocated if the body has inertia option F
+  LoadTerms<S> loads;       ///< allocated with load cases; the caller sets their factors
 };
 
 template <class S>
@@ -40,7 +41,8 @@ SuperelementForces<S> make_forces(const SuperelementBody& body) {
   return forces;
 }
 
-/// Adds D ẏ of THEORY (40). If the body has stiffening, add_stiffening() corrects the part b S̄.
+/// Adds the damping forces D ẏ of THEORY (40) to out.s_B and out.r_I. If the body has stiffening, add_stiffening()
+/// corrects the part b S̄ of D.
 template <class S>
 void add_damping_forces(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   if (!body.damping.active) return;
@@ -58,7 +60,8 @@ void add_damping_forces(const SuperelementBody& body, const LocalMotion<S>& moti
   multiply_add(body.damping.II, motion.rate_I, out.r_I);
 }
 
-/// Adds the terms of stiffening to S̄ y, THEORY (44), and to b S̄ ẏ, THEORY (45): b [(L + h)ᵀ(L + h) − LᵀL] ẏ.
+/// Adds the forces of stiffening: to S̄ y those of THEORY (44), and to the damping b S̄ ẏ those of THEORY (45), b
+/// [(L + h)ᵀ(L + h) − LᵀL] ẏ.
 template <class S>
 void add_stiffening(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   if (!body.second_order.stiffening) return;
@@ -70,7 +73,8 @@ void add_stiffening(const SuperelementBody& body, const LocalMotion<S>& motion, 
   out.r_I += t.force.tail(body.modes);
 }
 
-/// Computes (M̄ ẏ)_B, (M̄ ÿ)_B, (M̄ ÿ)_I, and the elastic and damping forces in local coordinates.
+/// Computes momenta (M̄ ẏ)_B, inertia forces (M̄ ÿ)_B and (M̄ ÿ)_I, and elastic and damping forces, all in local
+/// coordinates.
 template <class S>
 void local_forces(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   out.p_B.setZero();
@@ -90,15 +94,15 @@ void local_forces(const SuperelementBody& body, const LocalMotion<S>& motion, Su
   add_stiffening(body, motion, out);
 }
 
-/// Vector c of THEORY (32), the centre of mass relative to x₀ in axes of the frame: X_cm + Φ_TᵀM̄ y / m.
+/// Centre of mass c of the deformed body relative to x₀, in axes of the frame, THEORY (32): X_cm + Φ_TᵀM̄ y / m.
 template <class S>
 Vec3<S> deformed_center_of_mass(const SuperelementBody& body, const LocalMotion<S>& motion) {
   if (body.inertia == formats::InertiaOption::M) return motion.center;
   return body.center_of_mass.template cast<S>() + mean_of<S>(body, motion.y_B, motion.y_I);
 }
 
-/// Replaces M̄ by M̄ − M̄ Φ_T Φ_TᵀM̄/m for option M, THEORY (34), so that the interpolated motion of the centre of mass has
-/// no inertia.
+/// Replaces M̄ by M̄ − M̄ Φ_T Φ_TᵀM̄/m in the forces of `out`, for inertia option M, THEORY (34). Then the interpolated
+/// motion of the centre of mass has no inertia.
 template <class S>
 void release_center_of_mass(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   const Vec3<S> velocity = mean_of<S>(body, motion.rate_B, motion.rate_I);
@@ -108,8 +112,8 @@ void release_center_of_mass(const SuperelementBody& body, const LocalMotion<S>& 
   subtract_share<S>(body, body.Gamma_I, acceleration, out.r_I);
 }
 
-/// Applies the weight, THEORY (39), the exact variation of V_g = −m g·x_cm. Its part on y is s −= Γᵀ R₀ᵀg. Returns the
-/// moment m c × R₀ᵀg.
+/// Subtracts the weight on y from `out`, THEORY (39), Γᵀ g of s_B and r_I with Γ = Φ_TᵀM̄. Returns the moment m c × g
+/// of the weight about x₀. `g`: acceleration of gravity R₀ᵀg in axes of the frame.
 template <class S>
 Vec3<S> apply_gravity(const SuperelementBody& body, const LocalMotion<S>& motion, const Vec3<S>& g,
                       SuperelementForces<S>& out) {
@@ -118,7 +122,7 @@ Vec3<S> apply_gravity(const SuperelementBody& body, const LocalMotion<S>& motion
   return body.mass * cross<S>(deformed_center_of_mass(body, motion), g);
 }
 
-/// Applies the part of the load cases of THEORY (42) on y: s −= Σ s (f + K y).
+/// Subtracts the forces of the load cases on y from s_B and r_I, THEORY (42): Σ s (f + K y). Sets out.loads.
 template <class S>
 void apply_load_cases(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   load_terms(body, motion, out.loads);
@@ -126,8 +130,8 @@ void apply_load_cases(const SuperelementBody& body, const LocalMotion<S>& motion
   out.r_I -= out.loads.g.tail(body.modes);
 }
 
-/// Converts forces on (x₀, Θ₀, y) to forces on the nodes, THEORY (53): A₀ᵀ G_x + Uᵀ G_θ + Υᵀ G_y of the boundary. On
-/// entry r_B is G_y.
+/// Converts forces on (x₀, Θ₀, y) to forces on the nodes, THEORY (53): boundary rows of A₀ᵀ G_x + Uᵀ G_θ + Υᵀ G_y.
+/// Requires G_y in r_B, which receives the result.
 template <int D, class S>
 void pull_back_in(const SuperelementBody& body, const LocalMotion<S>& motion, const FrameForces<S>& frame,
                   Eigen::Matrix<S, Eigen::Dynamic, 1>& r_B) {
@@ -166,7 +170,8 @@ void pull_back(const SuperelementBody& body, const LocalMotion<S>& motion, const
   in_space(body.planar, [&]<int D>() { pull_back_in<D>(body, motion, frame, r_B); });
 }
 
-/// Forces of inertia option F: Lagrange's equations THEORY (51) to (53) with the elastic forces THEORY (44).
+/// Computes all forces of a body with inertia option F: Lagrange's equations THEORY (51) to (53) with the elastic
+/// forces THEORY (44).
 template <class S>
 void full_inertia_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Eigen::Vector3d& gravity,
                          SuperelementForces<S>& out) {
@@ -189,7 +194,8 @@ void full_inertia_forces(const SuperelementBody& body, const LocalMotion<S>& mot
   pull_back(body, motion, frame, out.r_B);
 }
 
-/// Sums over nodes in superelement_forces(): `moment` is conjugate to δΘ₀, `total` to −δx₀ (axes of the frame).
+/// Computes out.r_B on the nodes for superelement_forces(), from the local forces. `moment` is conjugate to δΘ₀ and
+/// `total` to −δx₀ (axes of the frame); the function adds the sums over the nodes to both.
 template <int D, class S>
 void forces_on_nodes(const SuperelementBody& body, const LocalMotion<S>& motion,
                      Eigen::Matrix<S, Space<D>::turns, 1> moment, Eigen::Matrix<S, D, 1> total,
@@ -238,9 +244,10 @@ void forces_on_nodes(const SuperelementBody& body, const LocalMotion<S>& motion,
   }
 }
 
-/// Residual r = Pᵀ M̄ ÿ + [Pᵀ(O₀ ∓ O_B) − UᵀVᵀ] p + Υᵀ(S̄ y + D ẏ) − gravity: THEORY (30), (20), (40), (39). O_B has − in
-/// option A ([Car00] (45)) and + in B ((60)). The sign of UᵀVᵀ is corrected: the print has +, which contradicts its own
-/// derivation and Lagrange's equations. Option M is THEORY (35); its force m Jᵀ ẍ_cm is that of a gravity −ẍ_cm.
+/// Computes the residual r = Pᵀ M̄ ÿ + [Pᵀ(O₀ ∓ O_B) − UᵀVᵀ] p + Υᵀ(S̄ y + D ẏ) − gravity, THEORY (30), (20), (40),
+/// (39). O_B has − in inertia option A and + in B ([Car00] (45), (60)). The sign of UᵀVᵀ is corrected: the print has +,
+/// which contradicts its own derivation and Lagrange's equations. Option M is THEORY (35), in which m Jᵀ ẍ_cm is the
+/// force of a gravity −ẍ_cm.
 template <class S>
 void superelement_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Eigen::Vector3d& gravity,
                          SuperelementForces<S>& out) {

@@ -9,16 +9,17 @@
 
 namespace tisserand::mechanism {
 
-/// Terms of THEORY (43), (44) at one y: h_a = Γ_a y, e_a = l_a·y + g_a, g_a = ½ y·h_a.
+/// Terms of stiffening at one y, THEORY (43), (44): h_a = Γ_a y, g_a = ½ y·h_a, e_a = l_a·y + g_a for each row a.
 template <class S>
 struct StrainTerms {
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  Vector y;       ///< N, boundary then internal
-  FormRows<S> h;  ///< rows x N
-  Vector g, e;    ///< rows
-  Vector linear;  ///< rows: l_a·y
-  Vector force;   ///< N: ∂V/∂y − S̄ y = Σ (g_a l_a + e_a h_a), then also the damping of add_strain_damping()
-  S damping_power = S(0.0);  ///< damping power in excess of b ẏᵀ S̄ ẏ
+  Vector y;       ///< (N): boundary, then internal coordinates
+  FormRows<S> h;  ///< (rows x N)
+  Vector g, e;    ///< (rows)
+  Vector linear;  ///< (rows): l_a·y
+  /// Force ∂V/∂y − S̄ y = Σ (g_a l_a + e_a h_a) (N). add_strain_damping() adds its damping force.
+  Vector force;
+  S damping_power = S(0.0);  ///< damping power less b ẏᵀ S̄ ẏ
 };
 
 template <class S>
@@ -32,7 +33,7 @@ StrainTerms<S> make_strain_terms(const Stiffening& stiffening) {
   return t;
 }
 
-/// Sets `t` at the y of `motion`: THEORY (43), (44).
+/// Sets the terms of stiffening `t` at the y of `motion`, THEORY (43), (44).
 template <class S>
 void strain_terms(const Stiffening& stiffening, const LocalMotion<S>& motion, StrainTerms<S>& t) {
   t.y << motion.y_B, motion.y_I;
@@ -47,7 +48,8 @@ void strain_terms(const Stiffening& stiffening, const LocalMotion<S>& motion, St
   add_transposed<Eigen::Dynamic, S>(t.h, t.e, t.force);
 }
 
-/// Adds THEORY (45) less b S̄ ẏ: t.force += b [(L + h)ᵀ(L + h) − LᵀL] ẏ. Needs strain_terms() and deformation_rates().
+/// Adds to t.force the damping force of THEORY (45) less b S̄ ẏ: b [(L + h)ᵀ(L + h) − LᵀL] ẏ. Requires strain_terms()
+/// and deformation_rates(). `b`: stiffness-proportional damping factor (a time).
 template <class S>
 void add_strain_damping(const Stiffening& stiffening, double b, const LocalMotion<S>& motion, StrainTerms<S>& t) {
   const auto rate = [&motion](Eigen::Index k) {
@@ -67,7 +69,7 @@ void add_strain_damping(const Stiffening& stiffening, double b, const LocalMotio
   }
 }
 
-/// Energy V of THEORY (43) less ½ yᵀ S̄ y.
+/// Strain energy of stiffening: V of THEORY (43) less ½ yᵀ S̄ y.
 template <class S>
 S strain_energy(const StrainTerms<S>& t) {
   S sum(0.0);

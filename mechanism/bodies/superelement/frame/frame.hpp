@@ -13,14 +13,14 @@
 
 namespace tisserand::mechanism {
 
-/// NodeMotion with any scalar (mechanism/frames/motion.hpp explains the fields).
+/// Motion of a node with any scalar S; NodeMotion (mechanism/frames/motion.hpp) explains the fields.
 template <class S>
 struct NodeMotionOf {
   Vec3<S> x, xd, Omega, xdd, Omegad;
   Mat3<S> R;
 };
 
-/// View of the nodes of one body among those of the model.
+/// View of the nodes of one body among those of the model: item i is node index[i].
 template <class Node>
 struct NodeView {
   const Node* nodes;
@@ -28,33 +28,34 @@ struct NodeView {
   const Node& operator[](std::size_t i) const { return nodes[index[i]]; }
 };
 
-/// One boundary node relative to the floating frame (axes of the frame unless stated).
+/// Pose and rates of one boundary node relative to the floating frame x₀, R₀, in axes of the frame unless stated.
 template <class S>
 struct LocalNode {
-  Mat3<S> E;      ///< R₀ᵀ Rᵢ; used, and always up to date, only with inertia option A
-  Vec3<S> psi;    ///< log E
+  Mat3<S> E;      ///< R₀ᵀ Rᵢ; may be out of date except with inertia option A
+  Vec3<S> psi;    ///< rotation vector log E
   Mat3<S> Tinv;   ///< T⁻¹(ψᵢ); T⁻¹(−ψᵢ) is its transpose
-  Mat3<S> U;      ///< δΘ₀ = Σ Uⱼ δΘⱼ + Σ U_xⱼ δxⱼ
-  Mat3<S> U_x;    ///< only with FrameAlgorithm::polar (δxⱼ in world axes)
-  Vec3<S> xh;     ///< R₀ᵀ(xᵢ − x₀) = Xᵢ + uᵢ
-  Vec3<S> xd;     ///< R₀ᵀ ẋᵢ
-  Vec3<S> Omega;  ///< rate in the inertia: option A Eᵢ Ωᵢ, option B Ωᵢ
+  Mat3<S> U;      ///< ∂Θ₀/∂Θᵢ: δΘ₀ = Σ Uⱼ δΘⱼ + Σ U_xⱼ δxⱼ
+  Mat3<S> U_x;    ///< ∂Θ₀/∂xᵢ (world axes); only with FrameAlgorithm::polar
+  Vec3<S> xh;     ///< position R₀ᵀ(xᵢ − x₀) = Xᵢ + uᵢ
+  Vec3<S> xd;     ///< velocity R₀ᵀ ẋᵢ
+  Vec3<S> Omega;  ///< angular rate of THEORY (26): Eᵢ Ωᵢ with option A, else Ωᵢ
 };
 
-/// Quantities that follow from the motion of the nodes and the internal coordinates.
+/// Motion of a superelement body: its floating frame, local coordinates y and their rates, from the motion of the nodes
+/// and the internal coordinates.
 template <class S>
 struct LocalMotion {
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   Vec3<S> x0 = Vec3<S>::Zero();
   Mat3<S> R0 = Mat3<S>::Identity();
-  Vec3<S> Omega0 = Vec3<S>::Zero();  ///< material, U q̇
+  Vec3<S> Omega0 = Vec3<S>::Zero();  ///< angular velocity U q̇, axes of the frame
   std::vector<LocalNode<S>> node;
-  Vector y_B;                         ///< [u, ψ] per node
-  Vector rate_B;                      ///< P q̇: the rates in the kinetic energy
-  Vector acceleration_B;              ///< P q̈ + V Ω₀
+  Vector y_B;                         ///< local coordinates [u, ψ] per node
+  Vector rate_B;                      ///< P q̇: rates in the kinetic energy, THEORY (26)
+  Vector acceleration_B;              ///< P q̈ + V Ω₀, THEORY (29)
   Vector deformation_rate_B;          ///< Υ q̇ = ẏ_B; only with damping, load cases or inertia options M and F
   Vector deformation_acceleration_B;  ///< ÿ_B of the deformation; only with inertia options M and F
-  Vec3<S> origin_velocity = Vec3<S>::Zero();      ///< R₀ᵀẋ₀; available as deformation_rate_B
+  Vec3<S> origin_velocity = Vec3<S>::Zero();      ///< R₀ᵀẋ₀; available when deformation_rate_B is
   Vec3<S> origin_acceleration = Vec3<S>::Zero();  ///< R₀ᵀẍ₀; only with inertia options M and F
   Vec3<S> Omega0d = Vec3<S>::Zero();              ///< Ω̇₀; only with inertia options M and F
   Vec3<S> center = Vec3<S>::Zero();               ///< c = X_cm + Φ_TᵀM̄ y/m; only with inertia option M
@@ -101,10 +102,10 @@ Mat3<S> inverse3(const Mat3<S>& A) {
 
 namespace frame {
 
-/// Smallest correction [rad] that needs another iteration; the next iterate would differ by its cube.
+/// Limit of the correction of R₀ [rad] below which the iteration ends. The next iterate would differ by its cube.
 inline constexpr double kTolerance = 1e-14;
 inline constexpr int kMaxIterations = 30;
-/// Derivatives in the scalar need further iterations after the values have converged.
+/// Least number of iterations. Scalars with derivatives need two after the values have converged.
 template <class S>
 inline constexpr int kMinIterations = std::is_same_v<S, double> ? 0 : 2;
 
@@ -114,7 +115,7 @@ double size(const Vec3<S>& a) {
                    real_part(a.z()) * real_part(a.z()));
 }
 
-/// Computes E, ψ, T⁻¹ of every rotation node for the present R₀.
+/// Computes E, ψ and T⁻¹ of every node with rotations for the R₀ in `motion`.
 template <class S, class Node>
 void local_rotations(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   for (const int j : body.rotation_nodes) {
@@ -125,7 +126,7 @@ void local_rotations(const SuperelementBody& body, const NodeView<Node>& nodes, 
   }
 }
 
-/// Frame of one node: R₀ = R_k, U_k = 1.
+/// Sets the frame to that of one node: R₀ = R_k, U_k = 1.
 template <class S, class Node>
 void single_node(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   motion.R0 = nodes[body.frame_node].R;
@@ -133,7 +134,7 @@ void single_node(const SuperelementBody& body, const NodeView<Node>& nodes, Loca
   motion.node[body.frame_node].U.setIdentity();
 }
 
-/// Exact variation of the Karcher mean, THEORY (14): Uⱼ = A⁻¹ αⱼ T⁻¹(ψⱼ), A = Σ αⱼ T⁻¹(−ψⱼ).
+/// Sets U of all nodes to the exact variation of the Karcher mean, THEORY (14): Uⱼ = A⁻¹ αⱼ T⁻¹(ψⱼ), A = Σ αⱼ T⁻¹(−ψⱼ).
 template <class S>
 void karcher_variation(const SuperelementBody& body, LocalMotion<S>& motion) {
   Mat3<S> A = Mat3<S>::Zero();
@@ -148,7 +149,8 @@ void karcher_variation(const SuperelementBody& body, LocalMotion<S>& motion) {
   }
 }
 
-/// Solution of THEORY (12) for two rotation nodes: with φ = log(R₁ᵀR₂), R₀ = R₁ exp(α₂ φ), ψ₁ = −α₂ φ, ψ₂ = α₁ φ.
+/// Sets the frame to the Karcher mean of two nodes with rotations, which solves THEORY (12) in closed form. With
+/// φ = log(R₁ᵀR₂) it is R₀ = R₁ exp(α₂ φ), and ψ₁ = −α₂ φ, ψ₂ = α₁ φ.
 template <class S, class Node>
 void pair(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   const auto i1 = static_cast<std::size_t>(body.rotation_nodes[0]),
@@ -166,8 +168,8 @@ void pair(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion
   karcher_variation(body, motion);
 }
 
-/// Newton's iteration on THEORY (12), Σ αⱼ log(R₀ᵀRⱼ) = 0, from the R₀ in `motion`. THEORY (13): R₀ ← R₀ exp(A⁻¹ Σ αⱼ
-/// ψⱼ).
+/// Iterates the frame to the Karcher mean, THEORY (12), from the R₀ in `motion`. Newton's method, THEORY (13),
+/// replaces R₀ by R₀ exp(A⁻¹ Σ αⱼ ψⱼ) with A = Σ αⱼ T⁻¹(−ψⱼ), weights αⱼ and rotations ψⱼ of the boundary nodes.
 template <class S, class Node>
 void karcher(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   for (int iteration = 0;; ++iteration) {
@@ -188,8 +190,8 @@ void karcher(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMot
   karcher_variation(body, motion);
 }
 
-/// Frame of THEORY (15), [Car00] (16), (19): R₀ = R_ref exp(b₀), b₀ = Σ αⱼ bⱼ, bⱼ = log(R_refᵀRⱼ);
-/// Uⱼ = T(b₀) αⱼ T⁻¹(bⱼ). R_ref is the R₀ in `motion`.
+/// Sets the frame to the incremental mean, THEORY (15): R₀ = R_ref exp(b₀), b₀ = Σ αⱼ bⱼ, bⱼ = log(R_refᵀRⱼ),
+/// Uⱼ = T(b₀) αⱼ T⁻¹(bⱼ). On entry R_ref is the R₀ in `motion`.
 template <class S, class Node>
 void incremental(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   const Mat3<S> R_ref = motion.R0;
@@ -209,9 +211,9 @@ void incremental(const SuperelementBody& body, const NodeView<Node>& nodes, Loca
   local_rotations(body, nodes, motion);
 }
 
-/// Frame of nodes without rotations, THEORY (16). Newton's iteration from the R₀ in `motion` solves
-/// Σ wᵢ Xᵢ × R₀ᵀ(xᵢ − x̄) = 0. The exact variation is δΘ₀ = D⁻¹ Σ wᵢ Xᵢ~ R₀ᵀ δxᵢ, D = Σ wᵢ ((Xᵢ·x̂ᵢ) 1 − x̂ᵢ Xᵢᵀ), with X
-/// and x̂ relative to their means with the weights w.
+/// Iterates the frame of nodes without rotations, THEORY (16), by Newton's method from the R₀ in `motion`. The
+/// condition is Σ wᵢ Xᵢ × x̂ᵢ = 0 with x̂ᵢ = R₀ᵀ(xᵢ − x̄). The exact variation is δΘ₀ = D⁻¹ Σ wᵢ Xᵢ~ R₀ᵀ δxᵢ, D = Σ wᵢ
+/// ((Xᵢ·x̂ᵢ) 1 − x̂ᵢ Xᵢᵀ). X counts from its mean with the weights w, as x does from x̄.
 template <class S, class Node>
 void polar(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   Vec3<S> mean = Vec3<S>::Zero();
@@ -247,7 +249,8 @@ void polar(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotio
 
 }  // namespace frame
 
-/// Computes R₀, ψ, T⁻¹ and U. On entry motion.R0 holds the guess (karcher, polar) or R_ref (incremental).
+/// Computes the floating frame R₀, and ψ, T⁻¹ and U of the nodes. Requires in motion.R0 a guess for `karcher` and
+/// `polar`, and R_ref for `incremental`.
 template <class S, class Node>
 void floating_frame(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   motion.frame_iterations = 0;

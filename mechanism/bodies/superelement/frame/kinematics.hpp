@@ -12,7 +12,8 @@
 
 namespace tisserand::mechanism {
 
-/// Sets ẏ_B = Υ q̇ and the velocity of x₀, THEORY (23): u̇ᵢ = R₀ᵀ(ẋᵢ − ẋ₀) + x̂ᵢ × Ω₀, ψ̇ᵢ = T⁻¹(ψᵢ) Ωᵢ − T⁻¹(−ψᵢ) Ω₀.
+/// Sets the rates of deformation ẏ_B = Υ q̇ and the velocity of x₀, THEORY (23): u̇ᵢ = R₀ᵀ(ẋᵢ − ẋ₀) + x̂ᵢ × Ω₀,
+/// ψ̇ᵢ = T⁻¹(ψᵢ) Ωᵢ − T⁻¹(−ψᵢ) Ω₀.
 template <int D, class S, class Node>
 void deformation_rates_in(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   motion.origin_velocity.setZero();
@@ -38,8 +39,8 @@ void deformation_rates(const SuperelementBody& body, const NodeView<Node>& nodes
   in_space(body.planar, [&]<int D>() { deformation_rates_in<D>(body, nodes, motion); });
 }
 
-/// Computes ÿ_B of the deformation, Ω̇₀ and the acceleration of x₀ by THEORY (24), after deformation_rates():
-/// ü = R₀ᵀ(ẍ − ẍ₀) − 2 Ω₀ × u̇ − Ω₀ × (Ω₀ × x̂) − Ω̇₀ × x̂, and the derivative of ψ̇ = T⁻¹(ψ) Ω − T⁻¹(−ψ) Ω₀.
+/// Computes accelerations ÿ_B of the deformation, Ω̇₀ and the acceleration of x₀, THEORY (24). ü = R₀ᵀ(ẍ − ẍ₀) − 2 Ω₀ ×
+/// u̇ − Ω₀ × (Ω₀ × x̂) − Ω̇₀ × x̂, and ψ̈ is the derivative of T⁻¹(ψ) Ω − T⁻¹(−ψ) Ω₀. Requires deformation_rates().
 template <int D, class S, class Node>
 void deformation_accelerations_in(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   const Mat3<S> R0T = motion.R0.transpose();
@@ -74,8 +75,7 @@ void deformation_accelerations(const SuperelementBody& body, const NodeView<Node
   in_space(body.planar, [&]<int D>() { deformation_accelerations_in<D>(body, nodes, motion); });
 }
 
-/// Computes y_B of THEORY (17), and rates and accelerations of the inertia by THEORY (26) and (29): ẏ = P q̇,
-/// ÿ = P q̈ + V Ω₀ ([Car00] (36)-(41), (52)-(58)).
+/// Computes y_B of THEORY (17), and the rates P q̇ and P q̈ + V Ω₀ of the inertia by THEORY (26) and (29).
 template <int D, class S, class Node>
 void local_rates(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   constexpr int T = Space<D>::turns;
@@ -135,8 +135,8 @@ void local_motion_in(const SuperelementBody& body, const NodeView<Node>& nodes, 
   local_rates<D>(body, nodes, motion);
 }
 
-/// Computes all of LocalMotion except the internal coordinates, which the caller copies. motion.R0 as in
-/// floating_frame().
+/// Computes all of LocalMotion except the internal coordinates, which the caller must copy. Requires in motion.R0 the
+/// value that floating_frame() requires.
 template <class S, class Node>
 void local_motion(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   const bool exact_center = body.inertia == formats::InertiaOption::M;

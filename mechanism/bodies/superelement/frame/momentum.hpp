@@ -10,8 +10,8 @@
 
 namespace tisserand::mechanism {
 
-/// Derivative e' of THEORY (5), of e of inverse_tangent_so3() by s = |ψ|²: (1/8 − 3e/2)/s + e²/2. Small s use its
-/// series (|B₂ₖ|/(2k)!), because the formula loses digits there.
+/// Derivative e' = de/ds of the factor e of T⁻¹(ψ), s = |ψ|², THEORY (5): (1/8 − 3e/2)/s + e²/2. Below s = 0.1 it is a
+/// series, because the formula loses digits there.
 template <class S>
 S inverse_tangent_slope(const S& s, const S& e) {
   return real_part(s) < 0.1
@@ -21,8 +21,8 @@ S inverse_tangent_slope(const S& s, const S& e) {
              : S((0.125 - 1.5 * e) / s + 0.5 * e * e);
 }
 
-/// Rate d/dt T⁻¹(ψ) for given ψ̇, THEORY (5): ψ̇~/2 + e (ψ̇~ψ~ + ψ~ψ̇~) + 2 e' (ψ·ψ̇) ψ~², with e of inverse_tangent_so3()
-/// as a function of s = |ψ|².
+/// Rate d/dt T⁻¹(ψ) at the rate ψ̇ (`psid`), THEORY (5): ψ̇~/2 + e (ψ̇~ψ~ + ψ~ψ̇~) + 2 e' (ψ·ψ̇) ψ~². e is that of T⁻¹,
+/// a function of s = |ψ|², and e' = de/ds.
 template <class S>
 Mat3<S> inverse_tangent_rate(const Vec3<S>& psi, const Vec3<S>& psid) {
   const S s = dot3<S>(psi, psi);
@@ -32,7 +32,7 @@ Mat3<S> inverse_tangent_rate(const Vec3<S>& psi, const Vec3<S>& psid) {
   return 0.5 * Pd + f.e * (Pd * P + P * Pd) + (2.0 * slope * dot3<S>(psi, psid)) * (P * P);
 }
 
-/// Term b = Ṫ⁻¹ Ω − Ṫ⁻ᵀ Ω₀ of THEORY (24), ψ̈ without angular accelerations. Only the first term of Ṫ⁻¹ is skew.
+/// Part b = Ṫ⁻¹ Ω − Ṫ⁻ᵀ Ω₀ of ψ̈ without angular accelerations, THEORY (24). Only the first term of Ṫ⁻¹ is skew.
 template <class S>
 Vec3<S> turning_bias(const Vec3<S>& psi, const Vec3<S>& psid, const Vec3<S>& Omega, const Vec3<S>& Omega0) {
   const S s = dot3<S>(psi, psi);
@@ -43,7 +43,7 @@ Vec3<S> turning_bias(const Vec3<S>& psi, const Vec3<S>& psid, const Vec3<S>& Ome
          f.e * (cross<S>(psid, turned) + cross<S>(psi, cross<S>(psid, relative))) + bend * cross<S>(psi, turned);
 }
 
-/// Sets the rotation rows of ÿ_B to turning_bias() alone, which is zero in the plane. Needs deformation_rates().
+/// Sets the rotation rows of ÿ_B to turning_bias() alone. In the plane it is zero. Requires deformation_rates().
 template <int D, class S, class Node>
 void turning_biases(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   for (std::size_t i = 0; i < body.node.size(); ++i) {
@@ -58,8 +58,9 @@ void turning_biases(const SuperelementBody& body, const NodeView<Node>& nodes, L
   }
 }
 
-/// Rate Ω̇₀ = U q̈ + U̇ q̇ of THEORY (25), after turning_biases(). The second derivative of Σ αⱼ ψⱼ = 0 gives
-/// U̇ q̇ = Σ Uⱼ T(ψⱼ) (Ṫ⁻¹(ψⱼ) Ωⱼ − Ṫ⁻ᵀ(ψⱼ) Ω₀). For the polar frame it is Σ U_xⱼ R₀ (−2 Ω₀ × x̂ⱼ' − Ω₀ × (Ω₀ × x̂ⱼ)).
+/// Angular acceleration of the frame, Ω̇₀ = U q̈ + U̇ q̇, THEORY (25). By the second derivative of Σ αⱼ ψⱼ = 0, U̇ q̇
+/// is Σ Uⱼ T(ψⱼ) (Ṫ⁻¹(ψⱼ) Ωⱼ − Ṫ⁻ᵀ(ψⱼ) Ω₀). For the polar frame U̇ q̇ is Σ U_xⱼ R₀ (−2 Ω₀ × u̇ⱼ − Ω₀ × (Ω₀ × x̂ⱼ)).
+/// Requires turning_biases().
 template <int D, class S, class Node>
 auto frame_acceleration(const SuperelementBody& body, const NodeView<Node>& nodes, const LocalMotion<S>& motion) {
   using Rotation = Eigen::Matrix<S, Space<D>::turns, 1>;
@@ -90,7 +91,7 @@ auto frame_acceleration(const SuperelementBody& body, const NodeView<Node>& node
   return acceleration;
 }
 
-/// Adds Γ v to sum; planar bodies have two rows of Γ.
+/// Adds Γ v to `sum`. Planar bodies use the first two of the three rows of Γ.
 template <class S>
 void add_sum(const SuperelementBody& body, const Eigen::Matrix<double, 3, Eigen::Dynamic>& Gamma,
              const Eigen::Matrix<S, Eigen::Dynamic, 1>& v, Vec3<S>& sum) {
@@ -103,7 +104,7 @@ void add_sum(const SuperelementBody& body, const Eigen::Matrix<double, 3, Eigen:
   sum << x, y, z;
 }
 
-/// Subtracts Γᵀ g from f.
+/// Subtracts Γᵀ g from `f`. Planar bodies use the first two of the three rows of Γ.
 template <class S>
 void subtract_share(const SuperelementBody& body, const Eigen::Matrix<double, 3, Eigen::Dynamic>& Gamma,
                     const Vec3<S>& g, Eigen::Matrix<S, Eigen::Dynamic, 1>& f) {
@@ -115,7 +116,7 @@ void subtract_share(const SuperelementBody& body, const Eigen::Matrix<double, 3,
   }
 }
 
-/// Mean Φ_TᵀM̄ [boundary; internal] / m.
+/// Mean displacement or rate of the mass, Φ_TᵀM̄ [boundary; internal] / m, from local coordinates or their rates.
 template <class S>
 Vec3<S> mean_of(const SuperelementBody& body, const Eigen::Matrix<S, Eigen::Dynamic, 1>& boundary,
                 const Eigen::Matrix<S, Eigen::Dynamic, 1>& internal) {
@@ -125,9 +126,10 @@ Vec3<S> mean_of(const SuperelementBody& body, const Eigen::Matrix<S, Eigen::Dyna
   return sum / body.mass;
 }
 
-/// Computes motion.center, center_rate, center_velocity and center_acceleration. By THEORY (32), x_cm = x₀ + R₀ c with
-/// c = X_cm + Φ_TᵀM̄ y/m; THEORY (36) in axes of the frame gives ẋ₀ + Ω₀ × c + ċ and
-/// ẍ₀ + Ω̇₀ × c + Ω₀ × (Ω₀ × c) + 2 Ω₀ × ċ + c̈. Needs deformation_accelerations().
+/// Computes position, velocity and acceleration of the centre of mass: motion.center, center_rate, center_velocity and
+/// center_acceleration. By THEORY (32), x_cm = x₀ + R₀ c with c = X_cm + Φ_TᵀM̄ y/m. In axes of the frame the velocity
+/// is ẋ₀ + Ω₀ × c + ċ, and by THEORY (36) the acceleration is ẍ₀ + Ω̇₀ × c + Ω₀ × (Ω₀ × c) + 2 Ω₀ × ċ + c̈. Requires
+/// deformation_accelerations().
 template <class S>
 void center_of_mass_motion(const SuperelementBody& body, LocalMotion<S>& motion) {
   const Vec3<S> w = motion.Omega0, wd = motion.Omega0d;

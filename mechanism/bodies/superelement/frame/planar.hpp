@@ -19,8 +19,8 @@ Mat3<S> about_z(const S& cosine, const S& sine) {
   return R;
 }
 
-/// Frame of rotation nodes: θ₀ = Σ αⱼ θⱼ, with angles from the first of them. In the plane all frames from rotations
-/// are equal to it.
+/// Sets the frame of a planar body from the rotations of its nodes: θ₀ = Σ αⱼ θⱼ, with angles θⱼ from the first of the
+/// nodes. In the plane all frames from rotations are equal to this one.
 template <class S, class Node>
 void frame_of_rotations(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   using std::cos, std::sin;
@@ -40,7 +40,8 @@ void frame_of_rotations(const SuperelementBody& body, const NodeView<Node>& node
   }
 }
 
-/// Frame of nodes without rotations: tan θ₀ = Σ w X × d / Σ w X·d, d = x − x̄; row z of U_x is its variation.
+/// Sets the frame of a planar body from the positions of its nodes: tan θ₀ = Σ w X × d / Σ w X·d, d = x − x̄. x̄ is the
+/// mean with the weights w of THEORY (16). Row z of U_x is the variation of θ₀.
 template <class S, class Node>
 void frame_of_places(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   using std::sqrt;
@@ -61,7 +62,7 @@ void frame_of_places(const SuperelementBody& body, const NodeView<Node>& nodes, 
   }
 }
 
-/// Planar counterpart of the spatial floating_frame(), with U and U_x.
+/// Computes the floating frame of a planar body: R₀, and ψ, U and U_x of the nodes.
 template <class S, class Node>
 void floating_frame(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   motion.frame_iterations = 0;

@@ -7,8 +7,9 @@
 
 namespace tisserand::mechanism {
 
-/// Factors of A_II: a diagonal, Cholesky factors, or LU if it is not positive definite. LU is needed beyond a buckling
-/// load of the body with its boundary held, and for an exact tangent.
+/// Factors of the internal block A_II of a tangent: reciprocals of a diagonal, Cholesky factors, or LU factors if A_II
+/// is not positive definite. LU is needed beyond a buckling load of the body with its boundary held, and for an exact
+/// tangent.
 class InternalFactor {
  public:
   InternalFactor();
@@ -27,7 +28,7 @@ class InternalFactor {
   /// Reciprocals 1/A of a diagonal matrix A.
   const Eigen::VectorXd& reciprocals() const { return reciprocals_; }
 
-  /// Subtracts Bᵀ A⁻¹ B from the lower triangle of S, for a symmetric matrix A. Overwrites B (modes x columns).
+  /// Subtracts Bᵀ A⁻¹ B from the lower triangle of S, for a symmetric factored A. Overwrites B (modes x columns of S).
   void subtract_schur(Eigen::MatrixXd& B, Eigen::MatrixXd& S) const;
 
  private:
