@@ -33,8 +33,8 @@ struct Block {
 /// is not applied.
 std::vector<Block> all_blocks(const ResultsLayout& layout);
 
-/// Channel or pattern with the alias of a node replaced by the stored name: "nodes/position/rod/end/x" becomes
-/// "nodes/position/rod/8/x".
+/// Replaces the second name of a node in a channel or pattern by its stored name. For example,
+/// "nodes/position/rod/end/x" becomes "nodes/position/rod/8/x".
 std::string without_alias(std::string channel, const ResultsLayout& layout);
 
 /// Blocks of /modes, whose rows are modes instead of instants.

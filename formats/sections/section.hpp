@@ -20,7 +20,8 @@ struct Material {
 inline Material unit_material(const std::string& where) { return {"", 1.0, -0.5, 0.0, where}; }
 
 /// Constants of a beam section in its local axes: x along the beam, y and z across it. Moments are about the centroid.
-/// Shear areas of 0 mean no shear deformation (Euler-Bernoulli). Iy = Iz = 0 means a rod without bending stiffness.
+/// If a shear area is 0, the beam has no shear deformation (Euler-Bernoulli). If Iy = Iz = 0, it is a rod, which does
+/// not resist bending.
 /// `second_moment_yz` to `shear_coupling` are zero if y and z are principal axes and centroid and shear centre lie on
 /// the beam's axis. For a section given by stiffness, the constants include E or G: area is EA, shear areas are GA,
 /// torsion_constant is GJ. Its mass and rotary inertia are given, and its material is unit_material().
@@ -52,7 +53,8 @@ struct Section {
   double rotary_inertia_z = 0.0;  ///< about z: ∫ρ y² dA
 };
 
-/// Mass and rotary inertias of a section about its centroid, per length of the beam. about_x = about_y + about_z.
+/// Mass and rotary inertias of a section about its centroid, per length of the beam. `about_x` is the sum of
+/// `about_y` and `about_z`.
 struct SectionInertia {
   double mass = 0.0, about_x = 0.0, about_y = 0.0, about_z = 0.0;
   double about_yz = 0.0;  ///< ∫ρ y z dA

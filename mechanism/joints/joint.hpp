@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Joints between two markers. A joint keeps relations at zero: it has constraints Φ, their Jacobian B, the bias of Φ̈
-// and the geometric stiffness of its reactions. joint_laws.cpp lists the relations of each kind.
+// Joints between two markers. The constraints Φ of a joint are zero. This file also has their Jacobian B, the bias of
+// Φ̈ and the geometric stiffness of the reactions. joint_laws.cpp lists the constraints of each kind.
 #pragma once
 
 #include <array>
@@ -68,8 +68,8 @@ std::vector<NamedRelation> free_coordinates(const Joint& joint);
 /// Name of one equation for messages, e.g. "translation x" or "z axis of B normal to x axis of A".
 std::string joint_equation_name(const Joint& joint, int equation);
 
-/// Values of one joint at one instant: Φ, its Jacobian B and the bias of Φ̈. The first size() rows are in use. Columns
-/// of B are [x_A Θ_A x_B Θ_B]: world translations and material rotations of both carriers.
+/// Values of one joint at one instant: Φ, its Jacobian B and the bias of Φ̈. Only the first size() rows
+/// are used. The columns of B are [x_A Θ_A x_B Θ_B]: world translations and material rotations of both carriers.
 struct JointTerms {
   Eigen::Matrix<double, 6, 1> phi = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::Matrix<double, 6, 12> B = Eigen::Matrix<double, 6, 12>::Zero();

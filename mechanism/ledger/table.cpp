@@ -72,7 +72,7 @@ std::string ledger_text(const Ledger& ledger, const Units& units) {
                   1e6 * ledger.seconds_per_step, std::ceil(100.0 * ledger.scatter));
   for (const LedgerLine& line : ledger.lines) text += fmt::format("  {}\n", line_text(line));
   for (const std::string& verdict : ledger.verdicts) text += fmt::format("  {}\n", verdict);
-  if (!ledger.doubt.empty()) text += fmt::format("  in doubt: {}\n", ledger.doubt);
+  if (!ledger.doubt.empty()) text += fmt::format("  warning: {}\n", ledger.doubt);
   if (ledger.interrupted) text += "  interrupted: some effects are missing\n";
   return text;
 }

@@ -216,7 +216,8 @@ void find_modes(Run& run, RowWriter& out) {
                     modes.undecided, modes.axes.x() + modes.spin.x(), modes.axes.y() + modes.spin.y(),
                     modes.axes.z() + modes.spin.z()));
   if (const auto unstable = std::ranges::count_if(modes.modes, &Mode::unstable); unstable > 0)
-    report.notes.push_back(fmt::format("{} modes grow: the state is unstable", unstable));
+    report.notes.push_back(fmt::format("{}: the state is unstable",
+                                       unstable == 1 ? "1 mode grows" : fmt::format("{} modes grow", unstable)));
   write_row(run, {}, 0.0, out, [](formats::ResultsRow& row) { row.work = row.dissipated = row.balance = none; });
   formats::ModesTable table = modes_table(model, run.workspace.now, modes);
   if (out.row.y.size() + out.row.w.size() > 0) add_body_coordinates(run, modes, run.workspace.now, out.row, table);

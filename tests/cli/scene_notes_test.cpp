@@ -37,7 +37,7 @@ TEST_F(SceneNotes, AreReportedOnceAndWhatAnAnalysisFindsEachTime) {
   write_text(file("door.scene.yaml"), door);
   const Outcome run = mechanism({"run", "door.scene.yaml"});
   ASSERT_EQ(run.code, 0) << run.error;
-  const std::string redundant = "are not unique: those of least norm are stored", found = "1 modes grow";
+  const std::string redundant = "are not unique: those of least norm are stored", found = "1 mode grows";
   EXPECT_EQ(count(run.out, redundant), 1) << run.out;
   EXPECT_EQ(count(run.out, found), 2) << run.out;
   EXPECT_EQ(count(mechanism({"check", "door.scene.yaml"}).out, redundant), 1);
