@@ -100,7 +100,8 @@ bool close_door() {
   filter.add(allow, {SYS_read,           SYS_write,        SYS_pread64,         SYS_munmap,  SYS_brk,
                      SYS_mremap,         SYS_madvise,      SYS_mprotect,        SYS_futex,   SYS_clock_gettime,
                      SYS_sched_yield,    SYS_getpid,       SYS_gettid,          SYS_sysinfo,
-                     SYS_sigaltstack,  // sanitizers call it before they throw
+                     SYS_sigaltstack,                                         // sanitizers call it before they throw
+                     SYS_rseq,           SYS_nanosleep,    SYS_gettimeofday,  // threads of sanitizers call them
                      SYS_rt_sigprocmask, SYS_rt_sigreturn, SYS_restart_syscall, SYS_exit,    SYS_exit_group});
   filter.add(allow, SYS_mmap, {3, MAP_TYPE, MAP_PRIVATE, false});
   return filter.install();
