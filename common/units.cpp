@@ -84,4 +84,10 @@ std::string energy_label(const Units& units) {
 
 std::string after_number(const std::string& label) { return label.empty() ? "" : " " + label; }
 
+std::string after_time(const Units& units) { return after_number(unit_label(units, 0, 0, 1)); }
+
+std::string turn_rate_label(const Units& units) {
+  return units.named() ? "rad/" + unit_label(units, 0, 0, 1) : "rad per unit of time";
+}
+
 }  // namespace tisserand

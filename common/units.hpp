@@ -51,5 +51,10 @@ std::string energy_label(const Units& units);
 
 /// Label of a unit as written after a number, for example " N". Empty for unnamed units.
 std::string after_number(const std::string& label);
+/// Label of the unit of time as written after a number, for example " s". Empty if the units are unnamed.
+std::string after_time(const Units& units);
+
+/// Label of the unit of angular velocity, for example "rad/s", or "rad per unit of time" if the units are unnamed.
+std::string turn_rate_label(const Units& units);
 
 }  // namespace tisserand

@@ -14,6 +14,7 @@ namespace tisserand::reducer {
 
 enum class Command { run, solve, show, mesh, view, groups, section, recover, import_matrices, export_matrices };
 
+/// Arguments of a command line of `reducer`.
 struct Arguments {
   Command command = Command::run;
   std::string input;

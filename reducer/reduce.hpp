@@ -15,6 +15,7 @@
 
 namespace tisserand::reducer {
 
+/// Result of the reduction of a part: superelement, certificate and requested additional files.
 struct Reduction {
   formats::Superelement superelement;
   FileCertificate file;

@@ -16,6 +16,7 @@ struct Blocks {
   Array& array;
 };
 
+/// Numbers of nodes, modes and residual components of a modal body, which give the shapes of its arrays.
 struct ModalSizes {
   std::uint64_t n, m, f;  ///< nodes, modes, components of the residual
 };

@@ -73,6 +73,7 @@ ModalIntegrals integrals_of(const ModalBody& body);
 /// Checks all rules of MODAL_BODY.md. Returns warnings as sentences. `where`: file name in messages. Throws Error.
 std::vector<std::string> check(const ModalBody& body, const std::string& where);
 
+/// Modal body that was read from a file, with the warnings of its checks.
 struct LoadedModalBody {
   ModalBody body;
   std::vector<std::string> warnings;

@@ -36,6 +36,7 @@ struct MeshFile {
   double size = 0.0;      ///< largest edge of an element on geometry; 0: from the file or gmsh
   double smallest = 0.0;  ///< lower bound of the element size when it follows the curvature
   int curvature = 0;      ///< elements per full turn of a curved face; 0: sizes do not follow the curvature
+  /// Largest edge of an element on one group of the geometry.
   struct LocalSize {
     std::string group;
     double size = 0.0;
@@ -173,6 +174,7 @@ enum class SecondOrder { unless_large, yes, no };
 /// Request of a modal body file (MODAL_BODY.md): a floating-frame body with lumped masses, its lowest modes, and the
 /// reference of its frame.
 struct ModalBodyRequest {
+  /// Boundary node, point or spider that holds components of the frame.
   struct Held {
     std::string place;               ///< a boundary node, point or spider
     unsigned components = 0b111111;  ///< bit 0-2 translations x, y, z; bit 3-5 rotations

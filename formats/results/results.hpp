@@ -38,11 +38,13 @@ struct ResultsLayout {
   std::vector<int> modal_node_offset;    ///< modal_bodies.size() + 1 offsets into modal_nodes
   std::vector<std::string> modal_nodes;  ///< names of the loaded nodes of each modal body, without the body's name
   std::vector<std::string> joints;
+  /// Name of a stored coordinate, and whether it is a length or an angle.
   struct Coordinate {
     std::string name;     ///< "hinge", or "slide/z" for a joint with several
     bool length = false;  ///< true: a length; false: an angle
   };
   std::vector<Coordinate> coordinates;  ///< joint coordinates
+  /// Name of a coupling of two coordinates, and whether each of them is a length or an angle.
   struct Coupling {
     std::string name;
     bool first_length = false;  ///< the first coordinate is a length (false: an angle)
@@ -59,6 +61,7 @@ struct ResultsLayout {
   std::vector<int> stiffened;     ///< per superelement 1 with stiffening, 0 without; empty before version 1.13
   bool treads = false;            ///< some tyres have relaxation lengths: tread deflections are stored
   std::vector<Coordinate> loads;  ///< loads; `length` is true for a force and false for a moment
+  /// Name and unit of a quantity that the scene defines under `channels`.
   struct Quantity {
     std::string name;
     std::string unit;

@@ -20,6 +20,7 @@ struct CrgColumn {
 
 /// Head of an OpenCRG file: parameters, columns and the format of numbers.
 struct CrgHeader {
+  /// Value of a parameter, and the line of the file that gives it.
   struct Parameter {
     double value = 0.0;
     int line = 0;

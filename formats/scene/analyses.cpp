@@ -103,7 +103,8 @@ std::vector<KeySet> analysis_key_sets() {
   return {{"analysis",
            {choice<&Analysis::kind, analysis_kinds>("type", "kind of the analysis", "required"),
             {"from", "text",
-             "an analysis above: start from the positions and velocities at its end instead of the poses of the bodies",
+             "an earlier analysis in this list: start from the positions and velocities at its end instead of the "
+             "poses of the bodies",
              "none"},
             {"integrator", "integrator", "as for the scene; single values replace those of the scene",
              "those of the scene"},

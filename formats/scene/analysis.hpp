@@ -55,6 +55,7 @@ struct AccuracySpec {
   std::optional<double> scale;
 };
 
+/// Settings of the time integration: method, step, duration, tolerances and error control.
 struct IntegratorSpec {
   Method method = Method::generalised_alpha;
   double rho = 0.9;     ///< spectral radius at infinite frequency (generalised alpha)
@@ -79,6 +80,7 @@ struct RotationSpec {
   Eigen::Vector3d about = Eigen::Vector3d::Zero();
 };
 
+/// Settings of the search for an equilibrium.
 struct StaticsSpec {
   std::optional<RotationSpec> rotation;  ///< equilibrium in a steady rotation instead of at rest
   int load_steps = 1;
@@ -87,6 +89,7 @@ struct StaticsSpec {
   bool stable = false;  ///< whether to continue from an unstable equilibrium to a stable one
 };
 
+/// Selection of the instants and channels that a run stores.
 struct OutputSpec {
   int every = 1;
   std::optional<double> interval;
@@ -94,6 +97,7 @@ struct OutputSpec {
   std::vector<std::string> channels;  ///< stored groups or datasets such as "nodes", "nodes/position"; empty: all
 };
 
+/// Settings of an analysis of small vibrations.
 struct ModesSpec {
   int count = 20;  ///< number of lowest modes that are stored
   /// Angular velocity of the axes in which the state is steady. Absent: that of the analysis `from`, or 0.

@@ -167,73 +167,74 @@ std::vector<Field> start_fields() {
 }
 
 KeySet superelement_fields() {
-  return {
-      "body_superelement",
-      {{"type", "'superelement'", "", "required"},
-       plain<&SuperelementBodySpec::file>("file", "text", "superelement file", "required"),
-       {"mirror", "mirror",
-        "`yz`, `xz` or `xy`: mirror the part at this plane of its frame, before the pose is applied; a list: one plane "
-        "after another",
-        "no"},
-       choice<&SuperelementBodySpec::rigid, uses>("use",
-                                                  "`flexible`, or `rigid`: a rigid body with the mass and inertia of "
-                                                  "the file. The keys from `modes` to `damping` are then errors"),
-       plain<&SuperelementBodySpec::modes>("modes", "number_of",
-                                           "number of internal modes to use, lowest first, 0 or more", "all"),
-       plain<&SuperelementBodySpec::cutoff>(
-           "cutoff", "positive",
-           "instead of `modes`: use the internal modes below this frequency [1/time of the scene]", "all"),
-       choice<&SuperelementBodySpec::inertia, inertia_options>(
-           "inertia",
-           "inertia option `A`, `B`, `M` or `F`: see [inertia options](#inertia-options); `M` and `F` cannot be "
-           "combined with `frame: paper`",
-           "`B`; `F` with `second_order`"),
-       choice<&SuperelementBodySpec::stiffening, stiffening_options>(
-           "stiffening",
-           "geometric stiffness from the companion file: `off`; `stress`: from the stress in the body (needs inertia "
-           "`M` or `F`); `full`: from its stress and its inertia (needs inertia `F`)",
-           "`off`; `full` with `second_order`"),
-       choice<&SuperelementBodySpec::second_order, on_or_off>(
-           "second_order",
-           "`on`: `inertia: F` and `stiffening: full`; `off`: `inertia: B` and `stiffening: off`, as without a "
-           "companion file",
-           "`on` if a companion file lies beside the superelement file and neither `inertia` nor `stiffening` is "
-           "given"),
-       choice<&SuperelementBodySpec::double_curvature, on_or_off>(
-           "double_curvature",
-           "with stiffening: membrane stress of plates bent into double curvature, which `double_curvature` of the "
-           "part file writes into the companion file",
-           "`on` if the companion file has it"),
-       {"frame", "/^(karcher|paper|node: ?[^ ]+)$/ | frame",
-        "floating frame: `karcher`: mean rotation of the nodes; `paper`: mean of increments ([Car00] equation 16); "
-        "`{node: base}` or the text `\"node: base\"`: attached to a node",
-        "`karcher`"},
-       {"weights", "weights",
-        "weights of the nodes in the mean: `{positions: {base: 0.5, tip: 0.5}, rotations: {..}}`; the sum of each map "
-        "is 1; an error with `frame: {node: ..}`",
-        "chosen for the centre of mass"},
-       nested<&SuperelementBodySpec::damping>("damping", "damping",
-                                              "map of `mass`, `stiffness`, `ratio`, `ratios`, `ratio_internal`, "
-                                              "`ratios_internal`: see [damping](#damping)",
-                                              "0"),
-       shape_field()},
-      start_fields<SuperelementBodySpec>()};
+  return {"body_superelement",
+          {{"type", "'superelement'", "", "required"},
+           plain<&SuperelementBodySpec::file>("file", "text", "superelement file", "required"),
+           {"mirror", "mirror",
+            "`yz`, `xz` or `xy`: mirror the part at this plane of its frame, before the pose is applied. A list "
+            "mirrors at one plane after another",
+            "no"},
+           choice<&SuperelementBodySpec::rigid, uses>("use",
+                                                      "`flexible`, or `rigid`: a rigid body with the mass and inertia "
+                                                      "of the file. The keys below, except `shape`, are then errors"),
+           plain<&SuperelementBodySpec::modes>(
+               "modes", "number_of", "number of internal modes to use, lowest first, from 0 to the number in the file",
+               "all"),
+           plain<&SuperelementBodySpec::cutoff>(
+               "cutoff", "positive",
+               "instead of `modes`: use the internal modes below this frequency [cycles per unit of time]", "all"),
+           choice<&SuperelementBodySpec::inertia, inertia_options>(
+               "inertia",
+               "inertia option `A`, `B`, `M` or `F`: see [inertia options](#inertia-options). `M` and `F` cannot be "
+               "combined with `frame: paper`",
+               "`B`; `F` with `second_order`"),
+           choice<&SuperelementBodySpec::stiffening, stiffening_options>(
+               "stiffening",
+               "geometric stiffness from the companion file. `off`: none. `stress`: from the stress in the body (needs "
+               "inertia `M` or `F`). `full`: from its stress and its inertia (needs inertia `F`)",
+               "`off`; `full` with `second_order`"),
+           choice<&SuperelementBodySpec::second_order, on_or_off>(
+               "second_order",
+               "`on`: `inertia: F` and `stiffening: full`. `off`: `inertia: B` and `stiffening: off`, as without a "
+               "companion file. See [second order](#second-order)",
+               "`on` if a companion file lies beside the superelement file and neither `inertia` nor `stiffening` is "
+               "given"),
+           choice<&SuperelementBodySpec::double_curvature, on_or_off>(
+               "double_curvature",
+               "with stiffening: include the membrane stress of plates that bend into double curvature. The companion "
+               "file has it if the part file has `double_curvature`",
+               "`on` if the companion file has it"),
+           {"frame", "/^(karcher|paper|node: ?[^ ]+)$/ | frame",
+            "floating frame. `karcher`: mean rotation of the nodes. `paper`: mean of increments ([Car00] equation 16). "
+            "`{node: base}` or the text `\"node: base\"`: attached to a node",
+            "`karcher`"},
+           {"weights", "weights",
+            "weights of the nodes in the mean: `{positions: {base: 0.5, tip: 0.5}, rotations: {..}}`. The sum of each "
+            "map must be 1. An error with `frame: {node: ..}`",
+            "weights that put the origin of the frame nearest to the centre of mass"},
+           nested<&SuperelementBodySpec::damping>("damping", "damping",
+                                                  "map of `mass`, `stiffness`, `ratio`, `ratios`, `ratio_internal`, "
+                                                  "`ratios_internal`: see [damping](#damping)",
+                                                  "0"),
+           shape_field()},
+          start_fields<SuperelementBodySpec>()};
 }
 
 KeySet modal_fields() {
-  return {
-      "body_modal",
-      {{"type", "'modal'", "", "required"},
-       plain<&ModalBodySpec::file>("file", "text", "modal body file", "required"),
-       {"mirror", "mirror", "mirror the body; values as for a superelement", "no"},
-       plain<&ModalBodySpec::modes>("modes", "number_of", "number of modes to use, lowest first, 0 or more", "all"),
-       plain<&ModalBodySpec::cutoff>(
-           "cutoff", "positive", "instead of `modes`: use the modes below this frequency [1/time of the scene]", "all"),
-       nested<&ModalBodySpec::damping>(
-           "damping", "damping",
-           "map of `mass`, `stiffness`, `ratio`, `ratios` for its modes, added to the ratios of the file", "0"),
-       shape_field()},
-      start_fields<ModalBodySpec>()};
+  return {"body_modal",
+          {{"type", "'modal'", "", "required"},
+           plain<&ModalBodySpec::file>("file", "text", "modal body file", "required"),
+           {"mirror", "mirror", "mirror the body; values as for a superelement", "no"},
+           plain<&ModalBodySpec::modes>(
+               "modes", "number_of", "number of modes to use, lowest first, from 0 to the number in the file", "all"),
+           plain<&ModalBodySpec::cutoff>(
+               "cutoff", "positive", "instead of `modes`: use the modes below this frequency [cycles per unit of time]",
+               "all"),
+           nested<&ModalBodySpec::damping>(
+               "damping", "damping",
+               "map of `mass`, `stiffness`, `ratio`, `ratios` for its modes, added to the ratios of the file", "0"),
+           shape_field()},
+          start_fields<ModalBodySpec>()};
 }
 
 KeySet beam_fields() {
@@ -247,8 +248,8 @@ KeySet beam_fields() {
                                      "straight"),
        plain<&BeamBodySpec::orientation>(
            "orientation", "vector",
-           "vector of the part frame whose component normal to the beam axis is the y axis of the section",
-           "the axis of the part frame most nearly normal to the beam (among equals y before z before x)"),
+           "vector in the part frame; its component normal to the beam axis gives the y axis of the section",
+           "the axis of the part frame that is most nearly normal to the beam; if two are equal, the first of y, z, x"),
        plain<&BeamBodySpec::elements>("elements", "integer>=1<=100000", "number of elements, 1 to 100 000", "required"),
        plain<&BeamBodySpec::nodes_per_element>("nodes_per_element", "2 | 3", "nodes of each element, 2 or 3"),
        {"section", "name | section", "a name from `sections` and `materials`, or the map itself; limits are below",
@@ -272,7 +273,8 @@ std::vector<KeySet> body_key_sets() {
         plain<&RigidBodySpec::center_of_mass>("center_of_mass", "vector", "centre of mass in the part frame [length]"),
         plain<&RigidBodySpec::inertia>(
             "inertia", "inertia_tensor",
-            "inertia about the centre of mass, part axes [mass length²]; forms and limits as in [PART.md](PART.md)",
+            "inertia about the centre of mass, part axes [mass length²]: `[Ixx, Iyy, Izz]`, `[Ixx, Iyy, Izz, Ixy, Ixz, "
+            "Iyz]` or three rows; limits as in [PART.md](PART.md)",
             "required"),
         nodes,
         shape_field()},

@@ -15,6 +15,7 @@
 
 namespace tisserand::formats {
 
+/// Position and orientation of a frame relative to another one.
 struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
@@ -37,6 +38,7 @@ enum class InertiaOption { A, B, M, F };
 /// also geometric stiffness of the body's inertia forces.
 enum class StiffeningOption { off, stress, full };
 
+/// Weight of a boundary node in the mean that defines the floating frame of its body.
 struct NodeWeight {
   std::string node;
   double weight = 0.0;
@@ -88,6 +90,7 @@ struct SuperelementBodySpec {
   std::string where;
 };
 
+/// Node of a rigid body, to which joints, loads and other elements can be attached.
 struct RigidNodeSpec {
   std::string name;
   Pose pose;  ///< in the part frame

@@ -110,9 +110,9 @@ std::vector<KeySet> channel_key_sets() {
        {{"file", "text", "text table or HDF5 file, recognised by its first bytes; at most ten million points",
          "required"},
         {"time", "text | integer",
-         "columns, by name in the first line or number from 1; cells are separated by the first of comma, semicolon, "
-         "tab and blank that the first line has; `#` begins a comment line. HDF5: paths of one-dimensional datasets of "
-         "64-bit floats",
+         "columns, by name in the first line or by number from 1. Cells are separated by commas if the first line has "
+         "one, else by semicolons, else by tabs, else by blanks. `#` begins a comment line. HDF5: paths of "
+         "one-dimensional datasets of 64-bit floats",
          "1, 2"},
         {"value", "text | integer", ditto},
         choice<&InputSpec::interpolation, interpolations>(
@@ -131,7 +131,9 @@ std::vector<KeySet> channel_key_sets() {
          "required, except for `distance`"},
         {"tyre", "text", "`tyre`: name from `tyres`", "required for `tyre`"},
         {"axis", "'x' | 'y' | 'z' | vector",
-         "`position`, `velocity`: `x`, `y` or `z` of the world, or a direction `[x, y, z]`", "required for this kind"},
+         "`position`, `velocity`: the component that is measured: `x`, `y` or `z` of the world, or along a direction "
+         "`[x, y, z]`",
+         "required for this kind"},
         plain<&ChannelSpec::origin>("origin", "vector", "`position`: point from which it is measured, world frame"),
         {"a", "place", "`distance`: two markers on different nodes", "required for this kind"},
         {"b", "place", ditto}}}};

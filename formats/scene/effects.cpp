@@ -108,13 +108,13 @@ std::vector<KeySet> effect_key_sets() {
   };
   return {{"body_effects",
            {automatic("flexibility",
-                      "deformation of superelements and modal bodies; without it a superelement is rigid, as with "
-                      "`use: rigid`, and a modal body has no modes; also `auto`"),
+                      "deformation of superelements and modal bodies. Without it a superelement is rigid, as with "
+                      "`use: rigid`, and a modal body has no modes. May be `auto`"),
             field("rotary_inertia", "rotary inertia of the sections of beams about their own axes"),
             field("gyroscopic", "gyroscopic moment Ω × J Ω of rigid bodies"),
             automatic("stiffening",
-                      "geometric stiffness of superelements from the companion file; the inertia option does not "
-                      "change; also `auto`"),
+                      "geometric stiffness of superelements from the companion file. The inertia option does not "
+                      "change. May be `auto`"),
             field("damping",
                   "damping of superelements and modal bodies, including the damping in their files; not damping of "
                   "springs and bushings"),

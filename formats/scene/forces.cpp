@@ -159,8 +159,8 @@ std::vector<KeySet> force_key_sets() {
        {plain<&MotionSpec::coordinate>(
             "coordinate", "text", "joint coordinate that is driven, a position [length] or an angle [rad]", "required"),
         plain<&MotionSpec::value>("value", "motion_value",
-                                  "[function of time](#functions-of-time) in `t` and inputs; tables take "
-                                  "`interpolation`: `smooth` (default), `natural` or `linear`",
+                                  "[function of time](#functions-of-time) in `t` and inputs. The map of a table or "
+                                  "file may have `interpolation`: `smooth` (default), `natural` or `linear`",
                                   "required")}},
       {"initial",
        {plain<&InitialSpec::value>("value", "number", "value of the coordinate at the start [length or rad]",
@@ -174,13 +174,13 @@ std::vector<KeySet> force_key_sets() {
                                               "if the entry names a body: its angular velocity, world axes [rad/time]",
                                               "free")}},
       {"spring",
-       {plain<&SpringSpec::coordinate>("coordinate", "text", "joint coordinate along which the spring acts",
-                                       "this, or `a` and `b`"),
+       {plain<&SpringSpec::coordinate>("coordinate", "text", "joint coordinate q along which the spring acts",
+                                       "either this, or `a` and `b`"),
         {"a", "place", "two markers between which the spring acts"},
         {"b", "place", ditto},
         choice<&SpringSpec::kind, spring_kinds>(
             "type",
-            "between markers: `line`: q is their distance; `torsion`: q is the angle of b relative to a about their z "
+            "between markers. `line`: q is their distance. `torsion`: q is the angle of b relative to a about their z "
             "axes [rad], right-handed, whole turns counted: atan2(y_A·x_B − x_A·y_B, x_A·x_B + y_A·y_B)"),
         plain<&MarkerPairSpec::axis>("axis", "vector",
                                      "`torsion`: z and x axes of the markers at the start, as for joints", "-"),
@@ -198,7 +198,9 @@ std::vector<KeySet> force_key_sets() {
         plain<&SpringSpec::lower>("lower", "number", "values of q at which stops begin to act", "none"),
         plain<&SpringSpec::upper>("upper", "number", ditto),
         {"stop_stiffness", "not_negative",
-         "k_s and d: a stop passed by g pushes back with k_s g (1 + d ġ), and never pulls", "required with a stop; 0"},
+         "k_s and d [time/length or time/rad]: if q exceeds a stop by g, the stop pushes back with k_s g (1 + d ġ). It "
+         "never pulls",
+         "required with a stop; 0"},
         plain<&SpringSpec::stop_damping>("stop_damping", "not_negative", ditto),
         plain<&SpringSpec::force>(
             "force", "function",
@@ -226,8 +228,9 @@ std::vector<KeySet> force_key_sets() {
             "preload", "six", "force and moment that act on b at the deflection `free`, six numbers [force, moment]",
             "0"),
         choice<&BushingSpec::turns, marker_axes>(
-            "turns", "axis of the markers about which whole turns are counted",
-            "the only axis about which it acts, or the only axis about which it does not act; else none")}},
+            "turns", "axis `x`, `y` or `z` of the markers about which whole turns are counted",
+            "if the bushing acts about one axis only: this axis. If it acts about all axes but one: that one. Else "
+            "none")}},
       {"load",
        {choice<&LoadSpec::kind, load_kinds>("type", "`force` [mass length/time²] or `moment` [mass length²/time²]",
                                             "required"),

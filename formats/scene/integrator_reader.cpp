@@ -112,8 +112,8 @@ std::vector<KeySet> integrator_key_sets() {
                                            "error of each coordinate and velocity per step, relative to its size"),
        plain<&BdfSpec::absolute_tolerance>(
            "absolute_tolerance", "positive",
-           "error per step of positions (relative to the size of the scene) and of Euler parameters; for velocities "
-           "the same number per second (without named units: per unit of time)")});
+           "error per step of positions (relative to the size of the scene) and of Euler parameters. For velocities: "
+           "the same number per second, or per unit of time with `units: consistent`")});
   return {
       {"integrator",
        {choice<&IntegratorSpec::method, methods>(
@@ -122,7 +122,7 @@ std::vector<KeySet> integrator_key_sets() {
             "`generalised_alpha`; with `accuracy`: `auto`, unless `rho` or `formulation` is given"),
         plain<&IntegratorSpec::rho>(
             "rho", "number>=0<=1",
-            "`generalised_alpha`: spectral radius at infinite frequency, from 0 to 1 (no numerical damping)"),
+            "`generalised_alpha`: spectral radius at infinite frequency, from 0 to 1; 1 is without numerical damping"),
         plain<&IntegratorSpec::alpha>("alpha", "number>=0<=0.3333333333333333", "`hht`: its parameter α, 0 to 1/3"),
         choice<&IntegratorSpec::formulation, formulations>(
             "formulation", "formulation of the constraints: `stabilised_index2` or `index3`", "`stabilised_index2`"),
@@ -136,9 +136,9 @@ std::vector<KeySet> integrator_key_sets() {
                                           "tolerance of Newton's iteration, relative to the largest force so far"),
         plain<&IntegratorSpec::constraint_tolerance>(
             "constraint_tolerance", "positive",
-            "largest violation of a constraint, relative to the characteristic length; its rate is relative to this "
-            "length divided by the step. Steps with little motion use a lower value: 5 `tolerance` × step² × largest "
-            "acceleration, down to round-off"),
+            "largest violation of a constraint, relative to the characteristic length. For its rate it is relative to "
+            "this length divided by the step. If 5 `tolerance` × step² × largest acceleration is smaller, steps use "
+            "this value, down to round-off"),
         plain<&IntegratorSpec::max_iterations>("max_iterations", "count",
                                                "largest number of Newton iterations per step"),
         plain<&IntegratorSpec::max_halvings>("max_halvings", "number_of",
@@ -146,7 +146,7 @@ std::vector<KeySet> integrator_key_sets() {
         choice<&IntegratorSpec::linear_solver, linear_solvers>(
             "linear_solver",
             "`klu` (sparse LU, little fill), `umfpack` (sparse LU, much fill), `dense`, `qr` (sparse QR, slow, always "
-            "stable), or `auto`: the least counted work of the first three"),
+            "stable), or `auto`: the one of the first three with the fewest operations"),
         {"error_control", "error_control", "the local error chooses the steps: see [error_control](#error_control)",
          "off: steps as given"},
         {"accuracy", "accuracy",
@@ -157,21 +157,21 @@ std::vector<KeySet> integrator_key_sets() {
        {plain<&ErrorControl::tolerance>(
             "tolerance", "positive",
             "error at the end of the run: positions relative to the size of the scene, rotations in rad. Each step may "
-            "add a part in proportion to its duration. A tenth of the tolerance takes about 3.2 times the steps"),
+            "add a part in proportion to its duration. A tolerance ten times smaller takes about 3.2 times the steps"),
         plain<&ErrorControl::min_step>("min_step", "not_negative",
                                        "smallest step [time]; the run ends if the error demands a smaller one",
                                        "1e-12 of the whole time"),
         plain<&ErrorControl::max_step>("max_step", "not_negative", "largest step [time]",
                                        "a tenth of the whole time")}},
       {"accuracy",
-       {plain<&AccuracySpec::error>("error", "positive",
-                                    "largest error, relative to the size of the channel in the same norm", "required"),
+       {plain<&AccuracySpec::error>("error", "positive", "largest error of the channel, divided by `scale`",
+                                    "required"),
         plain<&AccuracySpec::of>("of", "text", "channel of the results, for example `nodes/position/arm/tip/x`",
                                  "required"),
-        choice<&AccuracySpec::norm, error_norms>(
-            "norm", "`max`, `rms`, `final`, `peak` or `peak_time`, as in [STUDY.md](STUDY.md)"),
-        plain<&AccuracySpec::scale>("scale", "positive", "number by which errors are divided",
-                                    "the size of the channel; 1 for `peak_time`")}}};
+        choice<&AccuracySpec::norm, error_norms>("norm", "`max`, `rms`, `final`, `peak` or `peak_time`"),
+        plain<&AccuracySpec::scale>(
+            "scale", "positive", "number by which errors are divided",
+            "the size of the channel in this norm, as in [STUDY.md](STUDY.md); 1 for `peak_time`")}}};
 }
 
 }  // namespace tisserand::formats

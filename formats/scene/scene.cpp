@@ -90,17 +90,18 @@ void read_groups(const MapReader& map, std::optional<double> start, Analysis& an
 std::vector<KeySet> settings_key_sets() {
   return {
       {"statics",
-       {plain<&StaticsSpec::load_steps>("load_steps", "count", "number of equal steps in which loads and gravity grow"),
+       {plain<&StaticsSpec::load_steps>("load_steps", "count",
+                                        "number of equal steps in which loads and gravity grow to their full size"),
         plain<&StaticsSpec::tolerance>("tolerance", "positive", "tolerance of Newton's iteration"),
         plain<&StaticsSpec::max_iterations>("max_iterations", "count",
                                             "largest number of Newton iterations per load step"),
         choice<&StaticsSpec::stable, yes_or_no>("stable",
-                                                "`yes`: continue from an unstable equilibrium, downhill in potential "
-                                                "energy, to a stable one; up to 1000 coordinates"),
+                                                "`yes`: if the equilibrium is unstable, continue to one of lower "
+                                                "potential energy that is stable; up to 1000 coordinates"),
         nested<&StaticsSpec::rotation>(
             "rotation", "steady_rotation",
             "`{angular_velocity: [x, y, z], about: [x, y, z]}`: [steady rotation](#steady-rotation) about the axis "
-            "through `about` (default: the origin), world axes; up to 4000 coordinates",
+            "through the point `about` (default: the origin), world axes; up to 4000 coordinates",
             "equilibrium at rest")}},
       {"steady_rotation",
        {plain<&RotationSpec::angular_velocity>("angular_velocity", "vector", "", "required"),
@@ -109,20 +110,23 @@ std::vector<KeySet> settings_key_sets() {
        {plain<&ModesSpec::count>(
             "count", "count",
             "number of modes that are stored and printed, lowest first; growing modes are always included"),
-        plain<&ModesSpec::rotation>("rotation", "vector",
-                                    "angular velocity of the axes in which the state is steady, world axes [rad/time]",
-                                    "that of `statics.rotation` of the analysis in `from`, else 0")}},
+        plain<&ModesSpec::rotation>(
+            "rotation", "vector",
+            "angular velocity of the axes in which the state does not change, world axes [rad/time]",
+            "that of `statics.rotation` of the analysis in `from`, else 0")}},
       {"checkpoint",
        {plain<&CheckpointSpec::every>("every", "count", "number of accepted steps between two checkpoints", "never"),
-        plain<&CheckpointSpec::interval>(
-            "interval", "positive",
-            "instead of `every`: after the first step that reaches `start` + k `interval` [time]", "never")}},
+        plain<&CheckpointSpec::interval>("interval", "positive",
+                                         "instead of `every`: a checkpoint after each first step that reaches `start` "
+                                         "+ k `interval` [time], k = 1, 2, ...",
+                                         "never")}},
       {"output",
        {plain<&OutputSpec::every>("every", "count", "store every n-th step and the end"),
-        plain<&OutputSpec::interval>("interval", "positive",
-                                     "instead of `every`: store at `start` + k `interval` and at the end [time]. Steps "
-                                     "of given size are not cut: the first step that reaches the instant is stored",
-                                     "-"),
+        plain<&OutputSpec::interval>(
+            "interval", "positive",
+            "instead of `every`: store at `start` + k `interval` and at the end [time]. Steps of given size do not end "
+            "at these instants: the first step that reaches the instant is stored",
+            "-"),
         plain<&OutputSpec::from>("from", "number", "store from this time on, not later than `end` [time]",
                                  "`integrator.start`"),
         {"channels", "[text+]",
@@ -132,53 +136,55 @@ std::vector<KeySet> settings_key_sets() {
 }
 
 std::vector<Field> scene_fields() {
-  return {
-      plain<&Scene::name>("scene", "text+", "name of the scene, stored in the results", "required"),
-      {"units", "'consistent' | units",
-       "`{length, mass, time}` as in [PART.md](PART.md); superelement files are converted when they are read", "SI"},
-      plain<&Scene::gravity>("gravity", "vector", "acceleration of gravity, world axes [length/time²]"),
-      {"effects", "{text: 'on' | 'off' | 'auto' | number>0 | body_effects}",
-       "physical effects that are `off`, `on` or `auto`: see [effects](#effects)", "on"},
-      {"materials", "{name: material}", "for beams of the scene, as in [PART.md](PART.md)", "none"},
-      {"sections", "{name: section}", ditto},
-      {"bodies", "{name: body}+", "name -> body; the name `ground` is reserved",
-       "required, unless instances contain bodies"},
-      {"joints", "{name: joint | gear | rack_and_pinion}", "name -> joint, gear, or rack and pinion", "none"},
-      {"inputs", "{name: input}", "name -> time history from a file, for expressions", "none"},
-      {"channels", "{name: channel}", "name -> measured quantity of the mechanism, for expressions and results",
-       "none"},
-      {"motions", "{name: motion}", "name -> drive: a joint coordinate that follows a function of time", "none"},
-      {"initial", "{name: initial}",
-       "joint coordinate -> its value and rate at the start; body -> its velocities at the start", "none"},
-      {"springs", "{name: spring}",
-       "name -> spring, damper and stops along a joint coordinate, between two points or about an axis", "none"},
-      {"bushings", "{name: bushing}",
-       "name -> elastic mount: stiffness and damping between two markers in all six directions", "none"},
-      {"roads", "{name: road}", "name -> ground on which tyres roll", "none"},
-      {"tyres", "{name: tyre}", "name -> tyre of a wheel on a road", "none"},
-      {"loads", "{name: load | part_load}", "name -> force, moment, or load case of a part", "none"},
-      choice<&Scene::virtual_bodies, virtual_body_ways>(
-          "virtual_bodies",
-          "treatment of bodies without mass: `eliminate` or `keep`, see [virtual bodies](#type-virtual)"),
-      choice<&Analysis::kind, analysis_kinds>("analysis",
-                                              "kind of analysis if there is only one: `dynamics`, `statics`, "
-                                              "`assembly`, `kinematics`, `inverse_dynamics` or `modes`",
-                                              "`dynamics`"),
-      {"analyses", "{name: analysis}+", "instead of `analysis`: several analyses by name, see [analyses](#analyses)",
-       "none"},
-      {"integrator", "integrator", "time integration, see [integrator](#integrator)", "required in dynamics"},
-      nested<&Analysis::statics>("statics", "statics", "settings of analyses and output, see the section of each key",
-                                 "defaults"),
-      nested<&Analysis::modes>("modes", "modes", ditto),
-      {"output", "output", ditto},
-      {"checkpoint", "checkpoint", ditto},
-      {"include", "text | [text]", "for large scenes, see [Scenes at scale](#scenes-at-scale)", "none"},
-      {"parameters", "{parameter_name: any}", ditto},
-      {"assemblies", "{name: text | assembly}", ditto},
-      {"instances", "{name: instance}", ditto},
-      plain<&Scene::initial_tolerance>("initial_tolerance", "positive",
-                                       "largest correction that makes given poses and velocities satisfy the joints, "
-                                       "relative to the characteristic length and to the largest velocity")};
+  return {plain<&Scene::name>("scene", "text+", "name of the scene, stored in the results", "required"),
+          {"units", "'consistent' | units",
+           "`{length, mass, time}` or `consistent` (unnamed), as in [PART.md](PART.md). Superelement files are "
+           "converted to these units. Files with unnamed units need `consistent` here",
+           "SI"},
+          plain<&Scene::gravity>("gravity", "vector", "acceleration of gravity, world axes [length/time²]"),
+          {"effects", "{text: 'on' | 'off' | 'auto' | number>0 | body_effects}",
+           "physical effects that are switched `off`, `on` or `auto`: see [effects](#effects)", "on"},
+          {"materials", "{name: material}", "for beams of the scene, as in [PART.md](PART.md)", "none"},
+          {"sections", "{name: section}", ditto},
+          {"bodies", "{name: body}+", "name -> body; the name `ground` is reserved",
+           "required, unless instances contain bodies"},
+          {"joints", "{name: joint | gear | rack_and_pinion}", "name -> joint, gear, or rack and pinion", "none"},
+          {"inputs", "{name: input}", "name -> time history from a file, for expressions", "none"},
+          {"channels", "{name: channel}", "name -> measured quantity of the mechanism, for expressions and results",
+           "none"},
+          {"motions", "{name: motion}", "name -> drive: a joint coordinate that follows a function of time", "none"},
+          {"initial", "{name: initial}",
+           "joint coordinate -> its value and rate at the start; body -> its velocities at the start", "none"},
+          {"springs", "{name: spring}",
+           "name -> spring, damper and stops along a joint coordinate, between two points or about an axis", "none"},
+          {"bushings", "{name: bushing}",
+           "name -> elastic mount: stiffness and damping between two markers in all six directions", "none"},
+          {"roads", "{name: road}", "name -> ground on which tyres roll", "none"},
+          {"tyres", "{name: tyre}", "name -> tyre of a wheel on a road", "none"},
+          {"loads", "{name: load | part_load}", "name -> force, moment, or load case of a part", "none"},
+          choice<&Scene::virtual_bodies, virtual_body_ways>(
+              "virtual_bodies",
+              "treatment of bodies without mass: `eliminate` or `keep`, see [virtual bodies](#type-virtual)"),
+          choice<&Analysis::kind, analysis_kinds>("analysis",
+                                                  "kind of analysis if there is only one: `dynamics`, `statics`, "
+                                                  "`assembly`, `kinematics`, `inverse_dynamics` or `modes`",
+                                                  "`dynamics`"),
+          {"analyses", "{name: analysis}+",
+           "instead of `analysis`: several analyses by name, see [analyses](#analyses)", "none"},
+          {"integrator", "integrator", "time integration, see [integrator](#integrator)", "required in dynamics"},
+          nested<&Analysis::statics>("statics", "statics",
+                                     "settings of analyses and output, see the section of each key", "defaults"),
+          nested<&Analysis::modes>("modes", "modes", ditto),
+          {"output", "output", ditto},
+          {"checkpoint", "checkpoint", ditto},
+          {"include", "text | [text]", "for large scenes, see [Scenes at scale](#scenes-at-scale)", "none"},
+          {"parameters", "{parameter_name: any}", ditto},
+          {"assemblies", "{name: text | assembly}", ditto},
+          {"instances", "{name: instance}", ditto},
+          plain<&Scene::initial_tolerance>(
+              "initial_tolerance", "positive",
+              "largest correction of the given poses and velocities so that they satisfy the joints; a larger one is "
+              "an error. It is relative to the characteristic length (poses) and to the largest velocity")};
 }
 
 DrawnScene read_drawn_scene(const std::string& text, const std::string& file) {

@@ -52,6 +52,7 @@ struct FrictionSpec {
   std::optional<double> arm;  ///< distance of the supports that take moments; absent: no effect of moments
 };
 
+/// Joint between two markers, as a scene describes it.
 struct JointSpec : MarkerPairSpec {
   std::string name;
   JointKind kind = JointKind::spherical;
@@ -79,7 +80,7 @@ struct GearSpec {
 
 enum class LoadKind { force, moment };
 enum class LoadAxes { world, body };
-
+/// Force or moment at a marker, with three components that are functions of time.
 struct LoadSpec {
   std::string name;
   LoadKind kind = LoadKind::force;
@@ -106,8 +107,7 @@ struct MotionSpec {
   std::string where;
 };
 
-/// Start condition: value or rate of a joint coordinate, or both; or velocities of a body. Velocities of a body also
-/// apply when the analysis continues from an analysis at rest.
+/// Start condition of a joint coordinate (value, rate) or of a body (velocities, also after an analysis at rest).
 struct InitialSpec {
   CoordinateRef coordinate;                 ///< coordinate, or name of the body
   std::optional<Eigen::Vector3d> velocity;  ///< velocity of the part frame's origin, world axes
@@ -118,9 +118,9 @@ struct InitialSpec {
   std::string where;
 };
 
-/// Kinds of springs. line: along a joint coordinate or the distance of two markers. torsion: along the angle of two
-/// markers about their z axes. On coordinate q acts Q = −f(q − free) − d(q̇) + stops + force.
+/// Kinds of springs: along a joint coordinate or the distance of two markers; along their angle about their z axes.
 enum class SpringKind { line, torsion };
+/// Spring of a scene. On its coordinate q acts the force Q = −f(q − free) − d(q̇) + stops + force.
 struct SpringSpec : MarkerPairSpec {
   std::string name;
   SpringKind kind = SpringKind::line;
@@ -136,7 +136,6 @@ struct SpringSpec : MarkerPairSpec {
 };
 
 enum class MarkerAxis { x, y, z };
-
 /// Linear spring and damper between two markers in all six directions, coupled if the matrices are full.
 struct BushingSpec : MarkerPairSpec {
   std::string name;
@@ -149,8 +148,7 @@ struct BushingSpec : MarkerPairSpec {
 
   /// Whether the bushing has stiffness, damping or preload in rotations about marker axis k (0 to 2).
   bool takes_turns(int k) const;
-  /// Axis of large rotations: `turns` if given. Otherwise the only axis k with takes_turns(k), or else the only axis
-  /// without it.
+  /// Axis of large rotations: `turns` if given, else the only axis k with takes_turns(k), else the only one without.
   std::optional<int> turning_axis() const;
 };
 
@@ -170,6 +168,7 @@ enum class TyreQuantity {
   penetration,
   rolling_radius
 };
+/// Quantity that a scene defines under `channels`; formulas can use it, and the run stores it.
 struct ChannelSpec {
   std::string name;
   ChannelKind kind = ChannelKind::coordinate;
@@ -191,9 +190,9 @@ struct InputSpec {
   std::string where;
 };
 
-/// Shapes of pieces of a road: height of one track along the distance x, and 0 outside. The road ends where a curve
-/// ends.
+/// Shapes of pieces of a road: height of one track over the distance x, 0 outside. The road ends where a curve ends.
 enum class RoadPieceShape { cosine, trapezoid, curve };
+/// Piece of a road, such as a bump or a ramp, whose height is added to that of the other pieces.
 struct RoadPieceSpec {
   RoadPieceShape shape = RoadPieceShape::cosine;
   double start = 0.0;   ///< x of its beginning
@@ -203,9 +202,9 @@ struct RoadPieceSpec {
   CurveSpec curve;    ///< z(x)
 };
 
-/// Kinds of roads. A road is fixed ground for tyres: height z = h(x, y) in the axes of its pose, with x along the road.
-/// Kinds grid and crg have heights over two coordinates, from a table or a file.
+/// Kinds of roads. Roads of the kinds grid and crg have heights over two coordinates, from a table or a file.
 enum class RoadKind { plane, profile, grid, crg };
+/// Road of a scene, fixed ground for tyres: height z = h(x, y) in the axes of its pose, with x along the road.
 struct RoadSpec {
   std::string name;
   RoadKind kind = RoadKind::plane;
@@ -218,9 +217,9 @@ struct RoadSpec {
   std::string where;
 };
 
-/// Kinds of tyres. comprehensive_slip: law of mechanism/tyres/comprehensive_slip.hpp. magic_formula: radius, stiffness,
-/// damping and slip laws of a file (mechanism/tyres/magic_formula.hpp).
+/// Kinds of tyres: a law of two slips (mechanism/tyres/comprehensive_slip.hpp), or laws of a file (magic_formula.hpp).
 enum class TyreKind { comprehensive_slip, magic_formula };
+/// Tyre of a scene. Magic Formula: radius, stiffness, damping and slip laws come from a file.
 struct TyreSpec {
   std::string name;
   TyreKind kind = TyreKind::comprehensive_slip;
@@ -245,6 +244,7 @@ struct TyreSpec {
   std::string where;
 };
 
+/// Scene as it was read: bodies, joints, loads and other elements, with the settings of its analysis.
 struct Scene {
   std::string name, file;
   std::vector<std::string> files;        ///< files read for it: itself, its includes, and files that it names
@@ -279,8 +279,8 @@ struct Scene {
   double initial_tolerance = 1e-6;
 };
 
-/// Reads scene.yaml, applies the overrides and checks. Relative paths in the file start at its folder. Throws one Error
-/// with all errors, each with file:line:column or the text of the override.
+/// Reads scene.yaml with the overrides and checks it. Paths in it start at its folder. Throws one Error with all
+/// errors, each with file:line:column or the text of the override.
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides);
 
 /// Bodies, roads and tyres of a scene, for pictures.

@@ -288,7 +288,7 @@ std::vector<KeySet> tyre_key_sets() {
                                "to its left, z out of it",
                                "axes of the world"),
         {"height", "road_piece | [road_piece]",
-         "`profile`: height of both tracks, a piece or a list of pieces, which add up",
+         "`profile`: height of both tracks, a piece or a list of pieces, whose heights are added",
          "required without `left` and `right`"},
         {"left", "road_piece | [road_piece]",
          "`profile`: instead of `height`, the tracks y > 0 and y < 0; a track that is not given is flat", "none"},
@@ -322,7 +322,7 @@ std::vector<KeySet> tyre_key_sets() {
                                      "required for `cosine` and `trapezoid`"),
         plain<&RoadPieceSpec::length>("length", "positive", "length from foot to foot [length]",
                                       "required for `cosine` and `trapezoid`"),
-        plain<&RoadPieceSpec::height>("height", "number", "height of the top [length]",
+        plain<&RoadPieceSpec::height>("height", "number", "height of the top, negative for a dip [length]",
                                       "required for `cosine` and `trapezoid`"),
         plain<&RoadPieceSpec::ramp>("ramp", "positive", "`trapezoid`: length of each ramp [length]",
                                     "required for this kind"),
@@ -344,7 +344,8 @@ std::vector<KeySet> tyre_key_sets() {
         plain<&TyreSpec::wheel>("wheel", "place", "centre of the wheel: a node or marker of the body that spins",
                                 "required"),
         plain<&TyreSpec::axis>("axis", "vector",
-                               "axle at the start, world axes, to the left of the wheel, which rolls along `axis` × up",
+                               "axle at the start, world axes, pointing to the left of the wheel. Forward is `axis` × "
+                               "up, so a right-handed rotation about `axis` rolls forward",
                                "y axis of the marker"),
         plain<&TyreSpec::road>("road", "text", "name from `roads`", "required"),
         plain<&TyreSpec::radius>("radius", "positive", "unloaded radius R₀ [length]",
@@ -382,7 +383,7 @@ std::vector<KeySet> tyre_key_sets() {
          "`magic_formula`: scaling factors that replace those of the file: `{LMUX: 0.8, LMUY: 0.8}`",
          "those of the file"},
         plain<&TyreSpec::low_speed>("low_speed", "positive",
-                                    "speed v₀ below which slips are computed with it [length/time]; 0.1 m/s is usual",
+                                    "speed v₀ [length/time]; below it slips are computed with v₀. 0.1 m/s is usual",
                                     "required for `comprehensive_slip`; else VXLOW/10 or LONGVL/200 of the file")}}};
 }
 

@@ -15,6 +15,7 @@ namespace tisserand::formats {
 /// Closed polygon: corners (y, z) in order, in either orientation. The first corner is not repeated at the end.
 using Ring = std::vector<Eigen::Vector2d>;
 
+/// Cross-section that is bounded by an outer polygon and by the polygons of its holes.
 struct SectionPolygon {
   Ring outer;
   std::vector<Ring> holes;

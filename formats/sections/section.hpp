@@ -7,6 +7,7 @@
 
 namespace tisserand::formats {
 
+/// Isotropic elastic material with its density.
 struct Material {
   std::string name;
   double youngs_modulus = 0.0;

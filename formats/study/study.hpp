@@ -81,6 +81,7 @@ struct StudyReference {
 
 enum class StudyTiming { alone, together };
 
+/// Study as its file describes it: series of runs, compared quantities, reference and timing.
 struct Study {
   std::string name;
   std::string file;  ///< path of the study

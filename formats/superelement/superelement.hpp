@@ -50,6 +50,7 @@ struct SuperelementReport {
   std::vector<std::string> warnings;
 };
 
+/// Superelement that was read from a file, with the report of its checks.
 struct LoadedSuperelement {
   Superelement superelement;
   SuperelementReport report;

@@ -98,6 +98,7 @@ bool has_rows(const YamlNode& node);
 /// Whether the node is a scalar that reads as a number (finite or not).
 bool looks_like_number(const YamlNode& node);
 
+/// Word that a file may contain, with the value that it stands for.
 template <class T>
 struct Choice {
   std::string_view word;

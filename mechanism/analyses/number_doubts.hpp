@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers of a scene that suggest typing errors or wrong units (table "Numbers that are doubted" in SCENE.md).
+// Numbers of a scene that suggest typing errors or wrong units (table "Plausibility checks" in SCENE.md).
 #pragma once
 
 #include <string>

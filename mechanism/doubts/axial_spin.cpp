@@ -104,11 +104,11 @@ class AxialSpin : public Doubt {
       }
     if (at < 0) return {};
     return {fmt::format(
-        "'{}' spins about its own axis, although no moment causes this spin: {:.2g} rad per unit of time at t = "
-        "{:.6g}, {:.2g} of its angular velocity (limit {:g}). Inertia {} produces this spin from bending. Cut it into "
+        "'{}' spins about its own axis, although no moment causes this spin: {:.2g} {} at t = {:.6g}{}, "
+        "{:.2g} of its angular velocity (limit {:g}). Inertia {} produces this spin from bending. Cut it into "
         "several superelements with inertia B and internal modes, or use `second_order: on` with its companion file",
-        model.superelements[at].name, seen_[at].spurious, seen_[at].time, worst, most_axial_spin,
-        letter(body_of(model, at).inertia))};
+        model.superelements[at].name, seen_[at].spurious, turn_rate_label(model.units), seen_[at].time,
+        after_time(model.units), worst, most_axial_spin, letter(body_of(model, at).inertia))};
   }
 
  private:

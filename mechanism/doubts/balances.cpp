@@ -111,13 +111,13 @@ class MomentumBalance : public Doubt {
   }
 
   /// At most one warning: the change exceeds a two-thousandth of the momentum possible at these speeds.
-  std::vector<std::string> doubts(const Model&, const StressedBodies&) const override {
+  std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     if (!(worst_ > most_momentum)) return {};
     return {
         fmt::format("the angular momentum changes by {:.2g} of the largest value possible at these speeds, from t = "
-                    "{:.6g} to {:.6g} (limit {:g}). No external load acts on the bodies. A shorter step or a smaller "
+                    "{:.6g} to {:.6g}{} (limit {:g}). No external load acts on the bodies. A shorter step or a smaller "
                     "tolerance reduces this error",
-                    worst_, from_, to_, most_momentum)};
+                    worst_, from_, to_, after_time(model.units), most_momentum)};
   }
 
  private:
@@ -218,10 +218,11 @@ class TumblingBalance : public Doubt {
     const auto worst = std::ranges::max_element(seen_, {}, &Seen::worst);
     if (worst == seen_.end() || !(worst->worst > most_turns)) return {};
     return {fmt::format(
-        "the tumbling of '{}' has an error of about {:.2g} turns at t = {:.6g} (limit {:g}). Its energy and angular "
+        "the tumbling of '{}' has an error of about {:.2g} turns at t = {:.6g}{} (limit {:g}). Its energy and angular "
         "momentum change in free flight, and this changes its period. A shorter step or a smaller tolerance reduces "
         "this error",
-        model.rigid_bodies[static_cast<std::size_t>(worst->body)].name, worst->worst, worst->time, most_turns)};
+        model.rigid_bodies[static_cast<std::size_t>(worst->body)].name, worst->worst, worst->time,
+        after_time(model.units), most_turns)};
   }
 
  private:
@@ -270,23 +271,24 @@ bool EnergyBalance::drifts() const {
   return std::abs(second_half) > 0.3 * std::abs(whole);
 }
 
-std::vector<std::string> EnergyBalance::doubts(const std::string& cause) const {
+std::vector<std::string> EnergyBalance::doubts(const std::string& cause, const Units& units) const {
   const double largest = std::abs(largest_);
   if (!(largest > round_off * level_) || !(largest > foreseen * moved_)) return {};
   const char* way = largest_ > 0.0 ? "gained" : "lost";
   if (largest > tolerance * moved_)
-    return {cause.empty() ? fmt::format("the error of the energy balance is {:.2g} of the largest energy or work (at t "
-                                        "= {:.6g}, limit {:g}). Energy was {} without a physical cause. A shorter step "
-                                        "or a smaller tolerance reduces this error",
-                                        largest / moved_, at_, tolerance, way)
-                          : fmt::format("the error of the energy balance is {:.2g} of the largest energy or work (at t "
-                                        "= {:.6g}, limit {:g}). Energy was {}: {}",
-                                        largest / moved_, at_, tolerance, way, cause)};
+    return {cause.empty()
+                ? fmt::format("the error of the energy balance is {:.2g} of the largest energy or work (at t "
+                              "= {:.6g}{}, limit {:g}). Energy was {} without a physical cause. A shorter step "
+                              "or a smaller tolerance reduces this error",
+                              largest / moved_, at_, after_time(units), tolerance, way)
+                : fmt::format("the error of the energy balance is {:.2g} of the largest energy or work (at t "
+                              "= {:.6g}{}, limit {:g}). Energy was {}: {}",
+                              largest / moved_, at_, after_time(units), tolerance, way, cause)};
   if (!drifts()) return {};
   return {
-      fmt::format("energy is steadily {}: {:.2g} of the largest energy or work by t = {:.6g}. In a run ten times as "
+      fmt::format("energy is steadily {}: {:.2g} of the largest energy or work by t = {:.6g}{}. In a run ten times as "
                   "long this error would exceed its limit of {:g}. A shorter step reduces this drift",
-                  way, largest / moved_, at_, tolerance)};
+                  way, largest / moved_, at_, after_time(units), tolerance)};
 }
 
 std::unique_ptr<Doubt> momentum_balance(const formats::Scene& scene, const Model& model) {

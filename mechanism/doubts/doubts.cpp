@@ -45,7 +45,7 @@ void Doubts::at_row(const Instant& at, const formats::ResultsRow& row) {
 }
 
 std::vector<std::string> Doubts::tell(const Model& model, const StressedBodies& stressed) const {
-  std::vector<std::string> reported = energy_.doubts(explanation(Puzzle::energy, model));
+  std::vector<std::string> reported = energy_.doubts(explanation(Puzzle::energy, model), model.units);
   for (const auto& doubt : all_)
     for (std::string& text : doubt->doubts(model, stressed)) reported.push_back(std::move(text));
   for (std::string& text : damping_doubts(model)) reported.push_back(std::move(text));

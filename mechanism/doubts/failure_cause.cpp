@@ -74,9 +74,10 @@ std::string unreachable(const Model& model, double size, State state, Evaluation
   if (report.closed || report.open.empty()) return {};
   const JointGap& gap = report.open.front();
   return fmt::format(
-      ". The joints cannot be closed at t = {:.6g}: '{}' stays open by {:.2g}. The drive demands a position that the "
-      "mechanism cannot reach. Reduce the motion of the drive, or change the lengths",
-      state.time(), gap.joint, std::max(gap.length, gap.angle));
+      ". The joints cannot be closed at t = {:.6g}{}: '{}' stays open by {:.2g}{}. The drive demands a position that "
+      "the mechanism cannot reach. Reduce the motion of the drive, or change the lengths",
+      state.time(), after_time(model.units), gap.joint, std::max(gap.length, gap.angle),
+      gap.length < gap.angle ? " rad" : after_number(unit_label(model.units, 1, 0, 0)));
 }
 
 }  // namespace

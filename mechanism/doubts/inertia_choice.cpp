@@ -105,10 +105,10 @@ class InertiaChoice : public Doubt {
       if (!(seen.strain > 0.0 && ratio > most_difference)) continue;
       excesses.push_back(
           {ratio, fmt::format("the deflection of '{}' depends on its inertia option. Inertia {} in place of {} would "
-                              "change it by {:.2g} of its largest value (at t = {:.6g}, limit {:g}). Cut it into "
+                              "change it by {:.2g} of its largest value (at t = {:.6g}{}, limit {:g}). Cut it into "
                               "several superelements, or use `second_order: on` with its companion file",
                               model.superelements[i].name, letter(seen.option), letter(body_of(model, i).inertia),
-                              ratio, seen.time, most_difference)});
+                              ratio, seen.time, after_time(model.units), most_difference)});
     }
     return worst_of(excesses, "Other bodies beyond this limit");
   }

@@ -66,8 +66,8 @@ class BeamRange : public Doubt {
   /// At most two warnings: the largest rotation and the largest stretch of an element.
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     const auto place = [&](const Extreme& extreme) {
-      return fmt::format("between nodes '{}' and '{}' at t = {:.6g}", model.nodes[spans_[extreme.span].first].name,
-                         model.nodes[spans_[extreme.span].last].name, extreme.time);
+      return fmt::format("between nodes '{}' and '{}' at t = {:.6g}{}", model.nodes[spans_[extreme.span].first].name,
+                         model.nodes[spans_[extreme.span].last].name, extreme.time, after_time(model.units));
     };
     std::vector<std::string> doubts;
     if (turn_.span >= 0 && angle(turn_.value) > most_turn)
@@ -133,9 +133,9 @@ class BushingRange : public Doubt {
         first->axis < 0 ? fmt::format("Set 'turns: {}' to count the turns about this axis", "xyz"[first->about])
                         : fmt::format("It counts only turns about its {} axis", "xyz"[first->axis]);
     return {
-        fmt::format("bushing '{}'{} turns by {:.3g} rad (at t = {:.6g}). Its moment reverses beyond half a turn. {}",
+        fmt::format("bushing '{}'{} turns by {:.3g} rad (at t = {:.6g}{}). Its moment reverses beyond half a turn. {}",
                     model.bushings[first->bushing].name, count > 1 ? fmt::format(" (and {} more)", count - 1) : "",
-                    first->angle, first->time, remedy)};
+                    first->angle, first->time, after_time(model.units), remedy)};
   }
 
   /// Text "bushing 'mount' passed half a turn", which changes the energy; empty: none did.
@@ -209,21 +209,22 @@ class TableRange : public Doubt {
       const std::string others = more > 0 ? fmt::format(" (and {} more)", more) : "";
       const Watched& law = *first;
       if (kind == Kind::stiffness || kind == Kind::damping)
-        doubts.push_back(
-            fmt::format("spring '{}'{} has {} of {:.4g} (at t = {:.6g}), outside the table of its {} from {:.4g} to "
-                        "{:.4g}. There the law continues as a straight line. Give the table a wider range",
-                        model.springs[law.index].name, others, kind == Kind::stiffness ? "a deflection" : "a rate",
-                        law.value, law.time, kind == Kind::stiffness ? "stiffness" : "damping", law.low, law.high));
-      else if (kind == Kind::drive)
         doubts.push_back(fmt::format(
-            "{}{} continues with the last rate outside its table, which covers t = {:.6g} to {:.6g}. Give a table for "
-            "the whole run, or let it end at rest",
-            std::ranges::find(model.couplings, law.index, &Coupling::motion)->name, others, law.low, law.high));
+            "spring '{}'{} has {} of {:.4g} (at t = {:.6g}{}), outside the table of its {} from {:.4g} to "
+            "{:.4g}. There the law continues as a straight line. Give the table a wider range",
+            model.springs[law.index].name, others, kind == Kind::stiffness ? "a deflection" : "a rate", law.value,
+            law.time, after_time(model.units), kind == Kind::stiffness ? "stiffness" : "damping", law.low, law.high));
+      else if (kind == Kind::drive)
+        doubts.push_back(
+            fmt::format("{}{} continues with the last rate outside its table, which covers t = {:.6g} to {:.6g}{}. "
+                        "Give a table for the whole run, or let it end at rest",
+                        std::ranges::find(model.couplings, law.index, &Coupling::motion)->name, others, law.low,
+                        law.high, after_time(model.units)));
       else
         doubts.push_back(
             fmt::format("coordinate '{}'{} is an angle about two axes whose directions differ by {:.3g} rad (at t = "
-                        "{:.6g}). This angle is not defined if the axes have opposite directions",
-                        model.coordinates[law.index].name, others, law.value, law.time));
+                        "{:.6g}{}). This angle is not defined if the axes have opposite directions",
+                        model.coordinates[law.index].name, others, law.value, law.time, after_time(model.units)));
     }
     return doubts;
   }

@@ -127,6 +127,7 @@ class LinearRange : public Doubt {
   /// One warning per quantity: its largest excess, with the number of others. `stressed` is called only if needed.
   std::vector<std::string> doubts(const Model& model, const StressedBodies& stressed) const override {
     Findings found;
+    found.units = model.units;
     std::map<std::pair<int, std::vector<bool>>, double> frequencies;
     const std::vector<std::vector<bool>> held = held_coordinates(model);
     const std::vector<int> beams = welded_beams(model);
@@ -192,6 +193,7 @@ class LinearRange : public Doubt {
   }
   /// Excesses by quantity.
   struct Findings {
+    Units units;  ///< for messages
     std::vector<Excess> bent, pressed, displaced, spun, coarse, swung;
 
     /// Compares a body with its limits. first_frequency(spin) is that in a frame that turns with the spin.
@@ -200,51 +202,52 @@ class LinearRange : public Doubt {
       if (loose.value > most_inner_turn)
         swung.push_back(
             {loose.value,
-             fmt::format("a mechanism inside '{}' turns by about {:.2g} rad (at t = {:.6g}, limit {:g} rad). "
+             fmt::format("a mechanism inside '{}' turns by about {:.2g} rad (at t = {:.6g}{}, limit {:g} rad). "
                          "Displacements are linear in this rotation. Reduce two parts and join them in the scene",
-                         body.name, loose.value, loose.time, most_inner_turn)});
+                         body.name, loose.value, loose.time, after_time(units), most_inner_turn)});
       if (body.bare) {
         if (const double r = axial.value / body.buckling;
             body.buckling > 0.0 && body.pieces == 1 && cubic_share(r) > most_axial)
           coarse.push_back(
               {std::abs(r),
-               fmt::format("'{}' carries a {} of {:.2g} of its buckling load between pins (at t = {:.6g}), but has no "
-                           "internal modes. Its stiffness has an error of up to {:.2g} (limit {:g}). Reduce it with "
-                           "'modes: 4' or more, or cut it into several superelements",
-                           body.name, axial.value < 0.0 ? "compression" : "tension", std::abs(r), axial.time,
-                           cubic_share(r), most_axial)});
+               fmt::format(
+                   "'{}' carries a {} of {:.2g} of its buckling load between pins (at t = {:.6g}{}), but has no "
+                   "internal modes. Its stiffness has an error of up to {:.2g} (limit {:g}). Reduce it with "
+                   "'modes: 4' or more, or cut it into several superelements",
+                   body.name, axial.value < 0.0 ? "compression" : "tension", std::abs(r), axial.time, after_time(units),
+                   cubic_share(r), most_axial)});
         return;
       }
       if (const double ratio = deflection.value / body.span; body.span > 0.0 && ratio > most_deflection)
         bent.push_back(
             {ratio,
              fmt::format(
-                 "'{}' deflects by {:.2g} of its length (at t = {:.6g}, limit {:g}), but its strain is linear. {}",
-                 body.name, ratio, deflection.time, most_deflection, body.remedy)});
+                 "'{}' deflects by {:.2g} of its length (at t = {:.6g}{}, limit {:g}), but its strain is linear. {}",
+                 body.name, ratio, deflection.time, after_time(units), most_deflection, body.remedy)});
       if (const double ratio = std::abs(axial.value) / body.buckling;
           body.buckling > 0.0 && missing_share(axial.value / body.buckling, body.pieces) > most_axial)
         pressed.push_back(
             {ratio,
-             fmt::format("'{}' carries a {} of {:.2g} of its buckling load between pins (at t = {:.6g}). This {} the "
+             fmt::format("'{}' carries a {} of {:.2g} of its buckling load between pins (at t = {:.6g}{}). This {} the "
                          "real body by more than {:g} of its stiffness, but its linear strain ignores this effect. {}",
-                         body.name, axial.value < 0.0 ? "compression" : "tension", ratio, axial.time,
+                         body.name, axial.value < 0.0 ? "compression" : "tension", ratio, axial.time, after_time(units),
                          axial.value < 0.0 ? "softens" : "stiffens", most_axial, body.remedy)});
       if (const double ratio = displaced_share(seen); ratio > body.most_displaced)
         displaced.push_back(
             {ratio,
              fmt::format("the displaced nodes of '{}' change the moment of the forces on it by {:.2g} of its largest "
-                         "moment (at t = {:.6g}, limit {:g}{}). Its linear strain ignores this effect. {}",
-                         body.name, ratio, moved.time, body.most_displaced,
+                         "moment (at t = {:.6g}{}, limit {:g}{}). Its linear strain ignores this effect. {}",
+                         body.name, ratio, moved.time, after_time(units), body.most_displaced,
                          body.most_displaced < most_displaced ? " for a body that joints can stress" : "",
                          body.remedy)});
       if (spin.value == 0.0) return;
       const double frequency = first_frequency(spin.value);
       const double ratio = frequency > 0.0 ? spin.value / frequency : 0.0;
       if (ratio > most_spin)
-        spun.push_back(
-            {ratio, fmt::format("'{}' spins at {:.2g} of its first frequency ({:.3g} of {:.3g} rad per unit of time, "
-                                "at t = {:.6g}, limit {:g}), but its strain is linear. {}",
-                                body.name, ratio, spin.value, frequency, spin.time, most_spin, body.remedy)});
+        spun.push_back({ratio, fmt::format("'{}' spins at {:.2g} of its first frequency ({:.3g} of {:.3g} {}, "
+                                           "at t = {:.6g}{}, limit {:g}), but its strain is linear. {}",
+                                           body.name, ratio, spin.value, frequency, turn_rate_label(units), spin.time,
+                                           after_time(units), most_spin, body.remedy)});
     }
 
     std::vector<std::string> reported() const {

@@ -54,13 +54,13 @@ class MultiplierSwing : public Doubt {
   }
 
   /// At most one warning, on the worst stretch.
-  std::vector<std::string> doubts(const Model&, const StressedBodies&) const override {
-    std::string worst = text(worst_);
+  std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
+    std::string worst = text(worst_, model.units);
     return worst.empty() ? std::vector<std::string>{} : std::vector<std::string>{std::move(worst)};
   }
   /// Text on the latest stretch with oscillations.
-  std::string explanation(Puzzle puzzle, const Model&) const override {
-    return puzzle == Puzzle::failure ? text(latest_) : "";
+  std::string explanation(Puzzle puzzle, const Model& model) const override {
+    return puzzle == Puzzle::failure ? text(latest_, model.units) : "";
   }
 
  private:
@@ -68,12 +68,12 @@ class MultiplierSwing : public Doubt {
     double size = 0.0;
     double time = 0.0;
   };
-  std::string text(const Swing& swing) const {
+  std::string text(const Swing& swing, const Units& units) const {
     if (!(swing.size > visible)) return {};
     return fmt::format(
-        "the Lagrange multipliers oscillate from step to step by {:.2g} of their size (around t = {:.6g}). Index 3 "
+        "the Lagrange multipliers oscillate from step to step by {:.2g} of their size (around t = {:.6g}{}). Index 3 "
         "with {} does not damp them. {}",
-        swing.size, swing.time, settings_, remedy_);
+        swing.size, swing.time, after_time(units), settings_, remedy_);
   }
 
   std::string settings_, remedy_;  ///< settings of the integrator and advice, as text
@@ -110,13 +110,13 @@ class ReactionVibration : public Doubt {
   }
 
   /// At most one warning.
-  std::vector<std::string> doubts(const Model&, const StressedBodies&) const override {
+  std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     if (count_ < fast_stretches || !(fast_ > large * largest_)) return {};
     return {
         fmt::format("reactions vibrate with '{}', which has no damping. In at least half of the steps around t = "
-                    "{:.6g} they change by more than a quarter of their largest value, so peaks depend on the step. "
+                    "{:.6g}{} they change by more than a quarter of their largest value, so peaks depend on the step. "
                     "Give the body 'damping', or compare with a shorter 'step'",
-                    body_, time_)};
+                    body_, time_, after_time(model.units))};
   }
 
  private:

@@ -83,21 +83,21 @@ class StepResolution : public Doubt {
   /// with at least a tenth of the largest kinetic energy.
   std::vector<std::string> doubts(const Model& model, const StressedBodies&) const override {
     if (fastest_.angle > largest_turn)
-      return {
-          fmt::format("'{}' turns by {:.2g} rad per step (around t = {:.6g}, limit {:.2g} rad). At half a revolution "
-                      "per step, both directions of rotation look the same. Set a shorter 'step'",
-                      model.nodes[fastest_.node].name, fastest_.angle, fastest_.time, largest_turn)};
+      return {fmt::format(
+          "'{}' turns by {:.2g} rad per step (around t = {:.6g}{}, limit {:.2g} rad). At half a revolution "
+          "per step, both directions of rotation look the same. Set a shorter 'step'",
+          model.nodes[fastest_.node].name, fastest_.angle, fastest_.time, after_time(model.units), largest_turn)};
     if (coarsest_.empty()) return {};
     const int largest = coarsest_.rbegin()->first;
     Stretch worst;
     for (const auto& [energy, one] : coarsest_)
       if (energy >= largest - depth && one.rate > worst.rate) worst = one;
     if (worst.coordinate < 0) return {};
-    return {
-        fmt::format("the step of {:.3g} does not resolve the motion: about {:.2g} steps per period around t = {:.6g}, "
-                    "fewer than 10 (mainly at {}). Set 'integrator: {{step: {:.1g}}}'",
-                    worst.step, 2.0 * std::numbers::pi / worst.rate, worst.time,
-                    coordinate_name(model, worst.coordinate), worst.step * coarse / worst.rate / 2.0)};
+    return {fmt::format(
+        "the step of {:.3g}{} does not resolve the motion: about {:.2g} steps per period around t = {:.6g}{}, "
+        "fewer than 10 (mainly at {}). Set 'integrator: {{step: {:.1g}}}'",
+        worst.step, after_time(model.units), 2.0 * std::numbers::pi / worst.rate, worst.time, after_time(model.units),
+        coordinate_name(model, worst.coordinate), worst.step * coarse / worst.rate / 2.0)};
   }
 
   std::string explanation(Puzzle puzzle, const Model&) const override {
@@ -188,9 +188,10 @@ class TouchResolution : public Doubt {
           worst = &stop, shortest = touch;
     if (worst == nullptr) return {};
     return {fmt::format(
-        "contact with the stop of '{}' lasts {} step{} (at t = {:.6g}), fewer than {}. The steps do not resolve the "
+        "contact with the stop of '{}' lasts {} step{} (at t = {:.6g}{}), fewer than {}. The steps do not resolve the "
         "impact. Set a shorter 'step', or use 'error_control'",
-        model.springs[worst->spring].name, shortest.steps, shortest.steps == 1 ? "" : "s", shortest.time, least_touch)};
+        model.springs[worst->spring].name, shortest.steps, shortest.steps == 1 ? "" : "s", shortest.time,
+        after_time(model.units), least_touch)};
   }
 
  private:

@@ -96,11 +96,11 @@ class Torsion : public Doubt {
     }
     if (at < 0) return {};
     return {fmt::format(
-        "'{}' is too soft in torsion for its spin ({:.3g} rad per unit of time at t = {:.6g}). Inertia {} causes "
+        "'{}' is too soft in torsion for its spin ({:.3g} {} at t = {:.6g}{}). Inertia {} causes "
         "moments on its nodes that a real beam does not have. They are {:.2g} of its torsional stiffness (limit {:g}; "
         "above 1 the body turns over). Use 'inertia: A', or `second_order: on` with its companion file",
-        model.superelements[at].name, seen_[at].spin, seen_[at].time, letter(body_of(model, at).inertia), worst,
-        most_moment)};
+        model.superelements[at].name, seen_[at].spin, turn_rate_label(model.units), seen_[at].time,
+        after_time(model.units), letter(body_of(model, at).inertia), worst, most_moment)};
   }
 
   std::string explanation(Puzzle puzzle, const Model& model) const override {

@@ -80,10 +80,10 @@ class TyreRange : public Doubt {
     const std::string others =
         count > 1 ? fmt::format(". Other values outside their range: {}", count - 1) : std::string();
     return {
-        fmt::format("tyre '{}' left the range for which its file was fitted: {} {:.3g}{} at t = {:.6g}, end of the "
+        fmt::format("tyre '{}' left the range for which its file was fitted: {} {:.3g}{} at t = {:.6g}{}, end of the "
                     "range {:.3g}{}. Outside the range, its forces are continued from the end of the range{}",
                     model.tyres[tyre].name, names[quantity].quantity, worst.value, names[quantity].unit, worst.time,
-                    worst.limit, names[quantity].unit, others)};
+                    after_time(model.units), worst.limit, names[quantity].unit, others)};
   }
 
  private:

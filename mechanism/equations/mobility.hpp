@@ -12,6 +12,7 @@
 
 namespace tisserand::mechanism {
 
+/// Degrees of freedom of a mechanism, with the rank and the redundant rows of its constraints.
 struct Mobility {
   int coordinates = 0;  ///< boundary and internal; those of tyre treads do not count
   int constraints = 0;

@@ -11,6 +11,7 @@ namespace tisserand::mechanism {
 /// Kind of the constraint rows B̂ in the iteration matrix, THEORY (70). A kind says which quantities the rows are
 /// derivatives of, and by which increments.
 struct ConstraintRows {
+  /// Kinds of constraint rows.
   enum class Kind {
     plain,  ///< B: derivative of Φ by material increments
     /// B T(θ): derivative of Φ by increments of the rotation vector θ of the step.

@@ -18,6 +18,7 @@ class Curve {
   Curve(double factor) : factor_(factor) {}  // NOLINT(google-explicit-constructor): a number is a law
   explicit Curve(const formats::LawSpec& law);
 
+  /// Value of a curve at a point, with its slope there and its integral from 0.
   struct Value {
     double value = 0.0;
     double slope = 0.0;

@@ -69,10 +69,11 @@ std::string deviations_table(const std::vector<Series>& differences) {
     text += "\n";
   }
   if (!differences.empty()) {
-    const Deviation& d = differences.front().norms;
-    text += fmt::format("Compared at {} {} from {:g} to {:g}; the RMS of the reference is {:.3e}.\n", d.instants,
-                        differences.front().channel.starts_with("modes/") ? "modes" : "instants", d.from, d.to,
-                        d.reference_rms);
+    const Series& first = differences.front();
+    const Deviation& d = first.norms;
+    text += fmt::format("Compared at {} {} from {:g} to {:g}{}; the RMS of the reference is {:.3e}{}.\n", d.instants,
+                        first.channel.starts_with("modes/") ? "modes" : "instants", d.from, d.to,
+                        after_number(first.x_unit), d.reference_rms, after_number(first.unit));
   }
   return text;
 }

@@ -70,6 +70,7 @@ struct ConstraintMap {
   std::vector<int> upper;
 };
 
+/// Model of a mechanism, which stays constant during a run: bodies, nodes, constraints, forces and layout of the state.
 struct Model {
   std::string name;
   Units units;

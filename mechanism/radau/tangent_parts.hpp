@@ -17,6 +17,7 @@ namespace tisserand::mechanism::radau {
 /// rows are B and ∂(B v)/∂q, the columns ∂r/∂λ.
 struct TangentParts {
   enum class Place : std::uint8_t { block, column, row };
+  /// Blocks of the tangent of one superelement or modal body.
   struct Element {
     std::array<Eigen::MatrixXd, 3> BB, BI, IB;  ///< blocks of M, C, K: (nb x nb), (nb x m), (m x nb)
   };

@@ -226,8 +226,8 @@ void AutomaticEffects::doubt(const std::vector<bool>& missed, Run& run) {
   for (std::size_t k = 0; k < uses_.size(); ++k)
     if (missed[k]) names.push_back(effect_name(uses_[k].effect));
   run.report.doubts.push_back(fmt::format(
-      "auto: {} matters at t = {:.6g}, but is off in the run that this one continues; run the scene from its start",
-      listed(names), run.built.state.time()));
+      "auto: {} matters at t = {:.6g}{}, but is off in the run that this one continues; run the scene from its start",
+      listed(names), run.built.state.time(), after_time(run.scene.units)));
 }
 
 void AutomaticEffects::report_begin(RunReport& report) const {

@@ -110,7 +110,8 @@ void integrate_bdf(Run& run, RowWriter& out) {
     const std::string failure = bdf.step(bounded(run, ahead, instants.stop(), report.greatest_step));
     if (!failure.empty()) {
       const std::string load = nonfinite_load(run, before);
-      report.end(RunOutcome::not_converged, fmt::format("t = {:.6g}: {}", before, load.empty() ? failure : load));
+      report.end(RunOutcome::not_converged,
+                 fmt::format("t = {:.6g}{}: {}", before, after_time(run.scene.units), load.empty() ? failure : load));
       break;
     }
     const double size = state.time() - before;

@@ -28,8 +28,9 @@ namespace fs = std::filesystem;
 
 void require_before_end(const formats::Scene& scene, double time, const std::string& file) {
   if (time < scene.integrator.end) return;
-  throw Error(fmt::format("is at t = {:.9g}, but the run ends at t = {:.9g}", time, scene.integrator.end), file,
-              "increase integrator.end");
+  throw Error(fmt::format("is at t = {:.9g}{}, but the run ends at t = {:.9g}{}", time, after_time(scene.units),
+                          scene.integrator.end, after_time(scene.units)),
+              file, "increase integrator.end");
 }
 
 bool is_same_file(const std::string& a, const std::string& b) {
@@ -124,7 +125,7 @@ void resume_checkpoint(Run& run, const std::string& file, Joining joining, Chang
   run.report.mobility = count_mobility(run.built.model, state, run.workspace.now);
   run.workspace.forget();
   run.report.notes.push_back(
-      fmt::format("continues from {} at t = {:.9g}{}", file, checkpoint.time,
+      fmt::format("continues from {} at t = {:.9g}{}{}", file, checkpoint.time, after_time(run.scene.units),
                   checkpoint.producer == producer("mechanism")
                       ? ""
                       : fmt::format(", written by {}: results are equal within the tolerance, not bit for bit",
@@ -151,7 +152,8 @@ void resume_results(Run& run, const std::string& file, const std::optional<doubl
   Schedule schedule(run.scene, run.built.model.breakpoints);
   schedule.skip_to(state.time());
   run.schedule_memory = schedule.memory();
-  run.report.notes.push_back(fmt::format("continues from {} at t = {:.9g}", file, state.time()));
+  run.report.notes.push_back(
+      fmt::format("continues from {} at t = {:.9g}{}", file, state.time(), after_time(run.scene.units)));
   if (joining == Joining::appended) begin_with(run, {file, sums.row + 1});
 }
 
@@ -258,8 +260,9 @@ void resume(Run& run, const std::string& named, const std::optional<double>& at,
                 "use generalised_alpha or hht");
   const bool checkpoint = formats::is_checkpoint(file);
   if (checkpoint && at)
-    throw Error(fmt::format("is a checkpoint, which holds only one instant: t = {:.9g} cannot be chosen", *at), file,
-                "omit --at, or give a results file");
+    throw Error(fmt::format("is a checkpoint, which holds only one instant: t = {:.9g}{} cannot be chosen", *at,
+                            after_time(run.scene.units)),
+                file, "omit --at, or give a results file");
   if (checkpoint)
     resume_checkpoint(run, file, joining, changed);
   else

@@ -57,12 +57,13 @@ std::string failure_of(Run& run, const StepReport& step, const StepEnd& target, 
   ++report.rejected;
   if (step.outcome == StepOutcome::inaccurate) ++report.inaccurate;
   const std::string why =
-      fmt::format("t = {:.6g}, step {:.3g}: {}", before, target.time - before, explain(run.built.model, step));
+      fmt::format("t = {:.6g}{}, step {:.3g}{}: {}", before, after_time(run.scene.units), target.time - before,
+                  after_time(run.scene.units), explain(run.built.model, step));
   if (report.rejections.size() < 20) report.rejections.push_back(why);
   const std::string load = nonfinite_load(run, target.load_time);
   if (!load.empty()) return load + "; correct the formula, or end the run earlier";
   if (loop.schedule.retry(before, step)) return {};
-  return fmt::format("{} ({}){}", why, loop.schedule.limit(),
+  return fmt::format("{} ({}){}", why, loop.schedule.limit(run.scene.units),
                      failure_cause(run.built.model, run.scene.integrator, run.doubts, {step, loop.first_tried},
                                    run.built.state, run.workspace));
 }

@@ -36,9 +36,10 @@ std::string FrameAngles::observe(const Model& model, const State& state, const E
       seen_[i] = {angle, state.time(), j};
       if (angle > refused && body.second_order.stiffening && end.empty())
         end = fmt::format(
-            "t = {:.6g}: '{}/{}' has turned by {:.3g} rad relative to the floating frame of its body, whose "
+            "t = {:.6g}{}: '{}/{}' has turned by {:.3g} rad relative to the floating frame of its body, whose "
             "stiffening is valid below {:g} rad; {}",
-            state.time(), model.superelements[i].name, body.node[j].name, angle, refused, remedy);
+            state.time(), after_time(model.units), model.superelements[i].name, body.node[j].name, angle, refused,
+            remedy);
     }
   }
   return end;
@@ -50,9 +51,9 @@ void FrameAngles::tell(const Model& model, RunReport& report) const {
     const bool stiffened = body.second_order.stiffening.has_value();
     if (seen_[i].angle <= (stiffened ? noted : doubted)) continue;
     const std::string text =
-        fmt::format("'{}/{}' turned by up to {:.3g} rad (at t = {:.6g}) relative to the floating frame of its body{}",
+        fmt::format("'{}/{}' turned by up to {:.3g} rad (at t = {:.6g}{}) relative to the floating frame of its body{}",
                     model.superelements[i].name, body.node[seen_[i].node].name, seen_[i].angle, seen_[i].time,
-                    stiffened ? "" : ", whose strain is linear in this angle");
+                    after_time(model.units), stiffened ? "" : ", whose strain is linear in this angle");
     if (seen_[i].angle > doubted)
       report.doubts.push_back(fmt::format("{}: {}", text, remedy));
     else
@@ -68,7 +69,7 @@ std::string off_road(const Model& model, const State& state, const Evaluation& e
     const Eigen::Vector3d contact = road.R.transpose() * (tyre.contact - road.p);
     const std::optional<RoadLack> lack = road.lack(contact.x(), contact.y());
     if (lack)
-      return fmt::format("t = {:.6g}: tyre '{}' {}", state.time(), model.tyres[i].name,
+      return fmt::format("t = {:.6g}{}: tyre '{}' {}", state.time(), after_time(model.units), model.tyres[i].name,
                          lack_text(*lack, road, after_number(unit_label(model.units, 1, 0, 0))));
   }
   return {};

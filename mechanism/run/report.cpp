@@ -17,9 +17,9 @@ const char* outcome_name(RunOutcome outcome) {
   return names[static_cast<int>(outcome)];
 }
 
-/// Text on the choice of an effect: "flexibility off: crank (at most 0.2 times the tolerance: crank, t = 0.3); on:
+/// Text on the choice of an effect: "flexibility off: crank (at most 0.2 times the tolerance: crank, t = 0.3 s); on:
 /// rod".
-std::string choice_text(const RunReport& report, const std::string& effect) {
+std::string choice_text(const RunReport& report, const std::string& effect, const Units& units) {
   std::vector<std::string> texts;
   for (const bool on : {false, true}) {
     std::vector<std::string> names;
@@ -32,8 +32,8 @@ std::string choice_text(const RunReport& report, const std::string& effect) {
     if (names.empty()) continue;
     texts.push_back(fmt::format("{}: {}", on ? "on" : "off", listed(names)));
     if (most->demand == 0.0) continue;
-    texts.back() += fmt::format(" ({}{:.2g} times the tolerance: {}, t = {:.6g})", on ? "" : "at most ", most->demand,
-                                most->body, most->time);
+    texts.back() += fmt::format(" ({}{:.2g} times the tolerance: {}, t = {:.6g}{})", on ? "" : "at most ", most->demand,
+                                most->body, most->time, after_time(units));
   }
   return fmt::format("{} {}", effect, join(texts, "; "));
 }
@@ -134,7 +134,6 @@ std::string report_json(const RunReport& report) {
 }
 
 std::string report_text(const RunReport& report, const Units& units) {
-  const std::string time = unit_label(units, 0, 0, 1);
   std::string text;
   const auto line = [&text](const char* name, const std::string& value) {
     text += fmt::format("  {:<16} {}\n", name, value);
@@ -149,7 +148,7 @@ std::string report_text(const RunReport& report, const Units& units) {
   for (const ChosenEffect& choice : report.automatic) {
     if (std::ranges::count(reported, choice.effect) > 0) continue;
     reported.push_back(choice.effect);
-    line("auto", choice_text(report, choice.effect));
+    line("auto", choice_text(report, choice.effect, units));
   }
   line("mobility", fmt::format("{} degrees of freedom: {} coordinates, {} constraints of rank {}",
                                report.mobility.degrees_of_freedom, report.mobility.coordinates,
@@ -161,7 +160,7 @@ std::string report_text(const RunReport& report, const Units& units) {
   if (report.steps == 0 && report.outcome == RunOutcome::completed) return text;
   line("outcome", report.reason.empty() ? outcome_name(report.outcome)
                                         : fmt::format("{}: {}", outcome_name(report.outcome), report.reason));
-  line("reached", fmt::format("t = {:.6g}{}", report.time, after_number(time)));
+  line("reached", fmt::format("t = {:.6g}{}", report.time, after_time(units)));
   line("steps",
        fmt::format("{} ({} rejected{}), {} iterations, {} factorisations", report.steps, report.rejected,
                    report.repeated > 0 ? fmt::format(", {} in runs repeated with more effects", report.repeated) : "",

@@ -66,11 +66,13 @@ std::vector<std::string> effects(const Model& model) {
   return list;
 }
 
-/// Text "load 'motor', x component: ..": the value at `time`, with its formula, if it is not finite.
-std::string nonfinite_text(const std::string& what, const formats::TimeFunctionSpec& spec, double time, double value) {
+/// Text "load 'motor', x component: ..": the value at the time `time` ("t = 0.1 s"), with its formula, if it is not
+/// finite.
+std::string nonfinite_text(const std::string& what, const formats::TimeFunctionSpec& spec, const std::string& time,
+                           double value) {
   if (std::isfinite(value)) return {};
   const auto* expression = std::get_if<formats::TimeExpression>(&spec);
-  return fmt::format("{}{}: the value at t = {:.6g} is {}, not a finite number", what,
+  return fmt::format("{}{}: the value at {} is {}, not a finite number", what,
                      expression == nullptr ? "" : fmt::format(" '{}'", expression->text), time, value);
 }
 
@@ -307,9 +309,10 @@ Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunCo
 std::string nonfinite_load(Run& run, double time) {
   const Model& model = run.built.model;
   Evaluation& now = run.workspace.now;
+  const std::string instant = fmt::format("t = {:.6g}{}", time, after_time(model.units));
   std::string first;
   const auto look = [&](const std::string& what, const formats::TimeFunctionSpec& spec, double value) {
-    if (first.empty()) first = nonfinite_text(what, spec, time, value);
+    if (first.empty()) first = nonfinite_text(what, spec, instant, value);
   };
   for (std::size_t i = 0; i < model.loads.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
@@ -383,7 +386,8 @@ std::string why_to_end(Run& run) {
 bool is_interrupted(Run& run) {
   const bool interrupted = run.control.interrupted && run.control.interrupted();
   if (interrupted)
-    run.report.end(RunOutcome::interrupted, fmt::format("interrupted at t = {:.6g}", run.built.state.time()));
+    run.report.end(RunOutcome::interrupted,
+                   fmt::format("interrupted at t = {:.6g}{}", run.built.state.time(), after_time(run.scene.units)));
   return interrupted;
 }
 

@@ -59,7 +59,7 @@ void write_motion_row(Run& run, const StepReport& step, double size, RowWriter& 
 void stop_at_dead_point(Run& run, double time, const StepReport& step) {
   run.report.end(
       RunOutcome::not_converged,
-      fmt::format("t = {:.6g}: {} (after {} halvings of the step)", time,
+      fmt::format("t = {:.6g}{}: {} (after {} halvings of the step)", time, after_time(run.scene.units),
                   step.outcome == StepOutcome::singular
                       ? "the drives do not determine the motion: at this dead point, several motions are possible"
                       : "the joints cannot be closed: the drive exceeds the range of the mechanism",

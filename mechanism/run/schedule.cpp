@@ -70,8 +70,8 @@ bool Schedule::retry(double time, const StepReport& report) {
   return proposal_ >= least_step(integrator_);
 }
 
-std::string Schedule::limit() const {
-  return controlled() ? fmt::format("a step below min_step, {:.3g}", least_step(integrator_))
+std::string Schedule::limit(const Units& units) const {
+  return controlled() ? fmt::format("a step below min_step, {:.3g}{}", least_step(integrator_), after_time(units))
                       : fmt::format("after {} halvings of the step", integrator_.max_halvings);
 }
 

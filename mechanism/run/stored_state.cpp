@@ -55,9 +55,10 @@ std::size_t find_row(const formats::ResultsReader& reader, const std::string& fi
   if (time.empty()) throw Error("holds no instant", file, "give a results file with rows");
   if (!at) return time.size() - 1;
   const auto nearest = std::ranges::min_element(time, {}, [&](double t) { return std::abs(t - *at); });
+  const std::string unit = after_time(reader.layout().units);
   if (std::abs(*nearest - *at) > 1e-9 * std::max(1.0, std::abs(*at)))
-    throw Error(fmt::format("holds no instant t = {:.12g}; the nearest is {:.12g}", *at, *nearest), file,
-                "give a stored instant with --at");
+    throw Error(fmt::format("holds no instant t = {:.12g}{}; the nearest is {:.12g}{}", *at, unit, *nearest, unit),
+                file, "give a stored instant with --at");
   return static_cast<std::size_t>(nearest - time.begin());
 }
 
@@ -226,8 +227,9 @@ StoredSums read_stored_state(const Model& model, const std::string& file, const 
   state.lambda().setZero();
   if (!state.x().allFinite() || !state.Q().allFinite() || !state.v().allFinite() || !state.y().allFinite() ||
       !state.w().allFinite())
-    throw Error(fmt::format("the instant t = {:.9g} contains values that are not numbers", state.time()), file,
-                "continue from a dynamic or static analysis");
+    throw Error(fmt::format("the instant t = {:.9g}{} contains values that are not numbers", state.time(),
+                            after_time(model.units)),
+                file, "continue from a dynamic or static analysis");
   workspace.forget();
   StoredSums sums;
   sums.work = stored.sum("energy/work");

@@ -50,9 +50,11 @@ std::vector<double> times_of(const PictureRequest& request, const formats::Resul
   if (run.rows() == 0) return {0.0};  // the page reports it
   const Eigen::MatrixXd ends = run.read_dataset("time", {0, run.rows() - 1});
   if (request.times.empty()) return {ends(1, 0)};
+  const std::string unit = after_time(run.layout().units);
   for (const double time : request.times)
     if (!(time >= ends(0, 0) && time <= ends(1, 0)))
-      throw Error(fmt::format("has no instant t = {:.6g}: it goes from {:.6g} to {:.6g}", time, ends(0, 0), ends(1, 0)),
+      throw Error(fmt::format("has no instant t = {:.6g}{}: it goes from {:.6g} to {:.6g}{}", time, unit, ends(0, 0),
+                              ends(1, 0), unit),
                   run.path(), "give --time within the run");
   return request.times;
 }

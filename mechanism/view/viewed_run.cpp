@@ -23,8 +23,9 @@ PageRows columns_of(const Eigen::MatrixXd& all, int item, int width, const std::
   if (values.array().isNaN().all()) return PageRows(0, width);
   for (Eigen::Index t = 0; t < values.rows(); ++t)
     if (!values.row(t).allFinite())
-      throw Error(fmt::format("{} is not a number at t = {:.6g}", printable(name), run.times[t]), run.reader->path(),
-                  "check the run: it failed at this time, or the file was changed");
+      throw Error(fmt::format("{} is not a number at t = {:.6g}{}", printable(name), run.times[t],
+                              after_time(run.layout().units)),
+                  run.reader->path(), "check the run: it failed at this time, or the file was changed");
   return values;
 }
 

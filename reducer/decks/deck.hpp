@@ -14,6 +14,7 @@ namespace tisserand::reducer {
 /// with a warning.
 enum class UnknownCards { refuse, ignore };
 
+/// Options for reading a deck.
 struct DeckOptions {
   UnknownCards unknown = UnknownCards::refuse;
   bool boundary = true;  ///< false: ASET and similar cards are not read, because the part file names the boundary
@@ -24,6 +25,7 @@ struct ElementSet {
   std::vector<int> beams, shells, solids, springs;
 };
 
+/// Mesh of a deck, with the names and numbers of its nodes and elements.
 struct Deck {
   /// Mesh with all nodes, also unused ones; its boundary is that of ASET and BSET, or empty.
   Mesh mesh;

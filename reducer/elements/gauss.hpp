@@ -6,6 +6,7 @@
 
 namespace tisserand::reducer {
 
+/// Point of a Gauss quadrature rule on the interval from -1 to 1, with its weight.
 struct GaussPoint {
   double at;
   double weight;

@@ -8,6 +8,7 @@
 
 namespace tisserand::reducer::exchange {
 
+/// Files from which reduced matrices of Abaqus are read.
 struct AbaqusSource {
   std::string path;  ///< file of both matrices, or of the stiffness only
   std::string mass;  ///< file of the mass matrix; empty if `path` has both

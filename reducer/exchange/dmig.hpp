@@ -9,6 +9,7 @@
 
 namespace tisserand::reducer::exchange {
 
+/// Files and matrix names from which DMIG matrices are read.
 struct DmigSource {
   std::string path;
   std::string positions;  ///< second file, with GRID and CORD cards; may be empty

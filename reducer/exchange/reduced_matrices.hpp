@@ -31,6 +31,7 @@ struct RowKey {
 /// Text for a row in messages: "node 12, rotation y" or "scalar point 1001".
 std::string key_text(const RowKey& key);
 
+/// Entry of a matrix, as a text gives it.
 struct MatrixEntry {
   RowKey row;
   RowKey column;

@@ -6,6 +6,7 @@
 
 namespace tisserand::reducer::exchange {
 
+/// Arguments of `reducer import`.
 struct ImportRequest {
   std::string input;
   std::string output;     ///< empty: next to the input
@@ -19,6 +20,7 @@ struct ImportRequest {
   std::string modal;      ///< nodes whose rows are internal coordinates: "1001-1008,2000"
 };
 
+/// Arguments of `reducer export`.
 struct ExportRequest {
   std::string input;
   std::string output;  ///< empty: next to the input

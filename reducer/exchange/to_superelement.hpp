@@ -12,12 +12,14 @@
 
 namespace tisserand::reducer::exchange {
 
+/// Names and units for a superelement that is made from imported matrices.
 struct ImportOptions {
   std::string name;                        ///< name of the superelement
   Units units;                             ///< units of the file
   std::map<long, std::string> node_names;  ///< names of nodes by number, which replace NodePlace::name and n<number>
 };
 
+/// Superelement that was made from imported matrices, with its report and certificate.
 struct Imported {
   formats::Superelement element;
   formats::SuperelementReport report;  ///< report of check() on the superelement

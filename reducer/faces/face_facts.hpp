@@ -22,6 +22,7 @@ enum class FaceSide {
   concave  ///< solid outside, as in a bore
 };
 
+/// Form, side, area and middle of a face.
 struct FaceFacts {
   SurfaceForm form;  ///< form; the normal of a plane points outward, or as that of its cells if the outside is unknown
   FaceSide side = FaceSide::unknown;

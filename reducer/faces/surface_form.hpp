@@ -13,6 +13,7 @@ enum class FormKind { plane, cylinder, cone, sphere, torus, curved };
 /// Word for a kind of form: "plane", ..., or "curved" for none of the other kinds.
 const char* form_word(FormKind kind);
 
+/// Form of a surface, such as a plane or a cylinder, with its position and dimensions.
 struct SurfaceForm {
   FormKind kind = FormKind::curved;
   /// Point on the plane or axis; apex of a cone; centre of a sphere or torus.

@@ -12,6 +12,7 @@
 
 namespace tisserand::reducer {
 
+/// Visible surface of a mesh as triangles.
 struct Surface {
   std::vector<Eigen::Vector3i> triangle;  ///< nodes of each triangle, counter-clockwise seen from outside
   std::vector<int> element;               ///< element of each triangle, as number in element_nodes()

@@ -9,6 +9,7 @@ namespace tisserand::reducer {
 /// Number of volume cells of the current model with a Jacobian determinant of 0 or less at one of their nodes.
 std::size_t folded_cells();
 
+/// Numbers of folded cells before and after the optimisation of curved cells.
 struct Unfolding {
   std::size_t before = 0;
   std::size_t after = 0;

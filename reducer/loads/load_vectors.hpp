@@ -9,6 +9,7 @@
 
 namespace tisserand::reducer {
 
+/// Nodal forces of all load cases.
 struct LoadVectors {
   Eigen::MatrixXd x;        ///< coordinates of the mesh x cases: forces f without gravity
   Eigen::MatrixXd q;        ///< coordinates q x cases: forces Tᵀ f + M R g, with gravity g

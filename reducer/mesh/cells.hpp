@@ -37,6 +37,7 @@ enum class CellShape : std::uint8_t {
   prism15
 };
 
+/// Element type in gmsh, dimension and numbers of nodes and corners of a cell shape.
 struct CellForm {
   int gmsh_type;
   int dimension;
@@ -47,6 +48,7 @@ CellForm form_of(CellShape shape);
 /// Shape of the cells of a gmsh element type. Returns nothing for types that no cell has.
 std::optional<CellShape> cell_shape(int gmsh_type);
 
+/// Cell of a mesh: shape, number and nodes.
 struct Cell {
   CellShape shape = CellShape::line2;
   long id = 0;  ///< number of the cell in the file or in its entity
@@ -88,6 +90,7 @@ struct EntityGeometry {
   std::vector<int> volumes;             ///< numbers of the volumes that the face bounds
 };
 
+/// Mesh as a file or gmsh gives it: nodes, cells, entities and groups, without properties.
 struct CellMesh {
   std::vector<Eigen::Vector3d> position;
   std::vector<long> node_id;               ///< number of each node in the file

@@ -55,6 +55,7 @@ struct EdgeLineLoad {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
 };
 
+/// Load case on a mesh: forces, pressures, line loads and gravity that act together.
 struct MeshLoadCase {
   std::string name;
   std::vector<NodeLoad> forces;

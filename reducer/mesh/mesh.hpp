@@ -60,6 +60,7 @@ struct ShellElement {
   int corners() const { return nodes[3] < 0 ? 3 : 4; }
 };
 
+/// Properties that shell elements share: stiffness of the section, mass matrix and name.
 struct ShellProperty {
   ShellSection section;
   formats::MassMatrix mass_matrix = formats::MassMatrix::consistent;
@@ -71,6 +72,7 @@ struct ShellProperty {
 enum class SolidShape : std::uint8_t { tetrahedron4, tetrahedron10, hexahedron8, hexahedron20, prism6, prism15 };
 int node_count(SolidShape shape);
 
+/// Solid element: shape, nodes and property.
 struct SolidElement {
   SolidShape shape = SolidShape::tetrahedron4;
   std::array<int, 20> nodes{};
@@ -87,6 +89,7 @@ inline std::span<const int> nodes_of(const SolidElement& solid) {
   return std::span(solid.nodes).first(static_cast<std::size_t>(node_count(solid.shape)));
 }
 
+/// Properties that solid elements share: material, mass matrix and name.
 struct SolidProperty {
   SolidMaterial material;
   formats::MassMatrix mass_matrix = formats::MassMatrix::consistent;
@@ -103,6 +106,7 @@ struct Spring {
 
 inline std::array<int, 2> nodes_of(const Spring& spring) { return {spring.first, spring.second}; }
 
+/// Rigid mass with rotary inertia, fixed to a node with an offset.
 struct NodalMass {
   int node = 0;
   double mass = 0.0;
@@ -115,6 +119,7 @@ struct NodalMass {
 /// weighted mean motion of the nodes, which can still deform (RBE3).
 enum class SpiderKind { rigid, averaging };
 
+/// Connection of a reference node with other nodes, rigid or averaging.
 struct Spider {
   SpiderKind kind = SpiderKind::rigid;
   int reference = 0;
@@ -135,6 +140,8 @@ struct TieTerm {
   int component = 0;
   double coefficient = 0.0;
 };
+
+/// Linear equation between coordinates of the mesh: the sum of its terms is zero.
 struct TieEquation {
   std::vector<TieTerm> terms;  ///< terms; the first has the coordinate that is preferably made dependent
   std::string name;
@@ -155,6 +162,7 @@ struct FrameNode {
   Components components = all_components;
 };
 
+/// Finite-element mesh of a part: nodes, elements, properties, connections, boundary and load cases.
 struct Mesh {
   Eigen::Matrix3Xd position;            ///< 3 x nodes, part frame
   std::vector<std::string> node_label;  ///< name of each node for messages: "tip", "spar[3]" or "node 4711"

@@ -19,6 +19,7 @@ struct StressPatch {
   std::vector<int> source;
 };
 
+/// Patches of elements around corners, over which stresses are averaged.
 struct StressPatches {
   std::vector<StressPatch> patch;
   std::vector<int> first;          ///< elements + 1 numbers: index in `of_corner` of the first corner of each element

@@ -8,6 +8,7 @@
 
 namespace tisserand::reducer {
 
+/// Properties of the geometry around a shell that make the estimate of the discretisation error unreliable.
 struct ShellForm {
   /// true: a coarse curve, where the shell turns by 25 to 75 degrees at two edges or at both ends of a free edge.
   bool turned = false;

@@ -21,6 +21,7 @@ enum class MesherEnding {
   left             ///< it ended by itself without an answer
 };
 
+/// Result of the process that runs gmsh: how it ended, and its answer.
 struct MesherReport {
   MesherEnding ending = MesherEnding::left;
   int signal = 0;

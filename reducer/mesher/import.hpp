@@ -11,6 +11,7 @@
 
 namespace tisserand::reducer {
 
+/// Request to read or mesh a file with gmsh.
 struct ImportRequest {
   const formats::MeshFile& settings;
   const Units& units;  ///< units of the part; STEP and IGES are converted to its length unit

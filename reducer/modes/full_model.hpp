@@ -27,6 +27,7 @@ Blocks take_apart(System& system, const Partition& p, const formats::ModeSelecti
 /// motions R.
 formats::RigidProperties full_rigid_properties(const System& system);
 
+/// Elastic modes of the free part, unreduced, with the report of the solver.
 struct FreeModes : EigenPairs {
   /// Number of elastic modes below the cut by Sylvester's law of inertia; it equals the number of modes.
   std::optional<int> counted;

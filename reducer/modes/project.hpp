@@ -17,6 +17,7 @@ struct ProjectionDefects {
   double rigid_residual = 0.0;      ///< largest |S̄ R| with the rigid motions R, before project() removes it
 };
 
+/// Superelement of a projection, with the deviations that were removed from it.
 struct Projection {
   formats::Superelement superelement;
   ProjectionDefects defects;

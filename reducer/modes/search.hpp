@@ -29,6 +29,7 @@ struct EigenRun {
   int iterations = 0;
 };
 
+/// Result of a search for eigenpairs, with its accuracy and the runs of the solver.
 struct SearchResult {
   EigenPairs pairs;  ///< found pairs, ascending
   /// Residuals from iterate_once(); absent if the solver did not take that step.

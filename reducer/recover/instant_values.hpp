@@ -27,6 +27,7 @@ struct LargestAt {
   int at = -1;
 };
 
+/// Largest stresses of beams, shells and solids at one instant, with their places.
 struct InstantPeaks {
   LargestAt beam, shell, solid;  ///< `at` is the element, for solids the node
 };

@@ -48,9 +48,9 @@ BodyRow find_body(const formats::ResultsReader& results, const std::string& body
   throw Error(fmt::format("holds no superelement '{}'", shown), results.path(), remedy);
 }
 
-/// Nearest stored instants of the requested times, without repetition.
+/// Nearest stored instants of the requested times, without repetition. `unit`: label of the times, for messages.
 std::vector<std::size_t> chosen_rows(const std::vector<double>& time, const RecoverRequest& request,
-                                     const std::string& where) {
+                                     const std::string& unit, const std::string& where) {
   if (time.empty()) throw Error("holds no stored instants", where, "run the scene to its end, or store more often");
   std::vector<std::size_t> rows;
   if (request.times.empty())
@@ -58,7 +58,8 @@ std::vector<std::size_t> chosen_rows(const std::vector<double>& time, const Reco
   const double span = time.back() - time.front(), margin = 1e-9 * (1.0 + std::abs(span));
   for (const double wanted : request.times) {
     if (!(wanted >= time.front() - margin && wanted <= time.back() + margin))
-      throw Error(fmt::format("time {:g} is outside the stored times {:g} to {:g}", wanted, time.front(), time.back()),
+      throw Error(fmt::format("time {:g}{} is outside the stored times {:g} to {:g}{}", wanted, unit, time.front(),
+                              time.back(), unit),
                   where, "choose other times with --times");
     const auto after = std::lower_bound(time.begin(), time.end(), wanted);
     std::size_t row = after == time.end() ? time.size() - 1 : static_cast<std::size_t>(after - time.begin());
@@ -150,7 +151,7 @@ MotionReader::MotionReader(const formats::Recovery& recovery, const formats::Res
   still_.to_scene = convert_units(recovery.units, layout.units, request.recovery);
   still_.scene_units = layout.units;
   const std::vector<double> time = results.time();
-  rows_ = chosen_rows(time, request, results.path());
+  rows_ = chosen_rows(time, request, after_time(layout.units), results.path());
   for (const std::size_t r : rows_) time_.push_back(time[r]);
   batch_ = batch_of(layout);
   has_strain_ = !body_.is_modal && layout.strained;
@@ -207,8 +208,7 @@ void MotionReader::look_at_all(const RecoverRequest& request) {
   }
   if (has_loads_ && !loads_known) notes_.push_back(unknown_loads_note());
   has_loads_ = loads_known;
-  if (stiffened && largest.maxCoeff() > 0.0 && !recovery_.second_order)
-    notes_.push_back(formats::no_second_order_note);
+  if (stiffened && largest.maxCoeff() > 0.0 && !recovery_.second_order) notes_.push_back(formats::no_second_order_note);
   if (!body_.is_modal)
     for (Index k = 0; k < n; ++k)
       if (recovery_.dof_node[k] < 0 && largest[k] == 0.0) zero_.push_back(k);

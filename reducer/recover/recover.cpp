@@ -160,10 +160,11 @@ void require_some_load(const LoadInstant& instant, const MotionReader& motion) {
   const NodalLoads& loads = instant.loads;
   const bool is_zero = loads.boundary.isZero(0.0) && loads.frame.isZero(0.0) && loads.deformation.isZero(0.0);
   if (!is_zero || (instant.balance.compared && instant.balance.largest == 0.0)) return;
-  throw Error(fmt::format("body '{}' does not deform at time {:g}: the run treated it as rigid (`flexibility: auto`), "
-                          "or no load acts on it",
-                          motion.body().name, instant.time),
-              "--loads", "choose other instants with --times, or run the scene with `flexibility: on`");
+  throw Error(
+      fmt::format("body '{}' does not deform at time {:g}{}: the run treated it as rigid (`flexibility: auto`), "
+                  "or no load acts on it",
+                  motion.body().name, instant.time, after_time(motion.still().scene_units)),
+      "--loads", "choose other instants with --times, or run the scene with `flexibility: on`");
 }
 
 /// Writes load cases of all chosen instants. Returns the lines about them and adds the files to `written`.

@@ -13,6 +13,7 @@ enum class RecoverFrame { world, part };
 /// Finite element programs for which load cases are written.
 enum class LoadFormat { nastran, calculix };
 
+/// Arguments of `reducer recover`.
 struct RecoverRequest {
   std::string recovery;  ///< path of the recovery file, such as part.recovery.h5
   std::string results;   ///< path of the results file, such as run.results.h5

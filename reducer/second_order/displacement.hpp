@@ -20,6 +20,7 @@
 
 namespace tisserand::reducer {
 
+/// Shapes that represent the second-order displacement of a part, with their accuracy.
 struct SecondOrderShapes {
   Eigen::MatrixXd x;  ///< coordinates of the mesh x r: shapes, whose translations are orthonormal
   /// Coordinates of the mesh x r: `x` without rotations, as forces whose work on u₂ is the amplitude of a shape.

@@ -7,6 +7,7 @@
 
 namespace tisserand::reducer {
 
+/// Arguments of `reducer solve`.
 struct SolveRequest {
   int modes = 0;                    ///< number of requested modes of the supported part, lowest first
   std::vector<std::string> points;  ///< further nodes of the table: labels, or "x,y,z" of the part frame

@@ -7,6 +7,7 @@
 
 namespace tisserand::reducer {
 
+/// Static solution of the supported part for all load cases.
 struct Statics {
   Eigen::MatrixXd q;  ///< displacements: coordinates x cases
   /// S q − f on the held coordinates (held coordinates in the order of Partition::boundary x cases).

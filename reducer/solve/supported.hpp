@@ -20,6 +20,7 @@ struct HeldPart {
   const std::string& where;                  ///< place of the part for messages
 };
 
+/// Part with its supports, whose stiffness matrix is factorised.
 struct Supported : HeldPart {
   explicit Supported(const HeldPart& part) : HeldPart(part) {}
 

@@ -10,6 +10,7 @@
 
 namespace tisserand::reducer {
 
+/// Modes of the supported part, with their effective masses.
 struct SupportedModes {
   int rigid = 0;           ///< number of rigid motions, which `lambda` and `q` omit: six for the free part
   Eigen::VectorXd lambda;  ///< ω² of the modes, ascending

@@ -11,6 +11,7 @@
 
 namespace tisserand::reducer {
 
+/// Mesh of the patches of a part, with merged and labelled nodes.
 struct PatchMesh {
   /// Cells; its entities are the patches as faces with their names, then the edges ("deck/edge1").
   CellMesh cells;

@@ -11,6 +11,7 @@
 
 namespace tisserand::reducer {
 
+/// Label in a picture: text, position and the point that it names.
 struct PictureLabel {
   std::string text;
   Eigen::Vector2d at = Eigen::Vector2d::Zero();     ///< middle of the text

@@ -10,6 +10,7 @@
 
 namespace tisserand::reducer {
 
+/// Face or set of cells that a picture draws in one colour.
 struct FacePiece {
   std::string name;
   std::string label;  ///< label of the face; empty: cells of a deck that are in no set

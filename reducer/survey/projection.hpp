@@ -11,6 +11,7 @@
 
 namespace tisserand::reducer {
 
+/// Cells of a surface that a picture draws in one colour.
 struct ColouredSurface {
   std::vector<Cell> cells;                ///< cells of dimension 2
   std::array<double, 3> colour{1, 1, 1};  ///< red, green, blue, 0 to 1
@@ -28,6 +29,7 @@ struct PictureView {
 /// %.
 PictureView view_from(const Eigen::Vector3d& eye, const std::vector<Eigen::Vector3d>& position, int width, int height);
 
+/// Polygon of a picture in pixels, with its colour.
 struct PaintedPolygon {
   std::vector<Eigen::Vector2d> corners;  ///< pixels to the right and down
   std::array<double, 3> colour{0, 0, 0};
@@ -40,6 +42,7 @@ struct SeenPlace {
   double radius = 0.0;
 };
 
+/// Parallel projection of coloured surfaces to a picture.
 class Projection {
  public:
   Projection(const std::vector<ColouredSurface>& surfaces, const std::vector<Eigen::Vector3d>& position,

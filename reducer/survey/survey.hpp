@@ -19,6 +19,7 @@ struct SurveyedFace {
   FaceFacts facts;
 };
 
+/// Contents of a part or mesh file, as `reducer groups` lists and draws them.
 struct Survey {
   std::string text;  ///< tables of entities, groups and sets with sizes and boxes, and of the forms of faces
   Units units;

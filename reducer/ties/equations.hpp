@@ -13,6 +13,7 @@
 
 namespace tisserand::reducer {
 
+/// Product of a coefficient and a coordinate in an equation of a tie.
 struct Term {
   int coordinate = 0;
   double coefficient = 0.0;

@@ -23,6 +23,7 @@ struct ViewedShape {
   Eigen::VectorXd motion;  ///< [translation; rotation] of every node, part axes
 };
 
+/// Part with everything that its page shows.
 struct ViewedPart {
   std::string title;
   std::string file;          ///< name of the file on the page

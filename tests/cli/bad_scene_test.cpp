@@ -98,7 +98,7 @@ const Fault faults[] = {
     {"ExpressionName",
      {"loads.push.value.2=\"foo(t)\""},
      {"there is no function 'foo'; use one of abs, acos, ", "write a formula in t"}},
-    {"ExpressionAtStart", {"loads.push.value.2=\"1/t\""}, {"load 'push', z component '1/t'", "t = 0 is inf"}},
+    {"ExpressionAtStart", {"loads.push.value.2=\"1/t\""}, {"load 'push', z component '1/t'", "t = 0 s is inf"}},
     {"EndBeforeStart", {"integrator.end=-1"}, {"end -1 must be later than start 0"}},
 };
 

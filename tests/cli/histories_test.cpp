@@ -33,7 +33,7 @@ TEST_F(Histories, APlotShowsTheDifferenceFromAReferenceRun) {
   const Outcome compared =
       mechanism({"compare", "arm.results.h5", "-c", "nodes/position/rod/end/z", "--reference", "fine.results.h5"});
   EXPECT_EQ(compared.code, 0) << compared.error;
-  EXPECT_THAT(compared.out, HasSubstr("Compared at 11 instants from 0 to 0.1"));
+  EXPECT_THAT(compared.out, HasSubstr("Compared at 11 instants from 0 to 0.1 s"));
   expect_error(mechanism({"plot", "arm.results.h5", "-c", "energy/total", "--difference", "-o", "e.svg"}),
                {"0 references for 'energy/total'"});
   expect_error(mechanism({"view", "arm.results.h5", "--reference", "fine.results.h5"}),

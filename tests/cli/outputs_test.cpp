@@ -379,7 +379,7 @@ TEST_F(Outputs, PicturesSayWhatTheyCannotShow) {
     words.insert(words.end(), more.begin(), more.end());
     return mechanism(words);
   };
-  expect_error(fault({"--time", "7"}), {"arm.results.h5", "no instant t = 7", "from 0 to"});
+  expect_error(fault({"--time", "7"}), {"arm.results.h5", "no instant t = 7 s", "from 0 to"});
   expect_error(fault({"--time", "nan"}), {"no instant t = nan"});
   expect_error(fault({"--view", "left,3"}), {"'left,3' is not a view", "azimuth,elevation"});
   expect_error(fault({"--size", "2", "2"}), {"2 x 2 pixels", "--size"});

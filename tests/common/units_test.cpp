@@ -71,5 +71,12 @@ TEST(Units, LabelsOfProducts) {
   EXPECT_EQ(unit_label(Units::consistent(), 1, 1, -2), "");
 }
 
+TEST(Units, LabelsInMessages) {
+  EXPECT_EQ(after_time(Units::si()), " s");
+  EXPECT_EQ(after_time(Units::consistent()), "");
+  EXPECT_EQ(turn_rate_label({length_unit("m"), mass_unit("kg"), time_unit("ms")}), "rad/ms");
+  EXPECT_EQ(turn_rate_label(Units::consistent()), "rad per unit of time");
+}
+
 }  // namespace
 }  // namespace tisserand::units_test

@@ -79,12 +79,13 @@ std::vector<Formulation> boundaries() {
 std::vector<Case> four_bars() {
   std::vector<Case> cases;
   for (const auto& [windows, angle] : {std::pair{2, -12.68425959}, std::pair{10, -12.64416097}})
-    cases.push_back({.name = fmt::format("four-bar, {} windows", windows),
-                     .scene = "four_bar",
-                     .settings = {fmt::format("parameters.windows={}", windows)},
-                     .criteria = {at_end("joints/coordinate/upright[0]/foot", angle, 2e-2), balance(1e-3)},
-                     .source = "IFToMM library A02: angle of the uprights by an exact equation of one coordinate",
-                     .quick = windows == 2});
+    cases.push_back(
+        {.name = fmt::format("four-bar, {} windows", windows),
+         .scene = "four_bar",
+         .settings = {fmt::format("parameters.windows={}", windows)},
+         .criteria = {at_end("joints/coordinate/upright[0]/foot", angle, 2e-2), balance(1e-3)},
+         .source = "IFToMM library A02: angle of the uprights from an exact equation of motion of one coordinate",
+         .quick = windows == 2});
   const double n = 80;
   cases.push_back({.name = "four-bar, 80 windows",
                    .scene = "four_bar",
@@ -92,7 +93,7 @@ std::vector<Case> four_bars() {
                    .criteria = {at_end("joints/coordinate/upright[0]/foot",
                                        swing(g * ((n + 1) / 2 + n) / ((n + 1) / 3 + n), pi / 2, -1, 1) - pi / 2, 2e-2),
                                 balance(1e-3)},
-                   .source = "exact equation of one coordinate, integrated by a Runge-Kutta method",
+                   .source = "exact equation of motion of one coordinate, integrated by a Runge-Kutta method",
                    .quick = false});
   cases.push_back({.name = "Bricard's mechanism",
                    .scene = "bricard",
@@ -100,7 +101,7 @@ std::vector<Case> four_bars() {
                    .criteria = {at_end("nodes/position/bar2/P3/x", -0.967200, 2e-3),
                                 at_end("nodes/position/bar2/P3/y", -1.228020, 2e-3),
                                 at_end("nodes/position/bar2/P3/z", 0.745983, 2e-3), balance(1e-3)},
-                   .source = "IFToMM library A04, run of an independent program with a finer step",
+                   .source = "IFToMM library A04: run of an independent program with a finer step",
                    .scales = false});
   return cases;
 }
@@ -116,7 +117,7 @@ std::vector<Case> slider_cranks() {
          .scene = "slider_crank",
          .settings = {fmt::format("parameters.longer={:g}", longer)},
          .criteria = {length_at_end("nodes/position/slider/x", x, 1e-3)},
-         .source = longer == 0.0 ? "geometry, on the branch where inertia carries the slider on"
+         .source = longer == 0.0 ? "geometry: inertia carries the slider past the singular position"
                                  : "geometry: the longer rod cannot turn over",
          .quick = longer == 0.0 || longer == 1e-2});
   }
@@ -163,7 +164,7 @@ std::vector<Case> pendulums() {
                      .scene = "mass_ratio",
                      .settings = {fmt::format("parameters.ratio={:g}", ratio)},
                      .criteria = {at_end("joints/coordinate/hinge", heavy, 2e-3), balance(1e-3)},
-                     .source = "motion of the heavy pendulum alone"});
+                     .source = "the heavy pendulum moves as if it were alone"});
   cases.push_back({.name = "axis without inertia",
                    .scene = "needle",
                    .settings = {},
@@ -204,7 +205,7 @@ std::vector<Case> free_flights() {
          .scene = "flying_chain",
          .settings = {fmt::format("integrator.end={:g}", end), fmt::format("output.interval={:g}", end / 100)},
          .criteria = momentum,
-         .source = "conservation of momentum; path of the centre of mass",
+         .source = "conservation of momentum; straight path of the centre of mass",
          .quick = quick});
   };
   add("1000 steps", 2, true);
@@ -214,18 +215,20 @@ std::vector<Case> free_flights() {
 
 std::vector<Case> springs_and_contacts() {
   const std::string half_swings =
-      "each half swing is shorter by 2 mu g/omega^2; the block sticks where the fifth ends within mu g/omega^2";
+      "each half swing is shorter by 2 mu g/omega^2; the block sticks at the end of the fifth, within mu g/omega^2 of "
+      "the middle";
   std::vector<Case> cases;
   cases.push_back({.name = "stiffness ratio 1e12",
                    .scene = "stiff_spring",
                    .settings = {},
                    .criteria = {length_at_end("nodes/position/a/x", 0, 2e-3), balance(1e-2)},
                    .source = "both masses move as one at 1 rad/s; the mode at 1.4e6 rad/s is at rest"});
-  cases.push_back({.name = "mode at 1.4e6 rad/s that moves",
-                   .scene = "stiff_spring",
-                   .settings = {"parameters.kick=1e-6"},
-                   .criteria = {length_at_end("nodes/position/a/x", 0, 2e-3), balance(1e-2)},
-                   .source = "the fast mode has as much energy as the slow one; a step of 1e-3 cannot preserve it"});
+  cases.push_back(
+      {.name = "mode at 1.4e6 rad/s that moves",
+       .scene = "stiff_spring",
+       .settings = {"parameters.kick=1e-6"},
+       .criteria = {length_at_end("nodes/position/a/x", 0, 2e-3), balance(1e-2)},
+       .source = "the mode at 1.4e6 rad/s has as much energy as the slow one; a step of 1e-3 s cannot preserve it"});
   cases.push_back({.name = "159 turns",
                    .scene = "rotor",
                    .settings = {},
@@ -255,12 +258,12 @@ std::vector<Case> springs_and_contacts() {
                    .scene = "bounce",
                    .settings = {},
                    .criteria = {length_at_end("nodes/position/ball/z", 0.5, 2e-3), balance(1e-2)},
-                   .source = "height from which the ball fell"});
+                   .source = "the ball returns to the height from which it fell"});
   cases.push_back({.name = "ball that bounces, step 0.01",
                    .scene = "bounce",
                    .settings = {"integrator.step=0.01"},
                    .criteria = {length_at_end("nodes/position/ball/z", 0.5, 2e-3), balance(1e-2)},
-                   .source = "height from which the ball fell; the contact lasts 3 ms"});
+                   .source = "the ball returns to the height from which it fell; the contact lasts 3 ms"});
   cases.push_back({.name = "impulse and jump of loads",
                    .scene = "impulse",
                    .settings = {},
@@ -278,14 +281,14 @@ std::vector<Case> rods_in_motion() {
                    .scene = "rod_pendulum",
                    .settings = {},
                    .criteria = {at_end("joints/coordinate/hinge", angle, 2e-2), balance(1e-2)},
-                   .source = "motion of a rigid rod; the rod bends by 1e-3 of its length",
+                   .source = "motion of a rigid rod; the real rod bends by only 1e-3 of its length",
                    .formulations = rods(""),
                    .scales = false});
   cases.push_back({.name = "rod pendulum, boundaries",
                    .scene = "rod_pendulum",
                    .settings = {},
                    .criteria = {at_end("joints/coordinate/hinge", angle, 2e-2), balance(1e-2)},
-                   .source = "motion of a rigid rod; the rod bends by 1e-3 of its length",
+                   .source = "motion of a rigid rod; the real rod bends by only 1e-3 of its length",
                    .formulations = boundaries(),
                    .scales = false});
   const std::string gate = "bodies.gate={type: superelement, file: gate";
@@ -297,7 +300,7 @@ std::vector<Case> rods_in_motion() {
        .criteria = {at_end("energy/potential", 4 * 7800 * pi * 1e-4 * g / 2 * std::sin(swing(1.2 * g, 0, 0, 2)),
                            4 * 7800 * pi * 1e-4 * g / 2 * 2e-2),
                     balance(1e-2)},
-       .source = "physical pendulum about one side; the gate bends by 1e-3 of its side",
+       .source = "physical pendulum about one side; the gate bends by only 1e-3 of its side",
        .formulations = {{"B", {}, ""},
                         {"A", {gate + ".superelement.h5, inertia: A}"}, ""},
                         {"M", {gate + ".superelement.h5, inertia: M}"}, ""},
@@ -308,7 +311,7 @@ std::vector<Case> rods_in_motion() {
                    .scene = "driven_rod",
                    .settings = {},
                    .criteria = {at_end("nodes/position/rod/end/x", std::cos(5.0), 5e-3), balance(1e-2)},
-                   .source = "the rod turns like a rigid rod from the start",
+                   .source = "the rod turns like a rigid rod, from the start on",
                    .formulations = rods(""),
                    .scales = false});
   // A cantilever of length 1 under P along and F across: δ = F (tan k − k)/(k P), k² = P/EI.
@@ -353,20 +356,20 @@ std::vector<std::string> halves(const std::string& rest) {
 
 std::vector<Case> beyond_the_linear_range() {
   std::vector<Case> cases;
-  cases.push_back(
-      {.name = "blade of two halves, soft in torsion",
-       .scene = "soft_blade",
-       .settings = {},
-       .criteria = {at_end("nodes/position/outer/tip/x", 10 * std::cos(75.0), 0.05),
-                    at_end("nodes/position/outer/tip/y", 10 * std::sin(75.0), 0.05),
-                    at_end("nodes/position/outer/tip/z", 0, 1e-3), balance(1e-2)},
-       .source = "beam of Simo and Vu-Quoc at 6 rad/s: 0.0037 from the line that turns with its root, in its plane",
-       .formulations = {{"B", {}, ""},
-                        {"A", halves("inertia: A"), ""},
-                        {"M", halves("inertia: M"), ""},
-                        {"second order", halves("second_order: on"), ""}},
-       .scales = false,
-       .quick = false});
+  cases.push_back({.name = "blade of two halves, soft in torsion",
+                   .scene = "soft_blade",
+                   .settings = {},
+                   .criteria = {at_end("nodes/position/outer/tip/x", 10 * std::cos(75.0), 0.05),
+                                at_end("nodes/position/outer/tip/y", 10 * std::sin(75.0), 0.05),
+                                at_end("nodes/position/outer/tip/z", 0, 1e-3), balance(1e-2)},
+                   .source = "beam of Simo and Vu-Quoc at 6 rad/s: it stays in its plane, within 0.0037 of the line "
+                             "that turns with its root",
+                   .formulations = {{"B", {}, ""},
+                                    {"A", halves("inertia: A"), ""},
+                                    {"M", halves("inertia: M"), ""},
+                                    {"second order", halves("second_order: on"), ""}},
+                   .scales = false,
+                   .quick = false});
   cases.push_back(
       {.name = "rod rolled up by a moment",
        .scene = "roll_up",

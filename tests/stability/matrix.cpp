@@ -62,7 +62,7 @@ bool sets(const Case& one, const std::string& key) {
   return std::ranges::any_of(one.settings, [&](const std::string& setting) { return setting.starts_with(key); });
 }
 
-constexpr const char* stiff_for_bdf = "not run: bdf needs minutes of short steps for stiff bodies";
+constexpr const char* stiff_for_bdf = "not run: bdf takes minutes because stiff bodies force short steps";
 
 /// Why an integrator does not run a case; empty if it does.
 std::string impossible_integrator(const Case& one, const std::string& name) {
@@ -71,12 +71,12 @@ std::string impossible_integrator(const Case& one, const std::string& name) {
     return "not run: bdf does not damp the mode at 1.4e6 rad/s and would take nine million steps";
   if (one.scene == "soft_blade" && name == "bdf") return stiff_for_bdf;
   if (one.scene == "four_bar_misaligned" && name == "controlled")
-    return "not run: undamped vibrations of the bars need minutes of short steps";
+    return "not run: undamped vibrations of the bars force short steps, which take minutes";
   if (!one.takes_steps) return "statics has no time steps";
   if (sets(one, "integrator.formulation=index3") && (other_method || name.starts_with("index 3")))
-    return "the case tests index 3";
+    return "the case tests `formulation: index3` only";
   if ((sets(one, "integrator.step") || sets(one, "parameters.step")) && (other_method || name == "controlled"))
-    return "the case tests its step";
+    return "the case tests a fixed step";
   return {};
 }
 
@@ -91,9 +91,11 @@ void add_integrators(const Case& one, const Formulation* body, std::vector<Cell>
       if (cell.impossible.empty()) cell.impossible = body->impossible;
       if (level.name == "bdf" && cell.impossible.empty()) cell.impossible = stiff_for_bdf;
       if (body->name == "mass far from the nodes" && cell.impossible.empty())
-        cell.impossible = "not run: the default reports the case, others need minutes of ever shorter steps";
+        cell.impossible =
+            "not run: the default method reports the case; the others take minutes because their steps become shorter "
+            "and shorter";
       if (level.name == "radau" && body->name == "second order")
-        cell.impossible = "radau supports linear superelements only (reported as an error)";
+        cell.impossible = "radau supports linear superelements only (the run reports an error)";
     }
     cell.settings.insert(cell.settings.end(), level.settings.begin(), level.settings.end());
     cells.push_back(std::move(cell));
@@ -192,7 +194,8 @@ std::vector<Cell> cells_of(const Case& one) {
     add("solver", solver, {"integrator.linear_solver=" + solver}, one.takes_steps ? "" : "statics selects its solver");
     add("solver x radau", solver,
         {"integrator.linear_solver=" + solver, "integrator.method=radau", "integrator.error_control={tolerance: 1e-6}"},
-        solver == "qr" ? "qr takes no complex matrices (reported as an error)" : impossible_integrator(one, "radau"));
+        solver == "qr" ? "`linear_solver: qr` does not solve complex systems (the run reports an error)"
+                       : impossible_integrator(one, "radau"));
   }
   for (const Level& level : scalings())
     add("scaling", level.name, level.settings, one.scales ? "" : "bodies from files have their own units");

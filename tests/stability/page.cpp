@@ -17,33 +17,34 @@ namespace {
 
 constexpr const char* head = R"(# Hard cases
 
-Singular positions, redundant constraints, extreme ratios of mass and stiffness, long runs, contact and buckling: what the program does in each case.
-`scripts/stability` runs all cases and writes this page (three minutes). No cell of the tables is a silent wrong answer.
+This page shows what `mechanism` does in hard cases: singular positions, redundant constraints, extreme ratios of mass and stiffness, long runs, contact and
+buckling. `scripts/stability` runs all cases and writes this page (three minutes after its build). No cell of the tables is a silent wrong answer.
 
 Contents: [How to read the tables](#how-to-read-the-tables) · {}[Messages](#messages) ·
 [Cells that do not exist](#cells-that-do-not-exist) · [Sources of the expected values](#sources-of-the-expected-values)
 
 ## How to read the tables
 
-Each table varies one factor and keeps the defaults of the others. Tables with "x" in the heading vary two factors.
+Each table varies one factor and keeps the defaults of the others. A table with "x" in its heading varies two factors. A case is one scene with expected
+values; a cell is one run.
 
 | cell | meaning |
 | --- | --- |
 | a number | The case passes. The number is the largest error, divided by its tolerance. |
 | reported | The case misses a criterion, and the run itself reports this by a [warning or an error](#messages). |
-| **FAIL** | The answer is wrong and the run does not report it, or the run crashes or does not end. |
+| **FAIL** | The result is wrong and the run does not report it, or the run crashes or does not end. |
 | - | The cell [does not exist](#cells-that-do-not-exist). |
 
 Levels of the factors:
 
 - **Integrator**: `default` is `generalised_alpha` with `formulation: stabilised_index2`. `rho` is its spectral radius; `index 3` is `formulation: index3`.
-  `controlled` has error control with a tolerance of 1e-4, `radau` with 1e-6.
+  `controlled` is the default with error control and a tolerance of 1e-4; `radau` has a tolerance of 1e-6.
 - **Solver**: `linear_solver` of the integrator.
 - **Scaling**: units of length (L) and mass (M), relative to those of the case.
-- **Formulation**: how the flexible bodies are described. A, B and M are the options of `inertia`.
+- **Formulation**: the description of the flexible bodies. A, B and M are the options of `inertia`.
 
-Cases and criteria are in [tests/stability/catalogue.cpp](../tests/stability/catalogue.cpp), the scenes in the same folder. `./check` runs the fast
-cells and compares their states with [tests/stability/expected.csv](../tests/stability/expected.csv).
+Cases and criteria are in [tests/stability/catalogue.cpp](../tests/stability/catalogue.cpp), the scenes in the folder `scenes` beside it. `./check` runs
+the fast cells and compares their states with [tests/stability/expected.csv](../tests/stability/expected.csv).
 
 )";
 
@@ -208,8 +209,9 @@ std::string page_of(const std::vector<Case>& cases, const std::vector<Judged>& j
   }
   std::string page = fmt::format(fmt::runtime(head), links) + counts(judged) + body;
   page +=
-      "## Messages\n\nThe first message of each reported run. Messages that differ only in numbers and names share a "
-      "line, which shows the first of them.\nThe number of cells stands in brackets.\n\n"
+      "## Messages\n\nThis table has the first message of each reported run. If messages differ only in numbers and "
+      "names, "
+      "the first of them stands for all.\nA number in brackets is the number of cells.\n\n"
       "| message | cases |\n| --- | --- |\n" +
       messages(judged, State::reported) + '\n';
   if (const std::string failed = messages(judged, State::fail); !failed.empty())
@@ -217,8 +219,8 @@ std::string page_of(const std::vector<Case>& cases, const std::vector<Judged>& j
   page += "## Cells that do not exist\n\n| reason | factor: levels |\n| --- | --- |\n" + reasons(judged) + '\n';
   page += "## Sources of the expected values\n\n| source | cases |\n| --- | --- |\n" + sources(cases);
   page +=
-      "\nThe tests `Rewritings` and `FarScene` check that bodies move alike when they are described in other units, "
-      "far from the origin or in parts.\n";
+      "\nThe tests `Rewritings` and `FarScene` check that a scene gives the same motion in other units, far from the "
+      "origin or with bodies cut into parts.\n";
   return page;
 }
 

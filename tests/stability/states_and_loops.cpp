@@ -78,7 +78,7 @@ std::vector<Case> equilibria() {
                      .scene = "turning_guide",
                      .settings = {fmt::format("parameters.rate={:g}", rate)},
                      .criteria = {at_end("joints/coordinate/guide", rate * rate / (1e3 - rate * rate), 1e-6)},
-                     .source = "spring of 1000 N/m in balance with m r W^2",
+                     .source = "balance of a spring of 1000 N/m with the centrifugal force m r W^2",
                      .formulations = as_it_is(),
                      .takes_steps = false,
                      .scales = false});
@@ -93,7 +93,8 @@ std::vector<Case> loops() {
            .scene = "bennett",
            .settings = {},
            .criteria = {at_end("joints/coordinate/j1", 1.1044, 5e-3), balance(1e-2)},
-           .source = "radau (tolerance 1e-9) and index 3 agree; the rows of the start become singular at 1.504 s",
+           .source = "radau (tolerance 1e-9) and index 3 agree; the constraint rows chosen at the start become "
+                     "singular at 1.504 s",
            .scales = false,
            .quick = false},
           {.name = "four-bar with a misaligned hinge",

@@ -30,8 +30,8 @@ void add_rows(Problem& problem, Target kind, const std::vector<int>& elements,
 Problem deep_beam_problem(const std::string& title, DeepBeamTorsion torsion, const std::string& targets) {
   Problem problem{
       title,
-      "Frequencies [Hz]; columns: elements. 10 x 2 x 2 m, E 200e9, nu 0.3, rho 8000. At end A, x, y, z and the "
-      "rotation about x are held, at B y and z. Targets: exact Timoshenko beam (shear factor 5/6), recomputed. " +
+      "Frequencies [Hz]; columns: elements. 10 x 2 x 2 m, E 200e9, nu 0.3, rho 8000. End A is held along x, y and z "
+      "and about x, end B along y and z. Targets: exact Timoshenko beam (shear factor 5/6), recomputed. " +
           targets,
       {"10", "20", "40"},
       {},
@@ -49,14 +49,13 @@ Problem deep_beam_problem(const std::string& title, DeepBeamTorsion torsion, con
 }  // namespace
 
 std::vector<Problem> beam_problems() {
-  Problem frame{
-      "NAFEMS FV3, free square frame",
-      "Frequencies in the plane [Hz]; columns: elements per side. Sides 10 m, square section of 0.25 m, E "
-      "200e9, nu 0.3, rho 8000; Euler beams with rotary inertia. Targets: computed by another program with 10 "
-      "Euler beams per side. NAFEMS (from memory): 3.261 5.668 11.136 12.849 24.570 28.695.",
-      {"5", "10", "20"},
-      {},
-      ""};
+  Problem frame{"NAFEMS FV3, free square frame",
+                "Frequencies in the plane [Hz]; columns: elements per side. Sides of 10 m, square section of 0.25 m, E "
+                "200e9, nu 0.3, rho 8000; Euler beams with rotary inertia. Targets: results of another program with 10 "
+                "Euler beams per side. NAFEMS (from memory): 3.261 5.668 11.136 12.849 24.570 28.695.",
+                {"5", "10", "20"},
+                {},
+                ""};
   add_rows(frame, Target::published, {5, 10, 20}, free_square_frame,
            {{"4", 3, 3.262},
             {"5", 4, 5.665},
@@ -65,8 +64,8 @@ std::vector<Problem> beam_problems() {
             {"9", 8, 24.603},
             {"10 and 11", 9, 28.671}});
   Problem euler{"Euler beams",
-                "Beta L without rotary inertia; columns: elements. Targets: exact roots of cos "
-                "cosh = -1 or 1.",
+                "Values of beta L without rotary inertia, beta^4 = rho A omega^2/(E I); columns: elements. Targets: "
+                "exact roots of cos(beta L) cosh(beta L) = -1 (clamped-free) or 1.",
                 {"4", "8", "16"},
                 {},
                 ""};
@@ -94,11 +93,11 @@ std::vector<Problem> beam_problems() {
   return {
       frame,
       deep_beam_problem("NAFEMS FV5, deep simply supported beam", DeepBeamTorsion::polar_moment,
-                        "The torsion constant is Iy + Iz, as the report assumes. NAFEMS prints 42.649 77.542 125.00 "
-                        "148.31 233.10 284.55. Its bending frequencies are 0.1, 0.35 and 0.8 % above the exact ones."),
+                        "The torsion constant is Iy + Iz, as NAFEMS assumes. NAFEMS prints 42.649 77.542 125.00 148.31 "
+                        "233.10 284.55. Its bending frequencies are 0.1, 0.35 and 0.8 % above the exact ones."),
       deep_beam_problem("R0016 test 5, deep beam with the true torsion constant", DeepBeamTorsion::torsion_constant,
-                        "The torsion constant is 0.140577 a^4; only the torsion modes differ from FV5. "
-                        "R0016 prints 42.650 71.200 125.00 148.15 213.61 283.47."),
+                        "The torsion constant is 0.140577 a^4 for a square of side a. Only the torsion modes differ "
+                        "from FV5. R0016 prints 42.650 71.200 125.00 148.15 213.61 283.47."),
       euler, timoshenko};
 }
 

@@ -74,13 +74,14 @@ std::string plates() {
 std::string buckling_table() {
   return R"(## Buckling and preload
 
-Buckling loads of parts that are reduced to their ends or edges with m internal modes and a companion file, divided by a reference. The load is where
-S̄ + λ K_G becomes singular, with K_G = Σ y_j H_j and S̄ y the load. A further mode can only lower these loads. Half of the modes of slender beams belong to
-each plane. Plates and panels have 8 x 8 cells, and the translations of their edges are kept. "full" is the unreduced model of the same mesh.
+Each part is reduced to its ends or edges, with m internal modes and a companion file. The table holds its buckling load divided by a reference load. For
+the applied load S̄ y, with geometric stiffness K_G = Σ y_j H_j, buckling occurs at the factor λ for which S̄ + λ K_G is singular. More modes can only
+lower this load. In slender beams half of the modes belong to each bending plane. Plates and panels have 8 x 8 cells and keep the translations of their
+edges. "full" is the unreduced model of the same mesh.
 
-The references are Euler's loads, with shear where the table says so: after Haringx, GA/2 (√(1 + 4 P_E/GA) − 1), for beams and solids, P_E/(1 + P_E/GA) for
-the box. Strip and square plates (4 under compression, 9.325 in shear) follow Timoshenko and Gere 1961 (2.1 to 2.4, 6.3, 9.2, 9.7) and Bulson 1970. The
-shallow panel (R 20 b, t 0.01 b) has 4 + E t b⁴/(4 π⁴ D R²) by Donnell's equations with one half wave.
+Columns of beams are compared with Euler's load P_E. "Haringx" is Euler's load with shear, GA/2 (√(1 + 4 P_E/GA) − 1); "Euler with shear" is
+P_E/(1 + P_E/GA). References of the strip and of the square plates (4 under compression, 9.325 in shear) are from Timoshenko and Gere 1961 (2.1 to 2.4, 6.3,
+9.2, 9.7) and Bulson 1970. For the shallow panel (R 20 b, t 0.01 b) Donnell's equations with one half wave give 4 + E t b⁴/(4 π⁴ D R²).
 
 | part | reference | m = 0 | 4 | 8 | 12 | full |
 | --- | --- | --: | --: | --: | --: | --: |

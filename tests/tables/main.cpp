@@ -15,23 +15,26 @@ using namespace tisserand::tables;
 
 const char* const introduction = R"(# Verification of parts
 
-This page compares the elements and the reductions of `reducer` with exact and published results. The tests run the same problems on coarse meshes and
-fail beyond fixed limits. `scripts/verification_tables` wrote this page on {:%F} (one minute).
+This page compares the elements and the reductions of `reducer` with exact and published results. The tests solve the same problems on coarse meshes. A
+test fails if its error exceeds a fixed limit. `scripts/verification_tables` wrote this page on {:%F} (one minute after its build).
 
 Contents: [How to read the tables](#how-to-read-the-tables) · [Beams](#beams) · [Frequencies of plates and shells](#plates-and-shells-frequencies) ·
-[Statics of plates and shells](#plates-and-shells-statics) · [Component modes](#component-modes) · [Error of the mesh](#error-of-the-mesh) ·
+[Statics of plates and shells](#plates-and-shells-statics) · [Component modes](#component-modes) · [Discretisation error](#discretisation-error) ·
 [Buckling and preload](#buckling-and-preload) · [Recovered stress](#recovered-stress) · [Recovered displacement](#recovered-displacement) ·
 [Recovered fields](#recovered-fields)
 
 ## How to read the tables
 
-- Columns between "target" and "error %" hold results. Their headings name the meshes, by numbers of elements.
-- **error %** is the difference of the finest mesh from the target.
-- **order** is the rate of convergence of the finest meshes, log2 of the factor by which the error falls when the elements are halved. For exact targets
-  (beams) it uses the errors, for targets of few digits the differences of three meshes. It is empty where the values are not monotone or differ by round-off.
-- Targets: *read* means found in the source, *from memory* means not found in print. *Computed* and *recomputed* targets come from an independent
-  computation. Keys such as [MH85] are in [CONVENTIONS.md](../CONVENTIONS.md).
-- "2x" and "2 and 3" are double modes. Problems without units use any consistent units, as their sources do.
+- The columns between "target" and "error %" hold results. Their headings give the number of elements of each mesh.
+- **error %** is the relative difference between the result of the finest mesh and the target.
+- **order** is the order of convergence: log2 of the factor by which the error falls when the element size is halved. For exact targets (beams) it comes
+  from the errors of two meshes, for targets of few digits from the differences between three. It is empty if the results do not converge steadily or
+  differ only by round-off.
+- Targets: *read* means that the number was found in the source, *from memory* that it was not found in print. *Computed* and *recomputed* targets come
+  from an independent computation. Keys such as [MH85] are in [CONVENTIONS.md](../CONVENTIONS.md).
+- Numbers in the column "quantity" count the modes, with the rigid ones. "2x" and "2 and 3" mark double modes.
+- E: Young's modulus, nu: Poisson's ratio, rho: density, t: thickness, L: length, R: radius. *Quads* are four-node shells, *triangles* three-node shells.
+- Problems without units use any consistent units, as their sources do.
 
 )";
 

@@ -37,14 +37,14 @@ struct Group {
   }
 };
 
-constexpr const char* head = R"(### Error of the mesh
-The certificate of a part estimates the discretisation error of its five lowest free frequencies, or it says `unknown`. The table compares the
-estimate with the error against a fine mesh; modes are compared by shape. The first list has the errors of mode 1, from the coarsest mesh to the
-finest. "estimates" counts the modes with an estimate. The last column is estimate over error, where one of them is above 0.15 %.
-All estimates are within a factor of two of the error.
+constexpr const char* head = R"(### Discretisation error
+The certificate of a part estimates the discretisation error of its five lowest free frequencies, or it says `unknown`. The table compares these
+estimates with the errors against a fine mesh, whose modes are matched by shape. Errors of mode 1 go from the coarsest mesh to the finest. The column
+of estimates counts the modes that have one. The last column omits modes whose estimate and error are both below 0.15 %. All estimates are within a
+factor of two of the error.
 
-All parts are of steel. Bar and strip have their sizes in mm, the block is 1 x 0.75 x 0.25 m. Solids are compared with 20-node bricks, the plate and the
-curved shell with 80 x 80 four-node shells that resolve the layer at the free edges. Plate: 1 x 0.7 m, 0.002 m thick. Curved shell: a third of a cylinder,
+All parts are of steel. Sizes of bar and strip are in mm; the block is 1 x 0.75 x 0.25 m. Solids are compared with 20-node bricks, the plate and the
+curved shell with 80 x 80 four-node shells that resolve the boundary layer at the free edges. Plate: 1 x 0.7 m, 0.002 m thick. Curved shell: a third of a cylinder,
 radius 0.5 m, length 1 m, 0.002 m thick. Cylinder: radius 0.1 m, length 0.6 m, 0.0005 m thick. Disc: radii 0.05 and 0.3 m, 0.004 m thick, three times as
 many elements around as across. Square tube: sides 0.1 m, length 0.6 m, 0.002 m thick, with the given number of elements across each side.
 

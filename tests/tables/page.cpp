@@ -67,7 +67,7 @@ std::string to_markdown(const Problem& problem) {
 }
 
 std::string to_markdown(const Laws& laws) {
-  std::string text = fmt::format("### {}\n{}\n\n| property | example | measured | at most | holds |\n", laws.title,
+  std::string text = fmt::format("### {}\n{}\n\n| property | example | measured | limit | holds |\n", laws.title,
                                  wrapped(laws.source));
   text += "| --- | --- | --: | --: | --- |\n";
   for (const Law& law : laws.laws)

@@ -100,6 +100,7 @@ void residual_and_tangent(const BeamElement3& element, std::span<const NodeMotio
                           const Eigen::Vector3d& gravity, const TangentCoefficients& coefficients,
                           Eigen::Matrix<double, 18, 1>& r, Eigen::Matrix<double, 18, 18>& A);
 
+/// Kinetic, strain and gravity energy of a beam element.
 struct BeamEnergy {
   double kinetic = 0.0;
   double strain = 0.0;

@@ -108,6 +108,7 @@ struct Point3 {
   }
 };
 
+/// State of a three-node beam element: triad of the middle node, rotations relative to it, integration points.
 template <class S>
 struct State3 {
   Mat3<S> middle;  ///< Λ₂: section triad of the middle node
@@ -184,8 +185,7 @@ Moments3<S> internal_force(const BeamElement3& e, const State3<S>& state, Eigen:
   return P;
 }
 
-/// Mass matrix and nodal shares of an element of mass 1. `mass` is the consistent translational mass ∫ N_i N_j dS / L.
-/// `node` holds its row sums ∫ N_i dS / L, which distribute gravity and rotary inertia.
+/// Shares of an element of mass 1: consistent mass ∫ N_i N_j dS / L, and ∫ N_i dS / L (gravity, rotary inertia).
 template <int N>
 struct Shares;
 template <>

@@ -63,6 +63,7 @@ struct ModalScratch {
   Eigen::MatrixXd tangent;     ///< ((6 + m) x (6 + m)): result of tangent()
 };
 
+/// Kinetic, strain and gravity energy of a modal body.
 struct ModalEnergy {
   double kinetic = 0.0;
   double strain = 0.0;

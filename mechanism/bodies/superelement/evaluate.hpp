@@ -33,6 +33,7 @@ void residual(const SuperelementBody& body, SuperelementScratch& scratch, const 
 void load_case_direction(const SuperelementBody& body, int load_case, const SuperelementScratch& scratch,
                          Eigen::VectorXd& boundary, Eigen::VectorXd& internal);
 
+/// Kinetic, strain and gravity energy of a superelement.
 struct SuperelementEnergy {
   double kinetic = 0.0;            ///< ½ ẏᵀ M̄ ẏ; options M and F: THEORY (34), (48)
   double strain = 0.0;             ///< ½ yᵀ S̄ y; with stiffening V of THEORY (43)

@@ -12,6 +12,7 @@
 
 namespace tisserand::reducer::abaqus {
 
+/// Kinds of elements that the reader of Abaqus and CalculiX decks supports.
 enum class ElementKind {
   shell,
   beam,
@@ -24,6 +25,7 @@ enum class ElementKind {
   ground_spring
 };
 
+/// Element type of an Abaqus or CalculiX deck, with its number of nodes and the element of the mesh.
 struct ElementType {
   std::string_view name;
   ElementKind kind = ElementKind::shell;

@@ -7,6 +7,7 @@
 
 namespace tisserand::reducer::abaqus {
 
+/// Treatment of a keyword by the reader of Abaqus and CalculiX decks.
 enum class KeywordRole {
   defines,  ///< the keyword is read as a block
   follows,  ///< the keyword is read with the preceding one, such as *KINEMATIC after *COUPLING

@@ -42,6 +42,7 @@ struct Block {
   std::string word_of(std::string_view parameter, std::string_view if_absent) const;
 };
 
+/// Text of a deck with all included files, divided into keyword blocks.
 struct Input {
   std::vector<std::string> paths;
   std::vector<std::unique_ptr<std::string>> texts;

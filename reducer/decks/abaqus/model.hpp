@@ -110,6 +110,7 @@ struct SectionUse {
   std::string name;
 };
 
+/// Contents of an Abaqus or CalculiX deck while it is converted to a mesh.
 struct Model {
   explicit Model(const Input& text) : input(text) {}
 

@@ -16,6 +16,7 @@ inline constexpr double degree = std::numbers::pi / 180.0;
 /// z axis (spherical). Angles are in degrees.
 enum class FrameKind { rectangular, cylindrical, spherical };
 
+/// Coordinate system of a Nastran deck.
 struct NastranFrame {
   FrameKind kind = FrameKind::rectangular;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();    ///< origin in the part frame

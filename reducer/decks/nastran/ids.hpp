@@ -8,6 +8,7 @@
 
 namespace tisserand::reducer {
 
+/// Table that finds the row of an identifying number, such as the id of a grid point.
 class IdTable {
  public:
   /// Builds the table from identifying number ids[row] to row. Returns the rows whose number occurs in an earlier row.

@@ -16,6 +16,7 @@ namespace tisserand::reducer {
 struct NastranModel;
 class CardFields;
 
+/// Material of a Nastran deck (MAT1, MAT2, MAT8 or MAT9).
 struct NastranMaterial {
   enum class Kind { isotropic, orthotropic, plane, solid } kind = Kind::isotropic;  ///< MAT1, MAT8, MAT2, MAT9
   std::string label;  ///< name of the card for messages: "MAT1 5"

@@ -32,6 +32,7 @@ struct HeldNode {
   std::size_t card = 0;  ///< index in NastranCards::cards
 };
 
+/// Contents of a Nastran deck while it is converted to a mesh.
 struct NastranModel {
   NastranCards cards;
   DeckFaults faults;

@@ -10,6 +10,7 @@
 
 namespace tisserand::reducer {
 
+/// Stiffness and mass matrices of a beam element with two nodes.
 struct BeamMatrices {
   Matrix12 stiffness = Matrix12::Zero();
   Matrix12 mass = Matrix12::Zero();

@@ -51,6 +51,7 @@ struct IncompatibleModes<SolidShape::prism6> {
 template <std::size_t Functions>
 using NaturalGradients = std::array<std::array<double, Functions>, 3>;
 
+/// Shape functions of a solid and their natural gradients at the quadrature points, with the weights.
 template <SolidShape shape, std::size_t Points>
 struct ShapeTable {
   static constexpr std::size_t nodes = SolidBasis<shape>::nodes.size();

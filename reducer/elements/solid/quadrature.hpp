@@ -17,6 +17,7 @@ struct QuadratureRule {
   std::array<double, Size> weight{};
 };
 
+/// Point of a quadrature rule on the unit triangle, with its weight.
 struct TrianglePoint {
   double r;
   double s;

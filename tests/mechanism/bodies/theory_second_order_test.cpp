@@ -34,7 +34,7 @@ constexpr double of_differences = 1e-10;  // of a difference of larger numbers
 template <class S>
 using VectorOf = Eigen::Matrix<S, Eigen::Dynamic, 1>;
 
-/// ν = (v₀, Ω₀), y and ẏ, with derivatives by the time where S is Dual.
+/// η = (v₀, Ω₀), y and ẏ, with derivatives by the time where S is Dual.
 template <class S>
 struct Arguments {
   Vec3<S> v, Omega;
@@ -322,7 +322,7 @@ TEST_F(TheorySecondOrder, FullInertia) {
   EXPECT_LT((scratch.forces.inertia.pi_O - now.pi_O).norm(), tolerance * now.pi_O.norm());
 }
 
-// M_q of (54): T is quadratic in (ν, ẏ), so that differences of its values give the second derivatives.
+// M_q of (54): T is quadratic in (η, ẏ), so that differences of its values give the second derivatives.
 TEST_F(TheorySecondOrder, StepTangentOfMass) {
   take(InertiaOption::F, StiffeningOption::full);
   const Arrays of = arrays();

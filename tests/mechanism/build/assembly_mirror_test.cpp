@@ -136,7 +136,7 @@ Outcome run(const std::string& text) {
 // velocities of the lightest nodes (a beam of 1e-1 kg with forces of 1e3): motions differ by less than 1e-7 of their
 // size. Stabilised index 2 weights its position corrections with the iteration matrix; whether that is kept or made
 // anew is decided by thresholds that round-off may pass in one image alone. Modal bodies, whose matrices change much,
-// differ by up to 1e-6 then (as SCENE.md says of virtual bodies), with index 3 by no more than others.
+// differ by up to 1e-6 then, with index 3 by no more than others.
 
 void expect_image(const Outcome& original, const Outcome& image, const Place& place, double tolerance) {
   const Matrix3d G = place.G(), S = place.S();

@@ -131,7 +131,7 @@ TEST(RollingCar, IsReportedWhereGridsEndAndHaveHoles) {
   const formats::RoadSpec level = grid_road([](double) { return 0.0; });
   EXPECT_EQ(reason(level, 0.55), "");
   EXPECT_EQ(reason(level, 0.601),
-            "t = 0.601: tyre 'tyre7150' has left the road 'road', which ends at x = 6 m; give it "
+            "t = 0.601 s: tyre 'tyre7150' has left the road 'road', which ends at x = 6 m; give it "
             "more heights, or end the run earlier");
   EXPECT_NE(reason(crg_road(level), 0.601).find("which ends at u = 6 m"), std::string::npos);
   formats::RoadSpec holed = crg_road(level);
@@ -140,7 +140,7 @@ TEST(RollingCar, IsReportedWhereGridsEndAndHaveHoles) {
   holed.heights = std::make_shared<const formats::RoadHeights>(heights);
   EXPECT_EQ(reason(holed, 0.099), "");
   const std::string hole = reason(holed, 0.1);
-  EXPECT_NE(hole.find("t = 0.1: tyre 'tyre7150' has reached a hole of the road 'road' at u = "), std::string::npos);
+  EXPECT_NE(hole.find("t = 0.1 s: tyre 'tyre7150' has reached a hole of the road 'road' at u = "), std::string::npos);
   EXPECT_NE(hole.find("v = 0.715 m; give heights there"), std::string::npos) << hole;
 }
 

@@ -221,7 +221,7 @@ TEST_F(Recover, TimesChooseTheNearestInstants) {
   EXPECT_NEAR(series[0].first, 0.1, 1e-12);
   EXPECT_EQ(series[1], std::pair(0.4, std::string("arm_00001.vtu")));
   r.times = {0.9};
-  EXPECT_THAT(error_of(r), HasSubstr("time 0.9 is outside the stored times 0 to 0.4"));
+  EXPECT_THAT(error_of(r), HasSubstr("time 0.9 s is outside the stored times 0 to 0.4 s"));
 }
 
 /// Results of a scene in mm, t, s with one modal body "arm", its frame and its coordinates w.

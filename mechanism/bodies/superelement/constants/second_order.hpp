@@ -30,8 +30,8 @@ struct Stiffening {
   Eigen::MatrixXd inverse;
 };
 
-/// Constants of the kinetic energy of inertia option F, THEORY (48): T = ½ ‖Φ ξ + Ω × Φ y‖²_M with ξ = R (ν + J₀⁻¹
-/// n₂) + ẏ. ν = (v₀, Ω) are velocity and angular velocity of the floating frame, and n₂ is the momentum of THEORY (47).
+/// Constants of the kinetic energy of inertia option F, THEORY (48): T = ½ ‖Φ ξ + Ω × Φ y‖²_M with ξ = R (η + J₀⁻¹
+/// n₂) + ẏ. η = (v₀, Ω) are velocity and angular velocity of the floating frame, and n₂ is the momentum of THEORY (47).
 struct FullInertia {
   int boundary_size = 0;
   Eigen::MatrixXd M;                            ///< M̄ (N x N), unit matrix on the internal coordinates

@@ -192,7 +192,7 @@ Foreshortened<S> set_products(const FullInertia& inertia, const LocalMotion<S>& 
   return w;
 }
 
-/// Sets ξ = R (ν + J₀⁻¹ n₂) + ẏ of THEORY (48), p = M̄ ξ + Ω_k C_k y of THEORY (49), their rates, and the kinetic
+/// Sets ξ = R (η + J₀⁻¹ n₂) + ẏ of THEORY (48), p = M̄ ξ + Ω_k C_k y of THEORY (49), their rates, and the kinetic
 /// energy ½ ξᵀM̄ξ. n₂ is the momentum of THEORY (47).
 template <class S>
 void set_momenta(const FullInertia& inertia, const LocalMotion<S>& motion, const Foreshortened<S>& w,

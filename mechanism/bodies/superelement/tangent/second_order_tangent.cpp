@@ -105,7 +105,7 @@ void add_damping(const SuperelementBody& body, double factor, SecondOrderWork& w
   work.K.bottomRightCorner(m, m) += factor * damping.II;
 }
 
-/// Adds the lower triangle of ∂²T/∂(ν, ẏ)² of THEORY (54), ν = (v₀, Ω₀): Wᵀ M̄ W, and the terms of C and JJ by Ω₀.
+/// Adds the lower triangle of ∂²T/∂(η, ẏ)² of THEORY (54), η = (v₀, Ω₀): Wᵀ M̄ W, and the terms of C and JJ by Ω₀.
 void add_inertia(const SuperelementBody& body, const InertiaTerms<double>& t, double factor, SecondOrderWork& work) {
   if (factor == 0.0) return;
   const FullInertia& inertia = *body.second_order.inertia;

@@ -17,8 +17,8 @@ SecondOrderWork make_second_order_work(const SuperelementBody& body);
 enum class InternalCoordinates { kept, eliminated };
 
 /// Computes the step tangent of inertia option F in work.A_BB, and the blocks that condense() and expand() need. It is
-/// c_m Zᵀ M_ν Z + c_k (Υᵀ K_y Υ + K_f) + c_c Υᵀ D Υ with Z = [A₀; U; Υ], THEORY (54). M_ν is the second derivative of
-/// the kinetic energy by (ν, ẏ). Mass and stiffness are exact. Derivatives of inertia by velocities, and of inertia and
+/// c_m Zᵀ M_η Z + c_k (Υᵀ K_y Υ + K_f) + c_c Υᵀ D Υ with Z = [A₀; U; Υ], THEORY (54). M_η is the second derivative of
+/// the kinetic energy by (η, ẏ). Mass and stiffness are exact. Derivatives of inertia by velocities, and of inertia and
 /// weight by positions, are omitted.
 void full_inertia_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
                           InternalCoordinates internal, SuperelementScratch& scratch, SuperelementWork& work);
