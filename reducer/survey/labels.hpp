@@ -29,7 +29,7 @@ bool fits_inside(const SeenPlace& seen, const std::string& text);
 /// nearest free place, preferably on the background. A label without a free place is omitted.
 class LabelPlacer {
  public:
-  explicit LabelPlacer(const Projection& projection) : projection_(projection) {}
+  explicit LabelPlacer(const PictureProjection& projection) : projection_(projection) {}
 
   void write_inside(const std::string& text, const SeenPlace& seen);
   bool write_beside(const std::string& text, const SeenPlace& seen);
@@ -38,7 +38,7 @@ class LabelPlacer {
  private:
   bool is_free(const Eigen::Vector2d& at, const Eigen::Vector2d& size) const;
 
-  const Projection& projection_;
+  const PictureProjection& projection_;
   std::vector<PictureLabel> labels_;
 };
 

@@ -32,7 +32,7 @@ constexpr std::size_t longest_label = 24;
 
 struct Panel {
   PictureView view;
-  Projection projection;
+  PictureProjection projection;
   std::vector<SeenPlace> seen;
   std::vector<PictureLabel> labels;
 };
@@ -68,7 +68,7 @@ std::vector<std::string> place_labels(const std::vector<FacePiece>& pieces, std:
 Panel panel_from(const Vector3d& eye, const std::vector<ColouredSurface>& surfaces,
                  const std::vector<Vector3d>& position, const std::vector<Vector3d>& seen) {
   const PictureView view = view_from(eye, seen, panel_width, panel_height);
-  Panel panel{view, Projection(surfaces, position, view, panel_width, panel_height), {}, {}};
+  Panel panel{view, PictureProjection(surfaces, position, view, panel_width, panel_height), {}, {}};
   panel.seen = panel.projection.seen_places();
   return panel;
 }

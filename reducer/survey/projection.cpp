@@ -137,8 +137,8 @@ PictureView view_from(const Vector3d& eye, const Positions& position, int width,
   return view;
 }
 
-Projection::Projection(const std::vector<ColouredSurface>& surfaces, const Positions& position, const PictureView& view,
-                       int width, int height)
+PictureProjection::PictureProjection(const std::vector<ColouredSurface>& surfaces, const Positions& position,
+                                     const PictureView& view, int width, int height)
     : width_(width), height_(height), columns_(static_cast<int>(std::ceil(width / square))) {
   for (int s = 0; s < std::ssize(surfaces); ++s) add(surfaces[s], s, position, view);
   const int rows = static_cast<int>(std::ceil(height / square));
@@ -157,7 +157,8 @@ Projection::Projection(const std::vector<ColouredSurface>& surfaces, const Posit
   }
 }
 
-void Projection::add(const ColouredSurface& surface, int number, const Positions& position, const PictureView& view) {
+void PictureProjection::add(const ColouredSurface& surface, int number, const Positions& position,
+                            const PictureView& view) {
   colour_.push_back(surface.colour);
   middles_.emplace_back();
   const auto projected = [&](int node) {
@@ -189,7 +190,7 @@ void Projection::add(const ColouredSurface& surface, int number, const Positions
     if (count == 1) rims_.push_back({projected(side.first), projected(side.second), number});
 }
 
-std::vector<PaintedPolygon> Projection::polygons() const {
+std::vector<PaintedPolygon> PictureProjection::polygons() const {
   std::vector<Painted> painted;
   const auto seen = [this](const std::array<Vector3d, 3>& x) {
     return !(is_hidden((x[0] + x[1] + x[2]) / 3.0) && is_hidden(x[0]) && is_hidden(x[1]) && is_hidden(x[2]));
@@ -213,24 +214,24 @@ std::vector<PaintedPolygon> Projection::polygons() const {
   return polygons;
 }
 
-const std::vector<int>& Projection::near(const Vector2d& at) const {
+const std::vector<int>& PictureProjection::near(const Vector2d& at) const {
   static const std::vector<int> none;
   if (at.x() < 0.0 || at.y() < 0.0 || at.x() >= width_ || at.y() >= height_) return none;
   const auto row = static_cast<std::size_t>(at.y() / square), column = static_cast<std::size_t>(at.x() / square);
   return buckets_[row * static_cast<std::size_t>(columns_) + column];
 }
 
-bool Projection::is_hidden(const Vector3d& place) const {
+bool PictureProjection::is_hidden(const Vector3d& place) const {
   return std::ranges::any_of(near(place.head<2>()), [&](int t) {
     return depth_at(triangles_[t].x, place.head<2>()) > place.z() + same_depth;
   });
 }
 
-bool Projection::covers(const Vector2d& at) const {
+bool PictureProjection::covers(const Vector2d& at) const {
   return std::ranges::any_of(near(at), [&](int t) { return std::isfinite(depth_at(triangles_[t].x, at)); });
 }
 
-std::vector<SeenPlace> Projection::seen_places() const {
+std::vector<SeenPlace> PictureProjection::seen_places() const {
   std::vector<SeenPlace> places(middles_.size());
   for (int s = 0; s < std::ssize(middles_); ++s) {
     std::vector<Vector2d> seen, hidden;

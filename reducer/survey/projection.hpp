@@ -43,10 +43,10 @@ struct SeenPlace {
 };
 
 /// Parallel projection of coloured surfaces to a picture.
-class Projection {
+class PictureProjection {
  public:
-  Projection(const std::vector<ColouredSurface>& surfaces, const std::vector<Eigen::Vector3d>& position,
-             const PictureView& view, int width, int height);
+  PictureProjection(const std::vector<ColouredSurface>& surfaces, const std::vector<Eigen::Vector3d>& position,
+                    const PictureView& view, int width, int height);
 
   int width() const { return width_; }
   int height() const { return height_; }

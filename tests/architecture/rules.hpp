@@ -74,6 +74,9 @@ std::vector<Violation> check_sentences(const SourceTree& tree);
 /// Docstrings begin with a noun or a verb: none with "Of", "The same" or "As".
 std::vector<Violation> check_docstrings(const SourceTree& tree);
 
+/// No two files define a type of the same name in one namespace: the linker would keep one destructor for both.
+std::vector<Violation> check_type_names(const SourceTree& tree);
+
 /// Sources, scripts and lists of CMake begin with the line SPDX-License-Identifier (scripts: behind #!).
 std::vector<Violation> check_licences(const SourceTree& tree);
 

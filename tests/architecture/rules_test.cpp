@@ -297,6 +297,21 @@ TEST_F(PlantedTree, MissingLicencesAreFound) {
   EXPECT_EQ(found, "cmake/d.cmake scripts/c ");
 }
 
+TEST_F(PlantedTree, TypesOfOneNameAreFound) {
+  plant("reducer/a.hpp",
+        "namespace tisserand::reducer {\nstruct Twice {\n};\nstruct Once {\n};\n}  // namespace tisserand::reducer\n");
+  plant("reducer/b.hpp",
+        "namespace tisserand::reducer {\nclass Twice : A {\n};\nstruct Twice::Impl {\n};\nclass Once;\n}  // "
+        "namespace\n");
+  plant("reducer/c.cpp",
+        "namespace tisserand::reducer {\nnamespace {\nstruct Twice {\n};\n}  // namespace\n}  // namespace\n");
+  plant("formats/d.hpp", "namespace tisserand::formats {\nstruct Twice {\n};\n}  // namespace\n");
+  const std::vector<Violation> found = check_type_names(tree());
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].path, "reducer/b.hpp");
+  EXPECT_EQ(found[0].what, "tisserand::reducer::Twice is also defined in reducer/a.hpp");
+}
+
 TEST_F(PlantedTree, WordingIsChecked) {
   for (const std::string text : {"// TO"
                                  "DO later",

@@ -48,6 +48,8 @@ TEST(Tree, DocstringsBeginWithANoun) { EXPECT_EQ(to_text(check_docstrings(this_t
 
 TEST(Tree, FilesNameTheirLicence) { EXPECT_EQ(to_text(check_licences(this_tree())), ""); }
 
+TEST(Tree, TypesHaveNamesOfTheirOwn) { EXPECT_EQ(to_text(check_type_names(this_tree())), ""); }
+
 TEST(Tree, LinksLead) { EXPECT_EQ(to_text(check_links(this_tree())), ""); }
 
 }  // namespace

@@ -180,7 +180,7 @@ TEST(MeshError, OfBeamsIsThatOfTheHermiteElement) {
 /// coarse on purpose. References are other meshes and elements (docs/VERIFICATION.md has the figures).
 TEST(MeshError, IsWithinAFactorOfTwoOrUnknown) {
   std::string part;
-  reducer::FreeShapes reference;
+  reducer::MeshModes reference;
   int known = 0, all = 0;
   for (const reducer::MeshErrorCase& one : reducer::mesh_error_cases()) {
     if (one.part != part) reference = reducer::free_shapes(one.reference(), 16);

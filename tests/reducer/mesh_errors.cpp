@@ -135,7 +135,7 @@ class Cases {
 };
 
 /// A shape of the coarse mesh and those of the reference at the nodes that both have (2 % of the size apart at most).
-Eigen::MatrixXd assurance(const FreeShapes& coarse, const FreeShapes& reference) {
+Eigen::MatrixXd assurance(const MeshModes& coarse, const MeshModes& reference) {
   const Eigen::Matrix3Xd& fine = reference.mesh.position;
   const double size = (fine.rowwise().maxCoeff() - fine.rowwise().minCoeff()).norm();
   std::vector<int> rows, fine_rows;
@@ -178,7 +178,7 @@ std::vector<MeshErrorCase> mesh_error_cases() {
   return cases.list;
 }
 
-FreeShapes free_shapes(const Mesh& mesh, int modes) {
+MeshModes free_shapes(const Mesh& mesh, int modes) {
   testing::start_solvers();
   constexpr int estimated = 5;
   const System system = build_system(mesh, "mesh");
@@ -186,7 +186,7 @@ FreeShapes free_shapes(const Mesh& mesh, int modes) {
   const double first =
       full_free_modes(system, {.scale = 1e4 / (system.length * system.length), .count = 1}, asked, Count::never)->value[0];
   const FreeModes found = *full_free_modes(system, {.scale = first, .count = modes}, asked, Count::never);
-  FreeShapes shapes{mesh, found.value.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi), {}, {}};
+  MeshModes shapes{mesh, found.value.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi), {}, {}};
   const Eigen::MatrixXd x = expand(system.T, found.vector);
   shapes.translation.resize(3 * mesh.nodes(), x.cols());
   for (int n = 0; n < mesh.nodes(); ++n)
@@ -195,7 +195,7 @@ FreeShapes free_shapes(const Mesh& mesh, int modes) {
   return shapes;
 }
 
-std::vector<ComparedError> compared_errors(const FreeShapes& coarse, const FreeShapes& reference) {
+std::vector<ComparedError> compared_errors(const MeshModes& coarse, const MeshModes& reference) {
   constexpr double equal = 2e-3;  // frequencies of one group, whose shapes may be turned in it
   const Eigen::MatrixXd alike = assurance(coarse, reference);
   std::vector<ComparedError> result;

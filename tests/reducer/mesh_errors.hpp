@@ -32,13 +32,13 @@ std::vector<MeshErrorCase> mesh_error_cases();
 inline constexpr double least_compared_error = 1.5e-3;
 
 /// Free elastic modes of a mesh.
-struct FreeShapes {
+struct MeshModes {
   Mesh mesh;
   Eigen::VectorXd frequency;
   Eigen::MatrixXd translation;  ///< 3 rows per node
   MeshErrors estimate;          ///< of the five lowest modes
 };
-FreeShapes free_shapes(const Mesh& mesh, int modes);
+MeshModes free_shapes(const Mesh& mesh, int modes);
 
 /// Error of the frequency of one of the five lowest modes of a coarse mesh, against the mode of the reference with the
 /// most similar shape. `doubt` says whether the estimate is known.
@@ -51,7 +51,7 @@ struct ComparedError {
     return doubt == MeshDoubt::none && std::max(std::abs(error), std::abs(estimate)) >= least_compared_error;
   }
 };
-std::vector<ComparedError> compared_errors(const FreeShapes& coarse, const FreeShapes& reference);
+std::vector<ComparedError> compared_errors(const MeshModes& coarse, const MeshModes& reference);
 
 /// Reduction of a mesh in SI units, which has its boundary, with 30 internal modes.
 Reduction reduction_for_mesh_errors(const Mesh& mesh);

@@ -56,7 +56,7 @@ many elements around as across. Square tube: sides 0.1 m, length 0.6 m, 0.002 m 
 
 std::string mesh_error_table() {
   std::vector<Group> groups;
-  reducer::FreeShapes reference;
+  reducer::MeshModes reference;
   std::string last;
   for (const reducer::MeshErrorCase& one : reducer::mesh_error_cases()) {
     if (one.part != last) reference = reducer::free_shapes(one.reference(), 16);

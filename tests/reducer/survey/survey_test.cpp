@@ -245,7 +245,7 @@ TEST(Labels, AreOnTheirFaceOrBesideIt) {
   for (const int side : {30, 4}) {
     std::vector<Vector3d> position;
     const reducer::ColouredSurface front = square(side, 10.0, position), behind = square(side, -10.0, position);
-    const reducer::Projection projection({front, behind}, position, {}, 90, 90);
+    const reducer::PictureProjection projection({front, behind}, position, {}, 90, 90);
     const reducer::SeenPlace seen = projection.seen_places()[0];
     EXPECT_NEAR(seen.radius, 0.5 * side, 1e-9);
     EXPECT_LT((seen.place - Eigen::Vector2d(45, 45)).norm(), 1e-9);
@@ -266,7 +266,7 @@ TEST(Projection, PaintsFromBackToFront) {
   reducer::ColouredSurface front = square(30, 10.0, position), behind = square(60, -10.0, position);
   front.colour = {0.4, 0, 0};
   behind.colour = {0, 0.4, 0};
-  const auto polygons = reducer::Projection({front, behind}, position, {}, 90, 90).polygons();
+  const auto polygons = reducer::PictureProjection({front, behind}, position, {}, 90, 90).polygons();
   std::size_t last_green = 0, first_red = polygons.size();
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     if (polygons[i].colour[0] > polygons[i].colour[1]) first_red = std::min(first_red, i);
