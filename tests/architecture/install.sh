@@ -25,7 +25,7 @@ commands() { "$prefix/bin/$1" --help | awk '/^Subcommands:/ { on = 1; next } on 
 
 for program in "${programs[@]}"; do
   [ -n "$(commands "$program")" ] || fail "$program --help lists no commands"
-  zgrep -q "^\.TH ${program^^} 1" "$prefix/share/man/man1/$program.1.gz" || fail "no manual page of $program"
+  zgrep -q "^\.TH ${program^^} 1 \"\" \"$program [0-9.]* (Tisserand)\"$" "$prefix/share/man/man1/$program.1.gz" || fail "no manual page of $program"
   for command in $(commands "$program"); do
     zgrep -q "^\.SH ${command^^}$" "$prefix/share/man/man1/$program.1.gz" || fail "$program.1 lacks $command"
   done
