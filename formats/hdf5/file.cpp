@@ -180,6 +180,7 @@ void InputFile::require(const std::string& dataset, ElementKind kind, const Shap
 }
 
 void InputFile::values(const ValuesRequest& request, void* values) const {
+  if (request.values == 0) return;
   const std::uint64_t bytes = request.values * (request.type == ValuesRequest::Type::float32 ? 4 : 8);
   const std::string& whole = entry(request.dataset).whole;
   if (request.part == ValuesRequest::Part::all && whole.size() == bytes) {

@@ -54,8 +54,8 @@ struct Section {
   double rotary_inertia_z = 0.0;  ///< about z: ∫ρ y² dA
 };
 
-/// Mass and rotary inertias of a section about its centroid, per length of the beam. `about_x` is the sum of
-/// `about_y` and `about_z`.
+/// Mass of a beam per length, and its rotary inertia per length about axes through the centroid of the section. x is
+/// the beam axis, so `about_x` is the sum of the other two.
 struct SectionInertia {
   double mass = 0.0, about_x = 0.0, about_y = 0.0, about_z = 0.0;
   double about_yz = 0.0;  ///< ∫ρ y z dA

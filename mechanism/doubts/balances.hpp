@@ -29,7 +29,7 @@ class EnergyBalance {
 
   /// Warning, at most one: the largest balance exceeds a hundredth of the energy that moved, or will do so by a drift.
   /// `cause`: known cause, which replaces the advice to take shorter steps; empty if unknown.
-  std::vector<std::string> doubts(const std::string& cause, const Units& units = {}) const;
+  std::vector<std::string> doubts(const std::string& cause, const Units& units) const;
 
  private:
   static constexpr int parts = 8;

@@ -7,15 +7,19 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "common/units.hpp"
 
 namespace tisserand::mechanism {
 
 std::string channels_table(const std::string& file, const std::vector<std::string>& patterns) {
   const formats::ResultsReader reader(file);
   const std::vector<double> time = reader.time();
-  std::string text = fmt::format("{}: scene '{}', {} instants", file, reader.scene(), time.size());
-  if (!time.empty()) text += fmt::format(" from {:g} to {:g}", time.front(), time.back());
-  if (reader.modes() > 0) text += fmt::format(", {} modes", reader.modes());
+  const auto count = [](std::size_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); };
+  std::string text = fmt::format("{}: scene '{}', {}", file, reader.scene(), count(time.size(), "instant"));
+  const std::string unit = after_time(reader.layout().units);
+  if (time.size() == 1) text += fmt::format(" at {:g}{}", time.front(), unit);
+  if (time.size() > 1) text += fmt::format(" from {:g} to {:g}{}", time.front(), time.back(), unit);
+  if (reader.modes() > 0) text += ", " + count(reader.modes(), "mode");
   if (!reader.completed()) text += fmt::format("\nnot completed: {}", reader.reason());
   text += "\n";
   const std::vector<formats::Channel> chosen = formats::select_channels(reader.channels(), patterns, file);

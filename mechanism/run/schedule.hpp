@@ -35,7 +35,7 @@ class Schedule {
   /// allowed: after max_halvings, or below the smallest step.
   bool retry(double time, const StepReport& report);
   /// Text of the limit at which retry() returns false: "after 10 halvings of the step".
-  std::string limit(const Units& units = {}) const;
+  std::string limit(const Units& units) const;
   /// Chooses the next step from the error of the accepted step of the size `size` (error control only).
   void adapt(const StepReport& report, double size);
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <map>
 #include <regex>
 #include <utility>
@@ -6,6 +7,7 @@
 #include "tests/architecture/rules.hpp"
 
 namespace tisserand::architecture {
+
 std::vector<Violation> check_type_names(const SourceTree& tree) {
   static const std::regex opens(R"(^(?:inline )?namespace ([\w:]*) ?\{)"), closes(R"(^\}  // namespace)");
   static const std::regex defines(
@@ -20,14 +22,10 @@ std::vector<Violation> check_type_names(const SourceTree& tree) {
       if (std::regex_search(file.code[i], found, opens)) spaces.push_back(found[1]);
       if (std::regex_search(file.lines[i], closes) && !spaces.empty()) spaces.pop_back();
       if (!std::regex_search(file.code[i], found, defines)) continue;
+      if (spaces.empty() || std::ranges::find(spaces, "") != spaces.end()) continue;  // local to the file
       std::string name;
-      bool is_local = spaces.empty();
-      for (const std::string& space : spaces) {
-        is_local = is_local || space.empty();
-        name += space + "::";
-      }
+      for (const std::string& space : spaces) name += space + "::";
       name += found[1];
-      if (is_local) continue;
       const auto [other, is_new] = place.emplace(name, file.path);
       if (!is_new && other->second != file.path)
         violations.push_back({file.path, i + 1, name + " is also defined in " + other->second});

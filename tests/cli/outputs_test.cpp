@@ -358,7 +358,7 @@ TEST_F(Outputs, RestartNeverOverwritesWhatItGoesOnFrom) {
   const Outcome joined = restart("arm.checkpoint.h5", {"--append", "--set", "integrator.end=0.2"});
   EXPECT_EQ(joined.code, 0) << joined.error;
   EXPECT_THAT(joined.out, HasSubstr("begins with the 10 instants of arm.results.h5.part"));
-  EXPECT_THAT(mechanism({"channels", "arm.results.h5"}).out, HasSubstr("21 instants from 0 to 0.2"));
+  EXPECT_THAT(mechanism({"channels", "arm.results.h5"}).out, HasSubstr("21 instants from 0 to 0.2 s"));
   EXPECT_FALSE(std::filesystem::exists(file("arm.results.h5.part")));
 }
 

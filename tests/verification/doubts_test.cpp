@@ -44,7 +44,7 @@ std::vector<std::string> reported_by(Balance balance) {
     row.balance = balance(row.time);
     energy.observe(row, 0.0);
   }
-  return energy.doubts("");
+  return energy.doubts("", Units{});
 }
 
 TEST(EnergyDoubt, SpeaksBeyondAHundredthOfWhatMoved) {

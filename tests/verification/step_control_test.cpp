@@ -249,7 +249,7 @@ TEST(ControlledSchedule, RejectedStepsSayWhy) {
   Simulation limited(scene, {});
   limited.start();
   EXPECT_FALSE(limited.step());
-  EXPECT_NE(limited.schedule.limit().find("min_step"), std::string::npos);
+  EXPECT_NE(limited.schedule.limit(Units{}).find("min_step"), std::string::npos);
 }
 
 TEST(StepSize, FollowsTheErrorWithinLimits) {

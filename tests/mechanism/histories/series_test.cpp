@@ -206,7 +206,7 @@ TEST_F(ResultsFile, ModesAreListedAndReadOverTheirNumbers) {
     writer.set_modes(modes);
     writer.finish(true, "", "{}");
   }
-  EXPECT_THAT(channels_table(path, {}), AllOf(HasSubstr(", 3 modes\n"), HasSubstr("modes/frequency")));
+  EXPECT_THAT(channels_table(path, {}), AllOf(HasSubstr("1 instant at 0 s, 3 modes\n"), HasSubstr("modes/frequency")));
   const std::vector<Series> series = read_series({{path}, {}, {"modes/frequency"}, {}});
   ASSERT_EQ(series.size(), 1u);
   EXPECT_THAT(series[0].x, ElementsAre(1.0, 2.0, 3.0));
@@ -217,7 +217,7 @@ TEST_F(ResultsFile, ModesAreListedAndReadOverTheirNumbers) {
 
 TEST_F(ResultsFile, ChannelsAreListedWithUnits) {
   const std::string table = channels_table(write_results("first.results.h5"), {"energy"});
-  EXPECT_THAT(table, HasSubstr("scene 'example', 20 instants from 0.001 to 0.02"));
+  EXPECT_THAT(table, HasSubstr("scene 'example', 20 instants from 0.001 to 0.02 s\n"));
   EXPECT_THAT(table, HasSubstr("energy/total"));
   EXPECT_THAT(table, HasSubstr("[J]"));
   EXPECT_THAT(table, ::testing::Not(HasSubstr("nodes/")));
