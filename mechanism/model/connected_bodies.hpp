@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parts of a model: sets of nodes that would move together if every flexible body were rigid.
+// Parts of a model: sets of nodes that would move together if every flexible body were rigid. Groups and loops of them.
 #pragma once
 
 #include <string>
@@ -28,5 +28,10 @@ Parts find_parts(const Model& model);
 /// Groups of parts, by name, that joints, springs and couplings connect, directly or through other parts. One group
 /// contains the ground.
 std::vector<std::vector<std::string>> connected_groups(const Model& model, const Parts& parts);
+
+/// Finds the loops of the model: the biconnected components of the graph of its nodes and the ground, with joints as
+/// edges. Joints on one modal body share its modes, and all terms of a coupling share a multiplier, so each of these
+/// sets is in one loop. Requires the maps of joints and couplings.
+std::vector<Loop> find_loops(const Model& model);
 
 }  // namespace tisserand::mechanism

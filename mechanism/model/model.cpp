@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/model/bodies.hpp"
+#include "mechanism/model/connected_bodies.hpp"
 #include "mechanism/model/element_map.hpp"
 #include "mechanism/model/forces.hpp"
 #include "mechanism/model/node_coordinates.hpp"
@@ -170,6 +171,27 @@ void for_each_map(Model& model, Visit visit) {
     if (model.coordinates[i].active) visit(model.coordinates.maps[i], all);
 }
 
+/// Blocks of the coordinates of a node, of modes or of a tread, and of the multipliers of a joint or coupling.
+UnknownBlocks blocks_of(const Model& model, int size) {
+  std::vector<int> start;
+  const auto begin = [&](int at) {
+    if (at >= 0 && at < size) start.push_back(at);
+  };
+  begin(0);
+  for (const Node& node : model.nodes) {
+    begin(node.translation);
+    if (node.translation < 0 || node.rotation > node.translation + 3) begin(node.rotation);
+  }
+  for (const ModalBody& body : model.modal_bodies) begin(model.sizes.first_modal() + body.offset);
+  for (const Tyre& tyre : model.tyres)
+    if (tyre.relaxes()) begin(model.sizes.first_modal() + tyre.lag);
+  for (const Joint& joint : model.joints) begin(model.sizes.boundary + joint.row);
+  for (const Coupling& coupling : model.couplings) begin(model.sizes.boundary + coupling.row);
+  std::ranges::sort(start);
+  start.erase(std::unique(start.begin(), start.end()), start.end());
+  return {std::move(start), model.sizes.boundary};
+}
+
 void scale_equations(Model& model) {
   const SparsePattern& pattern = *model.pattern;
   model.equation_scale.setOnes(pattern.size());
@@ -190,6 +212,7 @@ void scale_equations(Model& model) {
 void finish_model(Model& model, formats::LinearSolver solver) {
   number_constraints(model);
   number_elements(model);
+  model.loops = find_loops(model);
 
   const int boundary = model.sizes.boundary;
   const int size = boundary + model.sizes.constraints;
@@ -204,8 +227,10 @@ void finish_model(Model& model, formats::LinearSolver solver) {
     add_constraint(model.joints.maps[j], block_of(model, j), positions);
   for (std::size_t j = 0; j < model.couplings.size(); ++j)
     add_constraint(model.couplings.maps[j], block_of(model, model.couplings[j]), positions);
-  model.solver = choose_solver(SparsePattern(size, positions, SparsePattern::Storage::sparse), solver);
-  model.pattern = std::make_unique<SparsePattern>(size, std::move(positions), solver_storage(model.solver.kind));
+  const UnknownBlocks blocks = blocks_of(model, size);
+  model.solver = choose_solver(SparsePattern(size, positions, SparsePattern::Storage::sparse, blocks), solver);
+  model.pattern =
+      std::make_unique<SparsePattern>(size, std::move(positions), solver_storage(model.solver.kind), blocks);
 
   for_each_map(model, [&](ElementMap& map, const EntryFlags& entries) { fill_slots(*model.pattern, entries, map); });
   for (std::size_t j = 0; j < model.joints.size(); ++j)

@@ -63,6 +63,15 @@ struct Tie {
   bool is_loop = false;  ///< closes a loop of ties, holds no follower and carries no force
 };
 
+/// Joints and couplings that closed loops of nodes have in common. Constraints can exert forces that cancel on every
+/// node only within one loop, so the null space of Bᵀ is the sum of those of all loops. A joint that closes no loop is
+/// one by itself. Indices into Model::joints and Model::couplings.
+struct Loop {
+  std::vector<int> joints;
+  std::vector<int> couplings;
+  std::vector<int> coordinates;  ///< coordinates of the model on which they act, ascending
+};
+
 /// Slots of the constraint rows of a joint or a coupling in the iteration matrix: `lower` for B at (row k, column j),
 /// `upper` for Bᵀ at (j, k). Index k + size · j, −1 if absent.
 struct ConstraintMap {
@@ -105,7 +114,8 @@ struct Model {
   Pool<Coordinate> coordinates;
   Pool<Coupling> couplings;  ///< maps: coordinates of all terms in sequence; no slots
   std::vector<ConstraintMap> coupling_constraint_maps;
-  ExpressionScope scope;  ///< names that expressions may use; its channels are `channels`
+  std::vector<Loop> loops;  ///< each joint and each coupling is in one
+  ExpressionScope scope;    ///< names that expressions may use; its channels are `channels`
   std::vector<Channel> channels;
   Pool<ChannelUse> channel_uses;                   ///< maps: rows of the owner, then of the markers
   std::vector<formats::TimeFunctionSpec> motions;  ///< f(t) of driven coordinates

@@ -296,7 +296,7 @@ void fill_bodies(const Model& model, const State& state, Evaluation& evaluation,
 void fill_actions(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
   evaluate_coordinates(model, state, evaluation);
   Eigen::VectorXd least;
-  if (row.reactions && is_overconstrained(state)) least = least_norm_multipliers(model, evaluation, state.lambda());
+  if (row.reactions && is_overconstrained(state)) least = least_norm_multipliers(model, evaluation, state);
   const double* lambda = least.size() > 0 ? least.data() : state.lambda().data();
   fill_joints(model, state, lambda, evaluation, row);
   fill_couplings(model, lambda, row);

@@ -2,13 +2,17 @@
 // KLU as a back end.
 #include <klu.h>
 
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <new>
 #include <random>
+#include <vector>
 
 #include "common/error.hpp"
 #include "mechanism/solver/back_ends.hpp"
+#include "mechanism/solver/elimination_order.hpp"
 
 namespace tisserand::mechanism::back_end {
 namespace {
@@ -26,11 +30,12 @@ struct KluCalls {
 /// Kept pivots are discarded if they grow by more than the reciprocal of this. Then half of the digits are lost, and
 /// one refinement restores only as many.
 constexpr double least_growth = 1e-8;
-/// If factors have more entries than this times KLU's count, the other ordering is tried. Chains of bodies exceed the
-/// count by a quarter to a half, unsuitable orderings 4 times and more.
+/// If factors have more entries than this times KLU's count, the other orders are tried. Chains of bodies exceed the
+/// count by a quarter to a half, unsuitable orders 3 times and more.
 constexpr double honest_fill = 2.0;
-/// Orderings of KLU.
-constexpr int by_amd = 0, by_colamd = 1;
+/// Orders of elimination: two of KLU, and elimination_order().
+enum class Order { amd, bodies, colamd };
+constexpr Order orders[] = {Order::amd, Order::bodies, Order::colamd};
 
 /// KLU's interface has no const. It changes neither pattern nor values.
 int* starts(const SparsePattern& pattern) { return const_cast<int*>(pattern.column_start().data()); }
@@ -71,9 +76,17 @@ struct KluFactors {
   klu_symbolic* symbolic = nullptr;
   klu_numeric* numeric = nullptr;
 
-  void analyse(const SparsePattern& pattern, int ordering, klu_common& common) {
-    common.ordering = ordering;
-    symbolic = klu_analyze(pattern.size(), starts(pattern), rows(pattern), &common);
+  void analyse(const SparsePattern& pattern, Order order, klu_common& common) {
+    if (order == Order::bodies) {
+      std::vector<int> unknowns = elimination_order(pattern);
+      common.btf = 0;  // it would choose another diagonal
+      symbolic =
+          klu_analyze_given(pattern.size(), starts(pattern), rows(pattern), unknowns.data(), unknowns.data(), &common);
+      common.btf = 1;
+    } else {
+      common.ordering = order == Order::amd ? 0 : 1;
+      symbolic = klu_analyze(pattern.size(), starts(pattern), rows(pattern), &common);
+    }
     require_klu_memory(common);
     TISSERAND_ENSURE(symbolic != nullptr, "KLU status {}", common.status);
   }
@@ -96,32 +109,56 @@ struct KluFactors {
   double entries() const { return static_cast<double>(numeric->lnz) + numeric->unz; }
 };
 
-/// Factors with new pivots. The order of AMD expects pivots on the diagonal, and zeros there can increase its fill.
-/// Then COLAMD, whose bound on fill holds for all pivots, is tried, and the smaller factors stay. Returns those, null
-/// if singular. `by_columns` is analysed when it is first needed.
-KluFactors* factor_with_new_pivots(const SparsePattern& pattern, double* values, KluFactors& by_diagonal,
-                                   KluFactors& by_columns, klu_common& common) {
-  if (!by_diagonal.factor(pattern, values, common)) return nullptr;
-  if (by_diagonal.entries() <= honest_fill * (by_diagonal.symbolic->lnz + by_diagonal.symbolic->unz))
-    return &by_diagonal;
-  if (by_columns.symbolic == nullptr) by_columns.analyse(pattern, by_colamd, common);
-  if (!by_columns.factor(pattern, values, common)) return &by_diagonal;
-  KluFactors& worse = by_columns.entries() < by_diagonal.entries() ? by_diagonal : by_columns;
-  worse.forget(common);
-  return &worse == &by_columns ? &by_diagonal : &by_columns;
-}
+/// Analyses and factors of a matrix by each order.
+class KluOrders {
+ public:
+  KluOrders(const SparsePattern& pattern, const KluCalls& calls, klu_common& common)
+      : pattern_(pattern), common_(common) {
+    for (KluFactors& one : all_) one.calls = &calls;
+    all_.front().analyse(pattern, orders[0], common);
+  }
+  ~KluOrders() {
+    for (KluFactors& one : all_) one.free(common_);
+  }
+  KluOrders(const KluOrders&) = delete;
+
+  /// Count of AMD, for pivots on the diagonal.
+  const klu_symbolic& count() const { return *all_.front().symbolic; }
+  /// Factors with new pivots. The order of AMD expects pivots on the diagonal, and zeros there can increase its fill.
+  /// Then the order of bodies is tried, whose constraints have no zeros any more when they are eliminated, and that of
+  /// COLAMD, whose bound on fill holds for all pivots. The smallest factors stay. Returns these, null if singular.
+  KluFactors* factor(double* values) {
+    KluFactors* best = &all_.front();
+    if (!best->factor(pattern_, values, common_)) return nullptr;
+    if (best->entries() <= honest_fill * (count().lnz + count().unz)) return best;
+    for (std::size_t i = 1; i < all_.size(); ++i) {
+      KluFactors& other = all_[i];
+      if (orders[i] == Order::bodies && pattern_.blocks().start.empty()) continue;
+      if (other.symbolic == nullptr) other.analyse(pattern_, orders[i], common_);
+      if (!other.factor(pattern_, values, common_)) continue;
+      KluFactors& worse = other.entries() < best->entries() ? *best : other;
+      if (&worse == best) best = &other;
+      worse.forget(common_);
+    }
+    return best;
+  }
+  void forget() {
+    for (KluFactors& one : all_) one.forget(common_);
+  }
+
+ private:
+  const SparsePattern& pattern_;
+  klu_common& common_;
+  std::array<KluFactors, std::size(orders)> all_;
+};
 
 class Klu : public BackEnd {
  public:
   Klu(const SparsePattern& pattern, Numbers numbers)
-      : pattern_(pattern), calls_(numbers == Numbers::real ? real_calls : complex_calls), common_(settings()) {
-    by_diagonal_.calls = by_columns_.calls = &calls_;
-    by_diagonal_.analyse(pattern, by_amd, common_);
-  }
-  ~Klu() override {
-    by_diagonal_.free(common_);
-    by_columns_.free(common_);
-  }
+      : pattern_(pattern),
+        calls_(numbers == Numbers::real ? real_calls : complex_calls),
+        common_(settings()),
+        orders_(pattern, calls_, common_) {}
 
   FactorReport factor(const double* values) override {
     values_ = const_cast<double*>(values);
@@ -136,7 +173,7 @@ class Klu : public BackEnd {
       }
       forget();
     }
-    used_ = factor_with_new_pivots(pattern_, values_, by_diagonal_, by_columns_, common_);
+    used_ = orders_.factor(values_);
     if (used_ != nullptr) return report();
     const int column = common_.singular_col;
     return {false, 0.0, column < pattern_.size() ? column : -1, 1.0};
@@ -151,8 +188,7 @@ class Klu : public BackEnd {
     return common_.rgrowth;
   }
   void forget() override {
-    by_diagonal_.forget(common_);
-    by_columns_.forget(common_);
+    orders_.forget();
     used_ = nullptr;
   }
 
@@ -170,7 +206,7 @@ class Klu : public BackEnd {
   const KluCalls& calls_;
   klu_common common_;
   double* values_ = nullptr;
-  KluFactors by_diagonal_, by_columns_;
+  KluOrders orders_;
   KluFactors* used_ = nullptr;  ///< the one that has factors; null: none
 };
 
@@ -178,24 +214,18 @@ class Klu : public BackEnd {
 
 Effort klu_effort(const SparsePattern& pattern) {
   klu_common common = settings();
-  KluFactors factors;
-  factors.analyse(pattern, by_amd, common);
-  const Effort effort{factors.symbolic->est_flops, factors.symbolic->lnz + factors.symbolic->unz};
-  factors.free(common);
-  return effort;
+  const KluOrders order(pattern, real_calls, common);
+  return {order.count().est_flops, order.count().lnz + order.count().unz};
 }
 
 Effort klu_trial(const SparsePattern& pattern) {
   klu_common common = settings();
   std::vector<double> values = made_up_values(pattern);
-  KluFactors by_diagonal, by_columns;
-  by_diagonal.analyse(pattern, by_amd, common);
-  const KluFactors* factors = factor_with_new_pivots(pattern, values.data(), by_diagonal, by_columns, common);
+  KluOrders order(pattern, real_calls, common);
+  const KluFactors* factors = order.factor(values.data());
   Effort effort{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   if (factors != nullptr && klu_flops(factors->symbolic, factors->numeric, &common))
     effort = {common.flops, factors->entries()};
-  by_diagonal.free(common);
-  by_columns.free(common);
   return effort;
 }
 

@@ -56,6 +56,14 @@ std::array<Candidate, 4> candidates(const SparsePattern& pattern) {
                 n * n}};
 }
 
+/// SolverChoice::renewal. An evaluation takes 1.3 to 1.9 ns per entry of the matrix, its tangent 2.8 to 5.4 ns, and
+/// each of two solutions 2.5 ns per entry of the factors (kernels of docs/PERFORMANCE.md, 17 to 1500 unknowns). A
+/// solver that `auto` would not consider has no time, so its flops are taken.
+double renewal(const Candidate& solver, double entries_of_matrix) {
+  const double factorisation = std::isfinite(solver.cost) ? solver.cost : 0.3 * solver.flops;
+  return (4.0 * entries_of_matrix + factorisation) / (1.7 * entries_of_matrix + 5.0 * solver.entries);
+}
+
 }  // namespace
 
 SolverChoice choose_solver(const SparsePattern& pattern, formats::LinearSolver wanted) {
@@ -82,7 +90,8 @@ SolverChoice choose_solver(const SparsePattern& pattern, formats::LinearSolver w
     if (allowed(one.kind) && (best == nullptr || one.cost < best->cost)) best = &one;
   // Dense above the limit: LAPACK, since both have the same infinite cost.
   if (wanted == formats::LinearSolver::dense && pattern.size() > dense_limit) best = &all[3];
-  return {best->kind, wanted == formats::LinearSolver::automatic, best->flops, best->entries / nonzeros};
+  return {best->kind, wanted == formats::LinearSolver::automatic, best->flops, best->entries / nonzeros,
+          renewal(*best, nonzeros)};
 }
 
 std::string describe(const SolverChoice& choice) {

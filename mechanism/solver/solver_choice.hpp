@@ -15,6 +15,9 @@ struct SolverChoice {
   bool automatic = false;
   double flops = 0.0;  ///< flops of one factorisation (UMFPACK: upper bound; QR: not counted)
   double fill = 1.0;   ///< entries of the factors relative to those of the matrix
+  /// Estimated time of a new tangent and its factors relative to that of an iteration with kept factors. Like the
+  /// choice itself it follows from counts, so it is the same in every run.
+  double renewal = 2.0;
 };
 
 /// Chooses the solver for a pattern: the one that the scene names in `wanted`, else that of the least estimated time.

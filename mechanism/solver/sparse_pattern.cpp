@@ -3,14 +3,15 @@
 #include "mechanism/solver/sparse_pattern.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/error.hpp"
 #include "common/math/count.hpp"
 
 namespace tisserand::mechanism {
 
-SparsePattern::SparsePattern(int size, std::vector<Position> positions, Storage storage)
-    : size_(size), storage_(storage) {
+SparsePattern::SparsePattern(int size, std::vector<Position> positions, Storage storage, UnknownBlocks blocks)
+    : size_(size), storage_(storage), blocks_(std::move(blocks)) {
   std::sort(positions.begin(), positions.end(), [](const Position& a, const Position& b) {
     return a.column != b.column ? a.column < b.column : a.row < b.row;
   });

@@ -6,6 +6,12 @@
 
 namespace tisserand::mechanism {
 
+/// Blocks of unknowns that are eliminated together: coordinates of a node, multipliers of a joint.
+struct UnknownBlocks {
+  std::vector<int> start;    ///< first unknown of each block, ascending from 0; empty if unknown
+  int first_multiplier = 0;  ///< first of the unknowns that have zeros on the diagonal, up to the last one
+};
+
 /// Positions of the stored values of an n x n matrix, in compressed columns. With dense storage every position is
 /// stored, and slot(i, j) = i + j n.
 class SparsePattern {
@@ -18,7 +24,7 @@ class SparsePattern {
     int column;
   };
   /// Makes the pattern of `positions`, in which repeated positions are merged.
-  SparsePattern(int size, std::vector<Position> positions, Storage storage);
+  SparsePattern(int size, std::vector<Position> positions, Storage storage, UnknownBlocks blocks = {});
 
   int size() const { return size_; }
   Storage storage() const { return storage_; }
@@ -37,6 +43,7 @@ class SparsePattern {
 
   const std::vector<int>& column_start() const { return column_start_; }
   const std::vector<int>& rows() const { return rows_; }
+  const UnknownBlocks& blocks() const { return blocks_; }
 
  private:
   int size_ = 0;
@@ -45,6 +52,7 @@ class SparsePattern {
   int nonzeros_ = 0;
   std::vector<int> column_start_;
   std::vector<int> rows_;
+  UnknownBlocks blocks_;
 };
 
 }  // namespace tisserand::mechanism

@@ -28,10 +28,11 @@ bool refactor(Iteration& it) {
   return are_regular(it.workspace.matrix.factor(it.model, it.state, it.scheme.request, it.workspace.now), it);
 }
 
-/// Whether corrections with the kept factors of the position projection fail to close the constraints.
+/// Whether corrections with the kept factors of the position projection fail to close the constraints: the violation is
+/// larger than both before it. One iteration can leave a small one by chance.
 bool projection_fails(const Iteration& it) {
-  return it.scheme.projects && it.count > 1 && it.report.constraint_ratio > 1.0 &&
-         it.report.constraint_ratio > it.last_constraint_ratio;
+  return it.scheme.projects && it.report.constraint_ratio > 1.0 &&
+         it.report.constraint_ratio > std::max(it.last_constraint_ratio, it.earlier_constraint_ratio);
 }
 
 /// Factors the position projection at the state of the last evaluation. Returns false if singular.
@@ -111,6 +112,7 @@ bool ready_factors(Iteration& it) {
                      it.report.constraint_ratio <= std::max(1.0, quick_rate * it.last_constraint_ratio);
   if (projection_fails(it) && !renew_projection(it)) return false;
   it.last_residual = it.report.residual;
+  it.earlier_constraint_ratio = it.last_constraint_ratio;
   it.last_constraint_ratio = it.report.constraint_ratio;
   return quick || refactor(it);
 }

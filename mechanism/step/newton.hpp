@@ -8,10 +8,6 @@
 
 namespace tisserand::mechanism {
 
-/// Factors of an iteration. `kept`: those of earlier steps. `fresh`: made in this step, and again in every iteration
-/// that does not converge quickly.
-enum class Factors { kept, fresh };
-
 /// Data that all operations of the Newton iteration of one step use, and its progress.
 struct Iteration {
   const Model& model;
@@ -27,7 +23,10 @@ struct Iteration {
   double increment = std::numeric_limits<double>::infinity();
   /// Size of the increment before the last one, infinite if there was none.
   double last_increment = std::numeric_limits<double>::infinity();
-  double last_residual = 0.0, last_constraint_ratio = 0.0;  ///< values at the last check of the factors
+  /// Residual and constraint ratio at the last check of the factors, and the ratio at the check before it.
+  double last_residual = std::numeric_limits<double>::infinity();
+  double last_constraint_ratio = std::numeric_limits<double>::infinity();
+  double earlier_constraint_ratio = std::numeric_limits<double>::infinity();
 };
 
 /// Prepares the last accepted state for another step size: rebuilds its algorithmic acceleration. With index 3 it also

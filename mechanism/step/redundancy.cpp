@@ -14,14 +14,16 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/equations/mobility.hpp"
+#include "mechanism/model/connected_bodies.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/solver/matrix_rank.hpp"
 
 namespace tisserand::mechanism {
 namespace {
 
-/// Weighted multipliers μ = U λ with |μ|² = Σ |f|² + |m|²/L². U has one upper triangle per joint (its wrenches are
-/// independent) and a number per coupling. A = Bᵀ U⁻¹, rotations scaled with 1/L.
+/// Weighted multipliers μ = U λ of a loop with |μ|² = Σ |f|² + |m|²/L². U has one upper triangle per joint (its
+/// wrenches are independent) and a number per coupling. A = Bᵀ U⁻¹ for the coordinates and rows of the loop, rotations
+/// scaled with 1/L.
 struct WeightedJacobian {
   std::vector<Eigen::MatrixXd> triangle;
   Eigen::VectorXd coupling_weight;
@@ -43,15 +45,18 @@ MarkerPair pair_of(const Item& item, const Evaluation& evaluation) {
   return {item.a, item.b, motion_of(evaluation, item.a.node), motion_of(evaluation, item.b.node)};
 }
 
-WeightedJacobian weighted_jacobian(const Model& model, const Evaluation& evaluation) {
+WeightedJacobian weighted_jacobian(const Model& model, const Loop& loop, const Evaluation& evaluation) {
   WeightedJacobian result;
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&](const std::vector<int>& coordinates, int column, const auto& row) {
-    for (int j = 0; j < std::ssize(coordinates); ++j)
-      if (coordinates[j] >= 0 && row[j] != 0.0)
-        entries.emplace_back(coordinates[j], column, row[j] * model.equation_scale[coordinates[j]]);
+  std::vector<Eigen::Triplet<double, Eigen::Index>> entries;
+  const auto add = [&](const std::vector<int>& coordinates, Eigen::Index column, const auto& row) {
+    for (int j = 0; j < std::ssize(coordinates); ++j) {
+      if (coordinates[j] < 0 || row[j] == 0.0) continue;
+      const auto at = std::ranges::lower_bound(loop.coordinates, coordinates[j]) - loop.coordinates.begin();
+      entries.emplace_back(at, column, row[j] * model.equation_scale[coordinates[j]]);
+    }
   };
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+  int column = 0;
+  for (const int i : loop.joints) {
     const Joint& joint = model.joints[i];
     Eigen::MatrixXd W(6, joint.size());
     for (int k = 0; k < joint.size(); ++k)
@@ -60,57 +65,63 @@ WeightedJacobian weighted_jacobian(const Model& model, const Evaluation& evaluat
     const Eigen::MatrixXd B = U.transpose().triangularView<Eigen::Lower>().solve(
         Eigen::MatrixXd(evaluation.joints[i].B.topRows(joint.size())));
     const Eigen::MatrixXd rows = model_rows(model, model.joints.maps[i], local_view(B), evaluation);
-    for (int k = 0; k < joint.size(); ++k) add(model.joints.maps[i].coordinates, joint.row + k, rows.row(k));
+    for (int k = 0; k < joint.size(); ++k) add(model.joints.maps[i].coordinates, column++, rows.row(k));
     result.triangle.push_back(U);
   }
-  result.coupling_weight.resize(static_cast<Eigen::Index>(model.couplings.size()));
-  for (std::size_t i = 0; i < model.couplings.size(); ++i) {
+  result.coupling_weight.resize(std::ssize(loop.couplings));
+  for (int i = 0; i < std::ssize(loop.couplings); ++i) {
+    const Coupling& coupling = model.couplings[loop.couplings[i]];
     double square = 0.0;
-    for (const CouplingTerm& term : model.couplings[i].terms) {
+    for (const CouplingTerm& term : coupling.terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
       const Row12 row = term.factor * evaluation.coordinates[at].G;
       square += unit_wrench(row, pair_of(model.coordinates[at], evaluation), model.length).squaredNorm();
     }
     const double weight = std::sqrt(square);
     result.coupling_weight[i] = weight;
-    for (const CouplingTerm& term : model.couplings[i].terms) {
+    for (const CouplingTerm& term : coupling.terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
       const Row12 row = (term.factor / weight) * evaluation.coordinates[at].G;
-      add(model.coordinates.maps[at].coordinates, model.couplings[i].row,
+      add(model.coordinates.maps[at].coordinates, column,
           model_rows(model, model.coordinates.maps[at], local_view(row), evaluation).row(0));
     }
+    ++column;
   }
-  result.A.resize(model.sizes.boundary, model.sizes.constraints);
+  result.A.resize(std::ssize(loop.coordinates), column);
   result.A.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
 
-/// Flags of the parts in loops: those that remain when parts with one joint or none are removed repeatedly. The ground
-/// is no part. Parts of couplings stay.
-std::vector<bool> parts_in_loops(const Model& model, const Parts& parts) {
-  const auto part = [&](const Marker& marker) { return marker.node < 0 ? parts.count() : parts.of_node[marker.node]; };
-  std::vector<int> joints(static_cast<std::size_t>(parts.count()) + 1, 0);
-  constexpr int always = 1 << 20;
-  joints.back() = always;
-  for (const Joint& joint : model.joints) ++joints[part(joint.a)], ++joints[part(joint.b)];
-  for (const Coupling& coupling : model.couplings)
-    for (const CouplingTerm& term : coupling.terms) {
-      const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(term.coordinate)];
-      joints[part(coordinate.a)] = joints[part(coordinate.b)] = always;
+/// Removes from the multipliers of a loop those that cause no force on any node, by the norm of
+/// least_norm_multipliers().
+void remove_null_space(const Model& model, const Loop& loop, const Evaluation& evaluation, Eigen::VectorXd& lambda) {
+  const WeightedJacobian weighted = weighted_jacobian(model, loop, evaluation);
+  Eigen::VectorXd mu(weighted.A.cols());
+  // Visits the rows of the model and the columns of A of each joint and each coupling.
+  const auto for_each_item = [&](auto visit_joint, auto visit_coupling) {
+    int column = 0;
+    for (int i = 0; i < std::ssize(loop.joints); ++i) {
+      const Joint& joint = model.joints[loop.joints[i]];
+      visit_joint(weighted.triangle[i].triangularView<Eigen::Upper>(), lambda.segment(joint.row, joint.size()),
+                  mu.segment(column, joint.size()));
+      column += joint.size();
     }
-  std::vector<bool> taken(model.joints.size(), false);
-  for (bool again = true; again;) {
-    again = false;
-    for (std::size_t i = 0; i < model.joints.size(); ++i) {
-      const int a = part(model.joints[i].a), b = part(model.joints[i].b);
-      if (taken[i] || (joints[a] > 1 && joints[b] > 1)) continue;
-      taken[i] = again = true;
-      --joints[a], --joints[b];
-    }
-  }
-  std::vector<bool> in_loop(static_cast<std::size_t>(parts.count()));
-  for (int p = 0; p < parts.count(); ++p) in_loop[p] = joints[p] > 1;
-  return in_loop;
+    for (int i = 0; i < std::ssize(loop.couplings); ++i)
+      visit_coupling(weighted.coupling_weight[i], lambda[model.couplings[loop.couplings[i]].row], mu[column++]);
+  };
+  for_each_item([](const auto& U, const auto& own, auto&& weighed) { weighed = U * own; },
+                [](double weight, double own, double& weighed) { weighed = weight * own; });
+  mu = without_null_space(weighted.A, mu, rank_tolerance);
+  for_each_item([](const auto& U, auto&& own, const auto& weighed) { own = U.solve(weighed); },
+                [](double weight, double& own, double weighed) { own = weighed / weight; });
+}
+
+/// Visits the constraint rows of a loop.
+template <class Visit>
+void for_each_row_of(const Model& model, const Loop& loop, Visit visit) {
+  for (const int i : loop.joints)
+    for (int k = 0; k < model.joints[i].size(); ++k) visit(model.joints[i].row + k);
+  for (const int i : loop.couplings) visit(model.couplings[i].row);
 }
 
 }  // namespace
@@ -127,7 +138,17 @@ bool choose_active_rows(const Model& model, State& state, Evaluation& evaluation
 
 RowWatch::RowWatch(const Model& model) {
   const Parts parts = find_parts(model);
-  const std::vector<bool> in_loop = parts_in_loops(model, parts);
+  std::vector<bool> in_loop(static_cast<std::size_t>(parts.count()), false);
+  for (const Loop& loop : model.loops) {
+    if (loop.joints.size() + loop.couplings.size() < 2) continue;
+    const auto mark = [&](const auto& item) {
+      for (const int node : {item.a.node, item.b.node})
+        if (node >= 0) in_loop[parts.of_node[node]] = true;
+    };
+    for (const int i : loop.joints) mark(model.joints[i]);
+    for (const int i : loop.couplings)
+      for (const CouplingTerm& term : model.couplings[i].terms) mark(model.coordinates[term.coordinate]);
+  }
   for (std::size_t i = 0; i < model.nodes.size(); ++i)
     if (model.nodes[i].rotation >= 0 && in_loop[parts.of_node[i]]) rotations_.push_back(model.nodes[i].rotation);
 }
@@ -185,22 +206,14 @@ double RowWatch::largest_factor(const Model& model, const State& state, Evaluati
   return largest;
 }
 
-Eigen::VectorXd least_norm_multipliers(const Model& model, const Evaluation& evaluation,
-                                       const Eigen::VectorXd& lambda) {
-  const WeightedJacobian weighted = weighted_jacobian(model, evaluation);
-  Eigen::VectorXd mu = lambda;
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    auto part = mu.segment(model.joints[i].row, model.joints[i].size());
-    part = (weighted.triangle[i].triangularView<Eigen::Upper>() * part).eval();
+Eigen::VectorXd least_norm_multipliers(const Model& model, const Evaluation& evaluation, const State& state) {
+  Eigen::VectorXd lambda = state.lambda();
+  for (const Loop& loop : model.loops) {
+    bool redundant = false;
+    for_each_row_of(model, loop, [&](int row) { redundant = redundant || state.active()[row] == 0.0; });
+    if (redundant) remove_null_space(model, loop, evaluation, lambda);
   }
-  for (std::size_t i = 0; i < model.couplings.size(); ++i) mu[model.couplings[i].row] *= weighted.coupling_weight[i];
-  mu = without_null_space(weighted.A, mu, rank_tolerance);
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    auto part = mu.segment(model.joints[i].row, model.joints[i].size());
-    part = weighted.triangle[i].triangularView<Eigen::Upper>().solve(part).eval();
-  }
-  for (std::size_t i = 0; i < model.couplings.size(); ++i) mu[model.couplings[i].row] /= weighted.coupling_weight[i];
-  return mu;
+  return lambda;
 }
 
 std::vector<std::string> joints_without_unique_reaction(const Model& model, const Evaluation& evaluation) {
@@ -209,8 +222,9 @@ std::vector<std::string> joints_without_unique_reaction(const Model& model, cons
   std::normal_distribution<double> normal;
   const Eigen::VectorXd probe =
       Eigen::VectorXd::NullaryExpr(model.sizes.constraints, [&](Eigen::Index) { return normal(random); });
-  const Eigen::VectorXd null =
-      probe - without_null_space(weighted_jacobian(model, evaluation).A, probe, rank_tolerance);
+  Eigen::VectorXd rest = probe;
+  for (const Loop& loop : model.loops) remove_null_space(model, loop, evaluation, rest);
+  const Eigen::VectorXd null = probe - rest;
   std::vector<std::string> names;
   for (const Joint& joint : model.joints)
     if (null.segment(joint.row, joint.size()).norm() > 1e-7) names.push_back(joint.name);  // none in some planar ones

@@ -49,11 +49,12 @@ class RowWatch {
   Eigen::VectorXd factors_, row_, rest_;
 };
 
-/// Multipliers of least norm among those with the same forces Bᵀλ, at the last evaluate(). The norm is Σ |f|² + |m|²/L²
-/// over all joints and couplings. f and m are force and moment of each on its body B at the origin of its marker, L is
-/// the characteristic length. Up to 400 constraints it uses a complete orthogonal decomposition. Above, it uses
-/// conjugate gradients on the normal equations, which start at zero.
-Eigen::VectorXd least_norm_multipliers(const Model& model, const Evaluation& evaluation, const Eigen::VectorXd& lambda);
+/// Multipliers of least norm among those with the same forces Bᵀλ, at the last evaluate() of the state. The norm is
+/// Σ |f|² + |m|²/L² over all joints and couplings. f and m are force and moment of each on its body B at the origin of
+/// its marker, L is the characteristic length. Only loops with omitted rows are examined, one by one. Up to 400
+/// constraints of a loop it uses a complete orthogonal decomposition. Above, it uses conjugate gradients on the normal
+/// equations, which start at zero.
+Eigen::VectorXd least_norm_multipliers(const Model& model, const Evaluation& evaluation, const State& state);
 
 /// Names of joints and couplings whose reactions are not unique: they could change without a change of the motion. Uses
 /// the state of the last evaluate().

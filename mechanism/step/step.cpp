@@ -42,18 +42,17 @@ StepReport take_step(const Model& model, const formats::IntegratorSpec& options,
   StepReport report;
   memory.previous.block() = state.block();
   if (!begin(model, scheme, state, workspace, report)) return report;
+  const auto cost = [&] { return report.iterations + model.solver.renewal * report.factorisations; };
   const auto succeeds_with = [&](Factors factors) {
     Iteration iteration{model, options, scheme, state, workspace, report, factors};
-    if (!iterate(iteration, end)) return false;
-    finish(iteration);
-    return true;
+    const double before = cost();
+    const bool succeeded = iterate(iteration, end);
+    memory.reuse.count(factors, succeeded, cost() - before, memory.tuning);
+    if (succeeded) finish(iteration);
+    return succeeded;
   };
   if (workspace.matrix.serves(scheme.request, workspace.now) && memory.reuse.tries_kept()) {
-    if (succeeds_with(Factors::kept)) {
-      memory.reuse.succeeded();
-      return report;
-    }
-    memory.reuse.failed(memory.tuning);
+    if (succeeds_with(Factors::kept)) return report;
     report.outcome = StepOutcome::accepted;
   }
   if (succeeds_with(Factors::fresh)) return report;

@@ -17,8 +17,9 @@ struct StepTuning {
   /// Largest error of the predicted change of acceleration, as a fraction of the change, in a smooth motion. From 1 on
   /// the extrapolation would be worse than none.
   double smooth_rate = 0.5;
-  /// Number of steps after which kept factors count as worth keeping.
-  int long_life = 8;
+  /// Mean cost of steps with kept factors, relative to that of a step with new ones, above which a pause follows. It is
+  /// above 1, since tangents of nonlinear beams cost more than the estimate of a renewal.
+  double loss = 1.5;
   /// Largest number of steps with new factors before kept ones are tried again. It is 2^k − 1, since this pause
   /// doubles.
   int longest_pause = 63;

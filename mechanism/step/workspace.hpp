@@ -13,11 +13,19 @@
 
 namespace tisserand::mechanism {
 
-/// Decision whether a step tries the factors of earlier steps. If factors serve only a few steps, a pause with new
-/// factors follows, which doubles after each failure.
+/// Factors of an iteration. `kept`: those of earlier steps. `fresh`: made in this step, and again in every iteration
+/// that does not converge quickly.
+enum class Factors { kept, fresh };
+
+/// Decision whether a step tries the factors of earlier steps, by cost. Kept factors grow old, and each step with them
+/// then takes more iterations. The mean cost of a step is least if new ones are made as soon as a step costs more than
+/// the mean since the last ones. If that mean is not below the cost of a step with new factors, a pause with new
+/// factors follows, which doubles after each such loss. Costs are in iterations.
 struct FactorReuse {
-  int kept = 0;   ///< steps that the present factors have served
-  int fresh = 0;  ///< steps to take with new factors after the latest failure
+  double fresh_cost = 0.0;  ///< cost of the latest step with new factors, with their factorisations
+  double spent = 0.0;       ///< cost of all steps since then, with that one
+  double steps = 1.0;       ///< number of these steps
+  int fresh = 0;            ///< steps to take with new factors after the latest loss
   int fresh_left = 0;
 
   /// Whether the next step tries the existing factors. Counts down the pause, so it must be called once per step.
@@ -27,11 +35,19 @@ struct FactorReuse {
     --fresh_left;
     return false;
   }
-  void succeeded() { ++kept; }
-  void failed(const StepTuning& tuning) {
-    fresh = kept >= tuning.long_life ? 0 : std::min(2 * fresh + 1, tuning.longest_pause);
-    fresh_left = fresh;
-    kept = 0;
+  /// Counts an attempt of a step and its cost.
+  void count(Factors factors, bool succeeded, double cost, const StepTuning& tuning) {
+    if (factors == Factors::fresh) {
+      if (succeeded) *this = {cost, cost, 1.0, fresh, fresh_left};
+      return;
+    }
+    const bool cheap = succeeded && cost <= spent / steps;
+    spent += cost;
+    if (succeeded) steps += 1.0;
+    if (cheap) return;
+    const bool lost = steps == 1.0 || spent > steps * fresh_cost * tuning.loss;
+    fresh = lost ? std::min(2 * fresh + 1, tuning.longest_pause) : 0;
+    fresh_left = succeeded ? std::max(fresh, 1) : fresh;
   }
 };
 

@@ -58,7 +58,7 @@ const bool registered = [] {
   vary("slow_rate", &StepTuning::slow_rate, {0.05, 0.1, 0.25, 0.5, 0.8});
   vary("quick_rate", &StepTuning::quick_rate, {0.0, 0.005, 0.02, 0.1, 0.3});
   vary("smooth_rate", &StepTuning::smooth_rate, {0.0, 0.25, 0.5, 0.9});
-  vary("long_life", &StepTuning::long_life, {2, 4, 8, 16, 32});
+  vary("loss", &StepTuning::loss, {1.0, 1.25, 1.5, 2.0, 4.0});
   vary("longest_pause", &StepTuning::longest_pause, {0, 7, 63, 255});
   vary("farthest_turn", &StepTuning::farthest_turn, {0.02, 0.05, 0.1, 0.2});
   vary("most_steps", &StepTuning::most_steps, {1.0, 4.0, 16.0, 64.0});
