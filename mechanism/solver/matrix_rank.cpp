@@ -55,6 +55,7 @@ ColumnRank column_rank(const Eigen::SparseMatrix<double>& A, double tolerance) {
 }
 
 Eigen::VectorXd without_null_space(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& x, double tolerance) {
+  if (A.cols() == 0) return x;  // Eigen's decompositions need a column
   const Eigen::VectorXd f = A * x;
   if (A.cols() <= dense_columns) {
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;

@@ -220,16 +220,25 @@ std::vector<std::string> joints_without_unique_reaction(const Model& model, cons
   // With practical certainty, a random vector has a component along every direction of the null space.
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
-  const Eigen::VectorXd probe =
-      Eigen::VectorXd::NullaryExpr(model.sizes.constraints, [&](Eigen::Index) { return normal(random); });
-  Eigen::VectorXd rest = probe;
-  for (const Loop& loop : model.loops) remove_null_space(model, loop, evaluation, rest);
-  const Eigen::VectorXd null = probe - rest;
+  constexpr double round_off = 1e-7;
+  std::vector<bool> joints(model.joints.size()), couplings(model.couplings.size());
+  for (const Loop& loop : model.loops) {
+    const WeightedJacobian weighted = weighted_jacobian(model, loop, evaluation);
+    const Eigen::VectorXd probe =
+        Eigen::VectorXd::NullaryExpr(weighted.A.cols(), [&](Eigen::Index) { return normal(random); });
+    const Eigen::VectorXd null = probe - without_null_space(weighted.A, probe, rank_tolerance);
+    int column = 0;
+    for (const int i : loop.joints) {
+      joints[i] = null.segment(column, model.joints[i].size()).norm() > round_off;
+      column += model.joints[i].size();
+    }
+    for (const int i : loop.couplings) couplings[i] = std::abs(null[column++]) > round_off;
+  }
   std::vector<std::string> names;
-  for (const Joint& joint : model.joints)
-    if (null.segment(joint.row, joint.size()).norm() > 1e-7) names.push_back(joint.name);  // none in some planar ones
-  for (const Coupling& coupling : model.couplings)
-    if (std::abs(null[coupling.row]) > 1e-7) names.push_back(coupling.name);
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    if (joints[i]) names.push_back(model.joints[i].name);
+  for (std::size_t i = 0; i < couplings.size(); ++i)
+    if (couplings[i]) names.push_back(model.couplings[i].name);
   return names;
 }
 

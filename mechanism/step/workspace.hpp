@@ -19,8 +19,8 @@ enum class Factors { kept, fresh };
 
 /// Decision whether a step tries the factors of earlier steps, by cost. Kept factors grow old, and each step with them
 /// then takes more iterations. The mean cost of a step is least if new ones are made as soon as a step costs more than
-/// the mean since the last ones. If that mean is not below the cost of a step with new factors, a pause with new
-/// factors follows, which doubles after each such loss. Costs are in iterations.
+/// the mean since the last ones. If kept factors served no step, or if that mean is far above the cost of a step with
+/// new ones, a pause with new factors follows, which doubles after each such loss. Costs are in iterations.
 struct FactorReuse {
   double fresh_cost = 0.0;  ///< cost of the latest step with new factors, with their factorisations
   double spent = 0.0;       ///< cost of all steps since then, with that one

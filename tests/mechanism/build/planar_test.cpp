@@ -218,16 +218,20 @@ TEST(Planar, RadauNeedsNoMoreIterationsThanInSpace) {
 }
 
 // Of a joint that holds what leaves the plane alone nothing is left: no row of it is looked at where others repeat each
-// other.
+// other, beside a pin or in a loop of its own.
 TEST(Planar, AJointMayHaveNoEquation) {
   TurnedScene t(askew);
   t.add(test_support::rigid_body("block", 1.0, {0.2, 0, 0}, {0.01, 0.02, 0.03}), {0, 0, 0}, 0.0, {0, 0, 0}, 0.0);
   t.hinge("pin", "ground", "block", {0, 0, 0});
   t.hinge("again", "ground", "block", {0, 0, 0});
-  t.scene.joints.push_back(joint("level", JointKind::parallel_axes, "ground", "block", {0, 0, 0}, t.vector({0, 0, 1})));
+  t.add(test_support::rigid_body("loose", 1.0, {1.2, 0, 0}, {0.01, 0.02, 0.03}), {0, 0, 0}, 0.0, {0, 0, 0}, 0.0);
+  for (const char* body : {"block", "loose"})
+    t.scene.joints.push_back(
+        joint(std::string("level_") + body, JointKind::parallel_axes, "ground", body, {0, 0, 0}, t.vector({0, 0, 1})));
   Simulation flat(with_planar(t.scene), BodyFiles{});
   flat.start();
   EXPECT_EQ(flat.model().joints[2].size(), 0);
+  EXPECT_EQ(flat.model().joints[3].size(), 0);
   EXPECT_THAT(joints_without_unique_reaction(flat.model(), flat.workspace.now),
               ::testing::UnorderedElementsAre("pin", "again"));
 }
