@@ -68,9 +68,9 @@ std::vector<NamedRelation> free_coordinates(const Joint& joint);
 /// Name of one equation for messages, e.g. "translation x" or "z axis of B normal to x axis of A".
 std::string joint_equation_name(const Joint& joint, int equation);
 
-/// Constraint values Φ of one joint at one instant, their Jacobian B, and the bias of Φ̈. A joint uses the first
-/// Joint::size() rows. B has three columns for each of x_A, Θ_A, x_B, Θ_B: translations in the world, and rotations in
-/// the axes of the body, of both carriers.
+/// Constraints of one joint at one instant. `phi` has the values Φ, and B their derivatives. Only the first
+/// Joint::size() rows are used. The columns of B are the translation (world axes) and the rotation (axes of the body)
+/// of the body of marker A, then the same of marker B, three columns each.
 struct JointTerms {
   Eigen::Matrix<double, 6, 1> phi = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::Matrix<double, 6, 12> B = Eigen::Matrix<double, 6, 12>::Zero();

@@ -45,8 +45,8 @@ void add_body(const Nodes& nodes, const std::string& name, double mass, NodeFact
   facts.mass[first] += mass;
 }
 
-/// Graph of nodes and ground, with an edge per joint, and two per term of a coupling, which meet in a vertex of the
-/// coupling.
+/// Graph whose vertices are the nodes, the ground and the couplings. A joint is an edge between two nodes. A term of a
+/// coupling is two edges, from the coupling to the two nodes of its coordinate.
 struct JointGraph {
   struct Edge {
     std::size_t a, b;
@@ -77,7 +77,8 @@ JointGraph graph_of(const Model& model) {
   return graph;
 }
 
-/// Unites the edges of each cycle: those of the cycles that each edge outside of a spanning forest closes.
+/// Unites all edges that lie on a common cycle. Each edge that is not in a spanning forest closes one cycle with edges
+/// of the forest. These cycles are enough, since all others are combinations of them.
 void unite_cycles(const JointGraph& graph, Sets& sets) {
   constexpr std::size_t none = -1;
   const std::size_t vertices = graph.edges_of.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parts of a model: sets of nodes that would move together if every flexible body were rigid. Groups and loops of them.
+// Parts of a model, groups of parts that are connected, and closed loops of joints.
 #pragma once
 
 #include <string>

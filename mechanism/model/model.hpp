@@ -63,9 +63,9 @@ struct Tie {
   bool is_loop = false;  ///< closes a loop of ties, holds no follower and carries no force
 };
 
-/// Joints and couplings that closed loops of nodes have in common. Constraints can exert forces that cancel on every
-/// node only within one loop, so the null space of Bᵀ is the sum of those of all loops. A joint that closes no loop is
-/// one by itself. Indices into Model::joints and Model::couplings.
+/// Joints and couplings of connected closed loops (a biconnected component), as indices into Model::joints and
+/// Model::couplings. Multipliers λ with Bᵀλ = 0 are sums of such multipliers of single loops. A joint that closes no
+/// loop is a Loop of its own.
 struct Loop {
   std::vector<int> joints;
   std::vector<int> couplings;

@@ -29,7 +29,7 @@ bool refactor(Iteration& it) {
 }
 
 /// Whether corrections with the kept factors of the position projection fail to close the constraints: the violation is
-/// larger than both before it. One iteration can leave a small one by chance.
+/// larger than after each of the last two iterations. After one iteration it can be small by chance.
 bool projection_fails(const Iteration& it) {
   return it.scheme.projects && it.report.constraint_ratio > 1.0 &&
          it.report.constraint_ratio > std::max(it.last_constraint_ratio, it.earlier_constraint_ratio);

@@ -17,10 +17,11 @@ namespace tisserand::mechanism {
 /// that does not converge quickly.
 enum class Factors { kept, fresh };
 
-/// Decision whether a step tries the factors of earlier steps, by cost. Kept factors grow old, and each step with them
-/// then takes more iterations. The mean cost of a step is least if new ones are made as soon as a step costs more than
-/// the mean since the last ones. If kept factors served no step, or if that mean is far above the cost of a step with
-/// new ones, a pause with new factors follows, which doubles after each such loss. Costs are in iterations.
+/// Decision whether a step tries the factors of earlier steps. It compares costs, which are counted in iterations. With
+/// older factors a step takes more iterations. New ones are made when a step costs more than the mean of all steps
+/// since the last factorisation, which makes that mean nearly as small as possible. Kept factors are a loss if they
+/// served no step, or if the mean is far above the cost of a step with new factors. Then some steps take new factors at
+/// once; their number doubles with each loss.
 struct FactorReuse {
   double fresh_cost = 0.0;  ///< cost of the latest step with new factors, with their factorisations
   double spent = 0.0;       ///< cost of all steps since then, with that one

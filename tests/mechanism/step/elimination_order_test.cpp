@@ -43,7 +43,7 @@ SparsePattern pattern_of(int bodies, const std::vector<Joined>& joints) {
   return {row, positions, SparsePattern::Storage::sparse, blocks};
 }
 
-/// Joints of random trees: each body hangs on the ground or on an earlier body, in an order of its own.
+/// Joints of a random tree, in random order: each body hangs on the ground or on a body before it.
 std::vector<Joined> random_tree(int bodies, std::mt19937& random) {
   std::vector<Joined> joints;
   for (int body = 0; body < bodies; ++body)
